@@ -1,6 +1,7 @@
 """The disk cache over several processes: it hits, and it never answers with the numbers of an older source."""
 
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -108,7 +109,7 @@ def test_a_law_of_a_script_is_compiled_and_not_filed(python):
         "@implements(force, Own)\ndef _(law, gap):\n    return law.k\n" + REPORT.format(call="work(Own(3.0), 2)")
     )
     assert python(script) == "6.0 0 1"
-    assert not list((python.folder / "cache").rglob("*.nbc"))
+    assert not list((python.folder / "cache").rglob("*.kernel"))
 
 
 def test_importing_the_package_and_the_laws_does_not_import_numba(python):
@@ -142,7 +143,7 @@ def test_every_source_counts_and_nothing_else(tmp_path, monkeypatch):
 def test_folders_unused_for_a_month_are_removed(tmp_path):
     for name, days in (("fresh", 1), ("kept", 29), ("old", 31)):
         (tmp_path / name).mkdir()
-        (tmp_path / name / "kernel.nbc").write_text("")
+        (tmp_path / name / "x.kernel").write_text("")
         stamp = tmp_path / name / "last-used"
         stamp.touch()
         os.utime(stamp, (time.time() - days * 86400,) * 2)
@@ -158,11 +159,16 @@ def test_where_the_users_folder_is_not_writable_a_private_one_is_taken(tmp_path,
     assert os.name == "nt" or folder.stat().st_mode & 0o077 == 0
 
 
-def test_using_a_folder_stamps_it(tmp_path, monkeypatch):
-    monkeypatch.setattr(disk_cache, "cache_folder", lambda: tmp_path)
-    folder = disk_cache._folder_of.__wrapped__(frozenset({"drivewright.errors"}))
-    assert time.time() - (folder / "last-used").stat().st_mtime < 60
-    assert folder != disk_cache._folder_of.__wrapped__(frozenset({"drivewright.errors", "drivewright._jit"}))
+def test_using_a_folder_stamps_it(tmp_path):
+    folder = disk_cache._stamped(tmp_path / "one")
+    assert folder == tmp_path / "one" and time.time() - (folder / "last-used").stat().st_mtime < 60
+
+
+def test_a_folder_for_each_set_of_modules():
+    few = disk_cache.hash_of_all(frozenset({"drivewright.errors"}))
+    assert len({few, disk_cache.hash_of_all(frozenset({"drivewright.errors", "drivewright._jit"}))}) == 2
+    # a kernel of an upper layer depends on all layers, one of a lower layer on those below
+    assert len({few, disk_cache.hash_of_all(frozenset({"drivewright.mechanisms.cam"}))}) == 2
 
 
 def test_warm_runs_each_warmer_and_reports_it(monkeypatch):
@@ -181,3 +187,150 @@ def test_warm_runs_each_warmer_and_reports_it(monkeypatch):
 def test_modules_that_warm_are_found_by_their_source():
     assert list(_jit._modules_with('"""Every error a user can')) == []
     assert "drivewright._jit" in list(_jit._modules_with("def warmer("))
+
+
+MANY_THINGS = """
+from typing import NamedTuple
+import numpy as np
+from drivewright._jit import kernel, inner
+
+class Pair(NamedTuple):
+    a: np.ndarray
+    b: float
+
+@inner
+def halves(x):
+    return round(x) / 2, np.hypot(x, 1.0)
+
+@kernel
+def everything(matrix, z, n):
+    if n < 0:
+        raise ValueError("n must not be negative")
+    solved = np.linalg.solve(matrix, np.ones(n)) + matrix @ (1.0 * np.arange(n)) + np.sort(np.sin(np.arange(n)))
+    values = np.linalg.eigvalsh(matrix + matrix.T)
+    total = 0.0
+    for x in solved:
+        a, b = halves(x)
+        total += a + b + abs(z) + z.real
+    return Pair(np.concatenate((solved, values, np.cumsum(values))), total), (np.floor(total), "word"), np.argsort(solved)
+"""
+SUM = """
+from drivewright._jit import kernel
+
+@kernel
+def f(x):
+    return round(x[0]) + x.sum() + x.mean()
+"""
+USE_THEM = """
+import sys, pathlib, platformdirs
+platformdirs.user_cache_path = lambda *a, **k: pathlib.Path("cache")
+import numpy as np, many_things as m
+matrix = np.array([[4.0, 1.0, 0.0], [1.0, 3.0, 1.0], [0.0, 1.0, 5.0]])
+pair, rest, order = m.everything(matrix, 3 + 4j, 3)
+print(type(pair).__name__, [float(x).hex() for x in pair.a], pair.b.hex(), rest, order)
+try:
+    m.everything(matrix, 3 + 4j, -1)
+except ValueError as error:
+    print(error)
+print(sum(m.everything.stats.cache_hits.values()))
+"""
+
+
+def test_machine_code_from_the_disk_does_what_it_did(tmp_path):
+    (tmp_path / "many_things.py").write_text(MANY_THINGS)
+    runs = [
+        subprocess.run(
+            [sys.executable, "-c", USE_THEM], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=True
+        ).stdout.splitlines()
+        for _ in range(2)
+    ]
+    assert runs[0][:-1] == runs[1][:-1] and [run[-1] for run in runs] == ["0", "1"]
+    assert runs[0][1] == "n must not be negative"
+
+
+def test_machine_code_from_the_disk_imports_neither_what_generates_code_nor_scipy(tmp_path):
+    (tmp_path / "many_things.py").write_text(SUM)
+    use = (
+        USE_THEM.split("matrix =")[0]
+        + "print(m.f(np.ones(3)), [name for name in ('numba.np.arraymath', 'scipy.linalg') if name in sys.modules])\n"
+    )
+    said = [
+        subprocess.run([sys.executable, "-c", use], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=True).stdout.strip()
+        for _ in range(2)
+    ]
+    assert said == ["5.0 ['numba.np.arraymath', 'scipy.linalg']", "5.0 []"]
+
+
+SQUARES = "from drivewright._jit import kernel\n\n@kernel\ndef square(x):\n    return x * x\n"
+SHIPPING = """
+import os, pathlib, platformdirs
+platformdirs.user_cache_path = lambda *a, **k: pathlib.Path({cache!r})
+from drivewright._jit import disk_cache
+disk_cache.SHIPPED = pathlib.Path("shipped")
+{more}
+import squares
+print(squares.square(3.0), sum(squares.square.stats.cache_hits.values()))
+"""
+
+
+@pytest.fixture
+def squares(tmp_path):
+    (tmp_path / "squares.py").write_text(SQUARES)
+
+    def run(cache="cache", more="", **environment):
+        code, env = SHIPPING.format(cache=cache, more=more), os.environ | environment
+        return subprocess.run(
+            [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=True, env=env
+        ).stdout.strip()
+
+    return run
+
+
+def test_a_damaged_file_is_compiled_again_and_mended(tmp_path, squares):
+    assert squares() == "9.0 0"
+    (file,) = (tmp_path / "cache").rglob("*.kernel")
+    whole = file.read_bytes()
+    for damaged in (whole[:-1], whole[:100] + bytes([whole[100] ^ 1]) + whole[101:], b""):
+        file.write_bytes(damaged)
+        assert squares() == "9.0 0" and len(file.read_bytes()) == len(whole)
+        assert squares() == "9.0 1"
+
+
+def test_a_disk_that_takes_nothing_costs_time_and_not_the_result(squares):
+    refuse = "from drivewright import atomic\ndef refuse(*a):\n    raise OSError(28, 'no space')\natomic.replacing = refuse"
+    assert [squares(more=refuse) for _ in range(2)] == ["9.0 0"] * 2
+
+
+def test_kernels_for_the_baseline_that_are_shipped_are_taken_where_they_run(tmp_path, squares):
+    assert squares("made", NUMBA_CPU_NAME=disk_cache.BASELINE, NUMBA_CPU_FEATURES="") == "9.0 0"
+    shutil.copytree(tmp_path / "made" / "kernels", tmp_path / "shipped")
+    runs_here = "disk_cache._stands_in_for_baseline = lambda: {}"
+    assert squares("mine", more=runs_here.format(True)) == "9.0 1"
+    assert not list((tmp_path / "mine").rglob("*.kernel"))  # nothing was compiled
+    assert squares("mine", more=runs_here.format(False)) == "9.0 0"
+    (tmp_path / "squares.py").write_text(SQUARES.replace("x * x", "x * x * x"))
+    assert squares("other", more=runs_here.format(True)) == "27.0 0"
+
+
+@pytest.mark.parametrize("feature", disk_cache.FEATURES)
+def test_a_processor_without_one_of_the_features_does_not_stand_in(monkeypatch, feature):
+    from llvmlite import binding
+
+    has = dict.fromkeys(disk_cache.FEATURES, True)
+    monkeypatch.setattr(binding, "get_host_cpu_features", lambda: has)
+    assert disk_cache._stands_in_for_baseline.__wrapped__()
+    has[feature] = False
+    assert not disk_cache._stands_in_for_baseline.__wrapped__()
+
+
+def test_the_same_sources_elsewhere_have_the_same_hash(tmp_path, monkeypatch):
+    digests = []
+    for place in ("here", "there"):
+        package = tmp_path / place / f"moved_{place}"
+        (package / "deep").mkdir(parents=True)
+        (package / "__init__.py").write_text("x = 1")
+        (package / "deep" / "module.py").write_text("y = 2")
+        monkeypatch.syspath_prepend(package.parent)
+        __import__(package.name)
+        digests.append(disk_cache.hash_of.__wrapped__(package.name))
+    assert digests[0] == digests[1]

@@ -190,7 +190,7 @@ def test_only_what_python_calls_is_on_the_disk_and_it_comes_back_whole(tmp_path)
         done = subprocess.run([sys.executable, "-c", USE], cwd=tmp_path, capture_output=True, text=True, timeout=120, check=True)
         said.append(done.stdout.split("\n")[:2])
     assert said == [["9.0 0", "below zero"], ["9.0 1", "below zero"]]
-    assert len(list((tmp_path / "cache").rglob("*.nbc"))) == 1
+    assert len(list((tmp_path / "cache").rglob("*.kernel"))) == 1
 
 
 def test_a_system_of_equations_by_reference():

@@ -9,7 +9,8 @@
 `plain`       the uncompiled twin of a kernel, for tests and for arguments that numba cannot compile.
 `warmer`      marks a function that calls kernels once, so that `warm` can compile everything ahead of time.
 
-How a kernel is compiled: `_jit.compiling`; where it is kept: `_jit.disk_cache`; how tuples of arrays reach it: `_jit.references`.
+How a kernel is compiled: `_jit.compiling`; where it is kept: `_jit.disk_cache`; how tuples of arrays reach it: `_jit.references`; what a
+first run says meanwhile: `_jit.compilation`.
 """
 
 import functools
@@ -18,7 +19,6 @@ import sys
 import time
 import types
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from drivewright._jit.disk_cache import PACKAGE, KernelCache, sources
@@ -170,7 +170,6 @@ def warm() -> Iterator[tuple[str, float]]:
 
 def _modules_with(text):
     """Names of this package's modules whose source contains `text` at the start of a line."""
-    root = Path(__file__).parent.parent
-    for path in sources(PACKAGE):
+    for name, path in sources(PACKAGE):
         if f"\n{text}" in path.read_text(encoding="utf-8"):
-            yield ".".join((PACKAGE, *(part for part in path.relative_to(root).with_suffix("").parts if part != "__init__")))
+            yield ".".join((PACKAGE, *(part for part in name.removesuffix(".py").split("/") if part != "__init__")))

@@ -14,11 +14,14 @@ from numba.core.compiler_machinery import LoweringPass, register_pass
 from numba.core.registry import CPUDispatcher
 from numba.core.typing.templates import AbstractTemplate, infer_global
 
+ENVIRONMENT = "_ZN08NumbaEnv"  # how the names of places for objects begin
 OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy", "boundscheck": None}
 
 
 class Lowered(codegen.JITCodeLibrary):
     """The code of one function as it was lowered."""
+
+    environment = ""  # name of the place for the objects that it may use: what numba calls its environment
 
     def add_llvm_module(self, ll_module: Any) -> None:
         """Take a module in as it is: it is optimised where it is linked."""
@@ -42,9 +45,22 @@ class Linked(Lowered):
             if not function.is_declaration and function.linkage == llvm.Linkage.linkonce_odr:
                 function.linkage = "internal"  # nobody else calls it: what is called once is inlined, what never is goes
         self._final_module.data_layout = self._codegen._data_layout
-        self._optimize_final_module()
+        passes, builder = self._codegen._module_pass_manager()  # numba's first round is for counts of references, which are few here
+        passes.run(self._final_module, builder)
+        self._drop_environments(builder)
         self._final_module.verify()
         self._finalize_final_module()
+
+    def _drop_environments(self, builder):
+        """Take out the places for objects of numba's own functions where no code is left that reads them: loading the kernel again would
+        import the modules of those functions."""
+        text = str(self._final_module)
+        for variable in self._final_module.global_variables:
+            if variable.name.startswith(ENVIRONMENT) and variable.name != self.environment and text.count(variable.name) == 1:
+                variable.linkage = "internal"
+        passes = llvm.create_new_module_pass_manager()
+        passes.add_global_dead_code_eliminate_pass()
+        passes.run(self._final_module, builder)
 
     def serialize_using_object_code(self) -> Any:
         """For the disk: the machine code and, instead of the module, the names in it."""
@@ -97,6 +113,7 @@ class _Lower(LoweringPass):
             noalias=flags.noalias,
             abi_tags=[flags.get_mangle_string()],
         )
+        library.environment = context.get_env_name(function)
         with context.push_code_library(library):
             lower = lowering.Lower(context, library, function, state.func_ir, metadata=state.metadata)
             lower.lower()

@@ -1,21 +1,27 @@
-"""numba's disk cache of the kernels, filed under a hash of all sources that a kernel may depend on.
+"""The machine code of the kernels on the disk, filed under a hash of all sources that a kernel may depend on.
 
-numba watches the file of the kernel alone and would answer with old numbers after an edit anywhere else.  A kernel depends on its layer of
-this package and those below, and on the packages that bring the types of its arguments and their formulas.
+A kernel depends on its layer of this package and those below, and on the packages that bring the types of its arguments and their formulas.
+(numba's own cache watches the file of the kernel alone and would answer with old numbers after an edit anywhere else.)  There is one file
+for each kernel, signature and processor; it begins with its checksum, and one that is damaged is compiled again.
+
+A wheel may bring kernels along (`SHIPPED`), compiled for a processor that many can stand in for (`BASELINE`); those are taken where the
+processor at hand can, and where Python, numba and the sources are the same.
 """
 
 import atexit
 import contextlib
 import functools
 import hashlib
+import pickle
 import shutil
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+from drivewright import atomic
 from drivewright._jit import compilation
 
 PACKAGE = __name__.partition(".")[0]
@@ -24,16 +30,18 @@ UNUSED_DAYS = 30
 ABOVE = tuple(
     f"{PACKAGE}.{name}" for name in ("mechanisms", "oracles", "validation", "studies", "execution", "report", "view", "cli", "studio")
 )
+SHIPPED = Path(__file__).parent / "shipped"
+BASELINE = "x86-64-v3"  # processors since about 2013; LLVM's name for what these features make
+FEATURES = ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "popcnt", "sse4.2", "xsave")
 
 
 class KernelCache:
-    """numba's disk cache of one kernel, in one folder per set of sources that a signature depends on."""
+    """The files of one kernel, for numba's dispatcher."""
 
     def __init__(self, function: Callable[..., Any], formulas_for: Callable[[type], Iterable[Callable[..., Any]]]) -> None:
         """`formulas_for` gives the formulas that are chosen by a class."""
         self.function, self.formulas_for = function, formulas_for
         self.name = f"{function.__module__.removeprefix(f'{PACKAGE}.')}.{function.__qualname__}"
-        self.by_modules: dict[frozenset[str], Any] = {}
 
     @property
     def cache_path(self) -> str:
@@ -42,39 +50,83 @@ class KernelCache:
 
     def load_overload(self, signature: Any, target: Any) -> Any:
         """The compiled kernel for a signature, or None."""
-        found = self._for(signature).load_overload(signature, target)
-        compilation.tell(self.name, compilation.BEGUN if found is None else compilation.FOUND)
-        return found
+        from numba.core.compiler import CompileResult
+        from numba.core.runtime.nrt import rtsys
+
+        for file in self._files(signature, target.codegen()):
+            code = _read(file)
+            if code is not None:
+                compilation.tell(self.name, compilation.FOUND)
+                rtsys.initialize(target)  # all that machine code needs; what code is generated from takes half a second to register
+                return CompileResult._rebuild(target, *pickle.loads(code))
+        compilation.tell(self.name, compilation.BEGUN)
+        return None
 
     def save_overload(self, signature: Any, result: Any) -> None:
-        """Keep a compiled kernel."""
+        """Keep a compiled kernel, where that can be."""
         compilation.tell(self.name, compilation.DONE)
-        self._for(signature).save_overload(signature, result)
+        if result.library.has_dynamic_globals:  # addresses in this process
+            return
+        for file in self._files(signature, result.target_context.codegen()):
+            with contextlib.suppress(OSError):  # a full disk costs time, not the result
+                _write(file, result)
+            return
 
-    def _for(self, signature):
+    def _files(self, signature, codegen) -> Iterator[Path]:
+        """Where the kernel may be: first the user's own file, which is the one to write; none for a class of a script, which is another
+        class in every run."""
         classes = set().union(*(_tuple_classes(each) for each in getattr(signature, "args", signature)))
         modules = frozenset({self.function.__module__}.union(*(self._modules_of(each) for each in classes)))
-        if modules not in self.by_modules:
-            self.by_modules[modules] = self._open(modules)
-        return self.by_modules[modules]
+        if "__main__" not in modules:
+            digest = hash_of_all(modules)
+            yield _stamped(cache_folder() / digest) / self._file(signature, classes, codegen.magic_tuple())
+            if (SHIPPED / digest).is_dir() and _stands_in_for_baseline():
+                yield SHIPPED / digest / self._file(signature, classes, (codegen.magic_tuple()[0], BASELINE, ""))
 
     def _modules_of(self, kind):
         """The modules that state the class and its formulas; a class made inside a function counts as a script's."""
         formulas = {formula.__module__ for formula in self.formulas_for(kind)}
         return formulas | {"__main__" if "<locals>" in kind.__qualname__ else kind.__module__}
 
-    def _open(self, modules):
+    def _file(self, signature, classes, processor):
+        """A name that says all that the machine code depends on beside the sources."""
+        import llvmlite
         import numba
-        from numba.core.caching import FunctionCache, NullCache
+        from numba.core.serialize import dumps
 
-        if "__main__" in modules:  # a class of a script is another class in every run: its kernels would never be found again
-            return NullCache()
-        config: Any = vars(numba)["config"]  # filled from the environment when numba is imported
-        other, config.CACHE_DIR = config.CACHE_DIR, str(_folder_of(modules))
-        try:
-            return FunctionCache(self.function)
-        finally:
-            config.CACHE_DIR = other  # kernels of other libraries stay where their users want them
+        cells = tuple(cell.cell_contents for cell in self.function.__closure__ or ())
+        names = sorted(f"{kind.__module__}.{kind.__qualname__}" for kind in classes)
+        versions = sys.implementation.cache_tag, vars(numba)["__version__"], llvmlite.__version__
+        key = hashlib.sha256(repr((str(signature), names, processor, versions)).encode())
+        key.update(self.function.__code__.co_code + dumps(cells))
+        return f"{self.name.replace('<locals>.', '')}-{key.hexdigest()[:24]}.kernel"
+
+
+def _write(file, result):
+    from numba.core.serialize import dumps
+
+    library, function, environment, signature, *rest = result._reduce()
+    rest[2] = ""  # an annotated listing, which nobody reads
+    code = dumps((library, function, environment, signature, *rest))
+    with atomic.replacing(file) as temporary:
+        temporary.write_bytes(hashlib.sha256(code).digest() + code)
+
+
+def _read(file):
+    """The code in a file; None where there is none, or where it is damaged."""
+    try:
+        content = file.read_bytes()
+    except OSError:
+        return None
+    return content[32:] if hashlib.sha256(content[32:]).digest() == content[:32] else None
+
+
+@functools.cache
+def _stands_in_for_baseline():
+    from llvmlite import binding
+
+    has = binding.get_host_cpu_features()
+    return all(has.get(feature, False) for feature in FEATURES)
 
 
 def _tuple_classes(numba_type):
@@ -101,17 +153,21 @@ def cache_folder() -> Path:
 
 
 @functools.cache
-def _folder_of(modules):
-    """The folder for kernels that depend on these modules' packages, stamped as used today."""
-    packages = {PACKAGE}.union(module.partition(".")[0] for module in modules)
-    digest = hashlib.sha256(" ".join(sorted(modules)).encode())
-    for package in sorted(packages):
-        whole = package != PACKAGE or any(module.startswith(ABOVE) for module in modules)
-        digest.update(hash_of(package, whole))
-    folder = cache_folder() / digest.hexdigest()[:20]
+def _stamped(folder):
+    """The folder, stamped as used today."""
     folder.mkdir(exist_ok=True)
     (folder / "last-used").touch()
     return folder
+
+
+@functools.cache
+def hash_of_all(modules: frozenset[str]) -> str:
+    """The name of the folder for kernels that depend on the packages of these modules."""
+    digest = hashlib.sha256(" ".join(sorted(modules)).encode())
+    for package in sorted({PACKAGE}.union(module.partition(".")[0] for module in modules)):
+        whole = package != PACKAGE or any(module.startswith(ABOVE) for module in modules)
+        digest.update(hash_of(package, whole))
+    return digest.hexdigest()[:20]
 
 
 def remove_unused(root: Path) -> None:
@@ -125,19 +181,20 @@ def remove_unused(root: Path) -> None:
 
 @functools.cache
 def hash_of(package: str, whole: bool = True) -> bytes:
-    """SHA-256 of the `sources` of a package."""
+    """SHA-256 of the `sources` of a package, wherever that is installed."""
     digest = hashlib.sha256()
-    for path in sources(package, whole):
-        digest.update(path.as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
+    for name, path in sources(package, whole):
+        digest.update(name.encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.digest()
 
 
-def sources(package: str, whole: bool = True) -> list[Path]:
-    """The Python files of a package, or the one file of a module, in a fixed order; unless `whole`, without the layers ABOVE."""
+def sources(package: str, whole: bool = True) -> list[tuple[str, Path]]:
+    """(name within the package, path) of the Python files of a package, or the one file of a module, in a fixed order; unless `whole`,
+    without the layers ABOVE."""
     module = sys.modules[package]
     folders = getattr(module, "__path__", None)
     if folders is None:
-        return [Path(module.__file__ or "")]
-    files = ((Path(folder), file) for folder in folders for file in Path(folder).rglob("*.py"))
+        return [("", Path(module.__file__ or ""))]
+    files = ((path.relative_to(folder), path) for folder in folders for path in Path(folder).rglob("*.py"))
     above = {name.partition(".")[2] for name in ABOVE}
-    return sorted(file for folder, file in files if whole or file.relative_to(folder).parts[0] not in above)
+    return sorted((name.as_posix(), path) for name, path in files if whole or name.parts[0] not in above)
