@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 JOBS   ?= 2
 export MPLBACKEND = Agg
 
-.PHONY: demo quick test test-slow durations system bench docs lint clean
+.PHONY: demo quick test test-slow durations system bench wheel docs lint clean
 
 demo: $(VENV)/core.ready
 	$(BIN)/drivewright examples --run all --out out
@@ -26,6 +26,10 @@ test-slow: $(VENV)/test.ready
 
 bench: $(VENV)/test.ready
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/run.py
+
+# Linux x86-64: a wheel with compiled kernels, so that the first run of whoever installs it compiles nothing.
+wheel: $(VENV)/core.ready
+	$(BIN)/python scripts/wheel.py
 
 docs: $(VENV)/docs.ready
 	$(BIN)/python docs/generate.py

@@ -24,7 +24,7 @@ case "$1" in
         command -v apt-get >/dev/null && command -v dpkg-query >/dev/null || exit 0
         [ -z "$(missing)" ] && exit 0
         [ "$(id -u)" = 0 ] || sudo -n true 2>/dev/null || exit 0
-        echo "installing system packages: $(missing)"
+        echo "installing system packages with apt-get (DRIVEWRIGHT_APT=0 forbids it): $(missing)"
         install >/tmp/drivewright-apt.$$ 2>&1 || { echo "apt did not succeed; the tests that need these packages are skipped:"; tail -3 /tmp/drivewright-apt.$$; }
         rm -f /tmp/drivewright-apt.$$
         ;;

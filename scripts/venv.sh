@@ -7,6 +7,7 @@ usable() { "$PYTHON" -c 'import sys, ensurepip; assert sys.version_info >= (3, 1
 
 if ! usable; then
     if [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null && [ "$DRIVEWRIGHT_APT" != 0 ]; then
+        echo "installing the system package python3-venv with apt-get (DRIVEWRIGHT_APT=0 forbids it)"
         { apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends python3-venv; } >/dev/null 2>&1 || true
     fi
     usable || { echo "needs Python 3.11+ with venv: apt-get install python3-venv, or make PYTHON=..." >&2; exit 1; }
