@@ -37,6 +37,11 @@ def usual_seconds(kind: str) -> dict[str, list[float]]:
     return tomllib.loads(USUAL.read_text(encoding="utf-8")).get(kind, {})
 
 
+def seconds_of_a_first_run(kind: str) -> float:
+    """What a first run of this kind of drive usually compiles."""
+    return sum(sum(seconds) for seconds in usual_seconds(kind).values())
+
+
 class Compilation:
     """A `Watcher` that knows how far compiling is; `on_news` is called when a kernel is begun and when it is done."""
 

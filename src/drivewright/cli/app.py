@@ -91,7 +91,8 @@ def run(
 ) -> None:
     """Validate, analyse and write a run folder per spec."""
     from drivewright import runner
-    from drivewright.report.content import views
+    from drivewright.execution.helper import helping_hand
+    from drivewright.report.content import prepare_drawing, views
     from drivewright.report.folder import write_run_folder
 
     _refuse_both(only, all_)
@@ -101,10 +102,10 @@ def run(
     results = []
     for path in specs:
         spec = _load(path, set_)
-        with show.progress(path.name, spec.mechanism) as step, show.located(path):
+        with helping_hand(prepare_drawing, figures) as compute, show.progress(path.name, spec.mechanism) as step, show.located(path):
             model = runner.build(spec)
             result = runner.run(spec, _names(only), all_, step, model)
-            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model))
+            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model), compute)
         results.append(result)
         show.note(f"wrote {folder}/")
         if not as_json:
@@ -250,12 +251,14 @@ def validate(name: Annotated[str | None, typer.Argument(help="a source; default 
     """Published numbers beside ours, with a verdict each; exit 1 when a pinned verdict changes."""
     from drivewright import validation
 
+    sources = validation.sources(name)
+    with show.progress("validate") as step:
+        rows = validation.rows_of(sources, step)
     changed, verdicts = 0, Counter()
-    for source in validation.sources(name):
-        rows = source.rows()
-        show.source(source, rows)
-        changed += sum(row.verdict != row.pinned for row in rows)
-        verdicts.update(row.verdict for row in rows)
+    for source in sources:
+        show.source(source, rows[source.name])
+        changed += sum(row.verdict != row.pinned for row in rows[source.name])
+        verdicts.update(row.verdict for row in rows[source.name])
     print(", ".join(f"{count} {verdict}" for verdict, count in sorted(verdicts.items())))
     if changed:
         show.note(f"{changed} verdict(s) differ from the pinned ones")

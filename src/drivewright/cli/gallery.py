@@ -1,13 +1,13 @@
 """The worked examples: listed, copied, run.  They are packed into the wheel; in a checkout they lie beside the sources."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from drivewright import registry, runner
+from drivewright._jit.compilation import seconds_of_a_first_run
 from drivewright.cli import show
-from drivewright.errors import DrivewrightError
 from drivewright.result import Result
 from drivewright.spec import load, read_document
 
@@ -67,39 +67,54 @@ def run_study(path: Path, out: Path) -> None:
 
 
 def run_examples(chosen: Mapping[str, Path], out: Path) -> None:
-    """Run examples, print their key numbers, write out/index.html; a failed design check is part of the show."""
-    from drivewright.report.content import views
-    from drivewright.report.folder import write_run_folder
+    """Run examples, print their key numbers, write out/index.html; a failed design check is part of the show.
+
+    Side by side, those of one kind one after another, for the first compiles what the next ones need; kinds that compile little come first.
+    """
+    from drivewright.execution.executors import side_by_side
     from drivewright.report.index import write_index
 
-    folders = []
-    for number, (name, path) in enumerate(chosen.items(), 1):
-        started = time.perf_counter()
-        show.note(f"[{number}/{len(chosen)}] {name} ...")
-        try:
-            spec = load(path)
-            with show.progress(name, spec.mechanism) as step:
-                model = runner.build(spec)
-                result = runner.run(spec, progress=step, model=model)
-                folders.append(write_run_folder(result, out / name, seen=views(result, model)))
-        except DrivewrightError as error:
-            show.note(f"    {error}")
-            raise
-        _print(result, time.perf_counter() - started)
-    show.note(f"wrote {write_index(folders, out / 'index.html')}: open it in a browser")
+    kinds = {name: read_document(path)["mechanism"] for name, path in chosen.items()}
+    names = sorted(chosen, key=lambda name: (seconds_of_a_first_run(kinds[name]), name))
+    folders = {}
+
+    def begun(index: int) -> None:
+        show.note(f"[{index + 1}/{len(names)}] {names[index]} ...")
+
+    calls = [(chosen[name], out / name) for name in names]
+    groups = [kinds[name] for name in names]
+    done = side_by_side(_run_example, calls, groups, begun) if len(calls) > 1 else enumerate(_run_example(*call) for call in calls)
+    for index, (folder, words) in done:
+        print(words)
+        folders[names[index]] = folder
+    show.note(f"wrote {write_index([folders[name] for name in chosen], out / 'index.html')}: open it in a browser")
 
 
-def _print(result: Result[Any], seconds: float) -> None:
-    """Key numbers of one run, on stdout."""
+def _run_example(path: Path, out: Path) -> tuple[Path, str]:
+    """(run folder, what to print) of one example."""
+    from drivewright.report.content import views
+    from drivewright.report.folder import write_run_folder
+
+    started = time.perf_counter()
+    with show.located(path):
+        spec = load(path)
+        with show.compiling(spec.mechanism):
+            model = runner.build(spec)
+            result = runner.run(spec, model=model)
+            folder = write_run_folder(result, out, seen=views(result, model))
+    return folder, "\n".join(_key_numbers(result, time.perf_counter() - started))
+
+
+def _key_numbers(result: Result[Any], seconds: float) -> Iterator[str]:
     failed = [check for check in result.checks if not check.ok]
-    print(f"\n{result.title}   ({seconds:.1f} s)")
+    yield f"\n{result.title}   ({seconds:.1f} s)"
     for name in registry.headlines(registry.mechanism(result.mechanism), result.values)[:6]:
         value = result.values[name]
-        print(f"  {name:40s} {show.number(value.value, value.unit, value.low, value.high):>14s}   {value.meaning}")
+        yield f"  {name:40s} {show.number(value.value, value.unit, value.low, value.high):>14s}   {value.meaning}"
     for check in failed:
-        print(
+        yield (
             f"  check fails: {check.name} = {show.number(check.value, check.unit)}, "
             f"limit {check.sense} {show.number(check.limit, check.unit)}"
         )
     if result.checks and not failed:
-        print(f"  all {len(result.checks)} checks pass")
+        yield f"  all {len(result.checks)} checks pass"

@@ -64,8 +64,7 @@ def progress(title: str, kind: str = "") -> "Iterator[Progress]":
     from drivewright._jit.compilation import Compilation, watched_by
 
     if not sys.stderr.isatty():
-        lines = _Lines(kind or title)
-        with watched_by(lines.compilation), contextlib.closing(lines):
+        with compiling(kind or title):
             yield lambda done, total, what: None
         return
     from rich.console import Console
@@ -84,6 +83,16 @@ def progress(title: str, kind: str = "") -> "Iterator[Progress]":
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar, watched_by(compilation):
         task = bar.add_task(title, total=None, what="")
         yield lambda done, total, what: bar.update(task, completed=done, total=total, what=what)
+
+
+@contextlib.contextmanager
+def compiling(kind: str) -> Iterator[None]:
+    """Within the block what is compiled for a kind of drive is said on stderr, line by line."""
+    from drivewright._jit.compilation import watched_by
+
+    lines = _Lines(kind)
+    with watched_by(lines.compilation), contextlib.closing(lines):
+        yield
 
 
 class _Lines:

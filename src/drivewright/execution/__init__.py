@@ -6,5 +6,6 @@ the places that compute them; `workers` are processes that answer a server one c
 case_table    the table of cases: varied keys and values, with units and labels
 dask_cluster  the workers of a Dask scheduler: one started on this machine, or one that is there already
 keys          what a key of a spec takes: a quantity, a number, a whole number, a flag or a text
+helper        a second process that helps this one with figures
 outputs       what a study keeps of the answers of a case
 """

@@ -2,8 +2,8 @@
 
 import os
 import sys
-from collections.abc import Callable
-from concurrent.futures import BrokenExecutor, Future, ProcessPoolExecutor
+from collections.abc import Callable, Hashable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Future, ProcessPoolExecutor, wait
 from contextlib import ExitStack
 from multiprocessing import get_context
 from typing import Any, Protocol
@@ -63,6 +63,36 @@ def make_executors(workers: int | None = None, on: str | None = None, limit: int
     from drivewright.execution import dask_cluster
 
     return (dask_cluster.start_local(on) if on.startswith("local:") else dask_cluster.connect(on),)
+
+
+def side_by_side(
+    function: Callable[..., Any],
+    calls: Sequence[tuple[Any, ...]],
+    groups: Sequence[Hashable] = (),
+    begun: Callable[[int], object] = lambda index: None,
+) -> Iterator[tuple[int, Any]]:
+    """(index, function(*arguments)) of independent calls as they come to an end, computed in processes of this machine, one per core.
+
+    Calls of one group run one after another; `begun` is told the index of each as it starts.  What a call raises is raised here, and those
+    that run beside it are let go.
+    """
+    groups = groups or range(len(calls))
+    waiting, running = list(range(len(calls))), dict[Future[Any], tuple[int, Executor]]()
+    with ExitStack() as stack:
+        idle = list(make_executors(limit=max(len(set(groups)), 1)))
+        for executor in idle:
+            stack.callback(executor.close)
+        while waiting or running:
+            for index in list(waiting):
+                if idle and groups[index] not in {groups[other] for other, _ in running.values()}:
+                    waiting.remove(index)
+                    begun(index)
+                    executor = idle.pop(0)
+                    running[executor.submit(function, *calls[index])] = index, executor
+            for future in wait(running, return_when=FIRST_COMPLETED).done:
+                index, executor = running.pop(future)
+                idle.append(executor)
+                yield index, future.result()
 
 
 def check_location(workers: int | None, on: str | None) -> None:
@@ -129,8 +159,9 @@ class ProcessExecutor:
     workers: int = 1
     capacity: int = 2
 
-    def __init__(self) -> None:
-        self._vain_starts = 0
+    def __init__(self, prepare: Callable[[], object] | None = None) -> None:
+        """`prepare` is called as the process starts, while others still start: it loads what every call needs."""
+        self._vain_starts, self._prepare = 0, prepare or _load_evaluation
         self._start()
 
     def _start(self) -> None:
@@ -140,7 +171,7 @@ class ProcessExecutor:
             with endings_blocked():  # it starts the process that clears up after all others
                 self._executor = ProcessPoolExecutor(1, context, exit_with_parent, (os.getpid(), theirs))
             with endings_blocked():  # that start has let them through again
-                self._warmed = self._executor.submit(_warm)
+                self._warmed = self._executor.submit(self._prepare)
         theirs.close()
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> Future[Any]:
@@ -152,10 +183,14 @@ class ProcessExecutor:
             future.set_exception(death)
             return future
 
+    @property
+    def at_work(self) -> bool:
+        """Whether the process has come to work."""
+        return self._warmed.done() and self._warmed.exception() is None
+
     def restart(self) -> None:
         """A new process in place of the dead one; InputError where none of `STARTS` in a row came to work."""
-        came_to_work = self._warmed.done() and self._warmed.exception() is None
-        self._vain_starts = 0 if came_to_work else self._vain_starts + 1
+        self._vain_starts = 0 if self.at_work else self._vain_starts + 1
         if self._vain_starts >= STARTS:
             raise InputError(
                 "a worker process does not start (its own message stands above, if it had one); mend that, or compute in this "
@@ -178,6 +213,6 @@ class ProcessExecutor:
         self._executor.shutdown(wait=False, cancel_futures=True)
 
 
-def _warm() -> None:
-    """Load what every call needs, while others still start."""
+def _load_evaluation() -> None:
+    """What the batches of a study need."""
     import drivewright.execution.evaluation  # noqa: F401

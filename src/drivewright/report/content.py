@@ -3,7 +3,7 @@
 import html
 import math
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any, NamedTuple, TypeAlias
 
@@ -11,12 +11,14 @@ import numpy as np
 
 from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
+from drivewright.execution.helper import Map
 from drivewright.result import UNDECIDED, Array, Check, Plot, Result, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
+from drivewright.view.style import new_figure
 from drivewright.view.text import display_unit, interval_hint, number, numbers, sentence, uncertain, unit_text, with_unit
 
 GHOSTS = tuple(n / 5 for n in range(5))
@@ -64,30 +66,47 @@ def _shown(what, make, model, nothing, spec):
         return nothing, (f"no {what} to show: {failure_reason(spec, error)}",)
 
 
-def pictures(result: Result[Any], seen: Views) -> tuple[Picture, ...]:
-    """Every figure of a run: the scene for each observer, the plots, the drawings."""
+class Sketch(NamedTuple):
+    """A figure that is still to be drawn."""
+
+    name: str
+    title: str
+    draw: Callable[..., Any]
+    arguments: tuple[Any, ...]
+
+
+def pictures(result: Result[Any], seen: Views, compute: Map = map) -> tuple[Picture, ...]:
+    """Every figure of a run: the scene for each observer, the plots, the drawings; `compute` may draw them side by side."""
+    return tuple(compute(partial(_drawn, result.spec), list(_sketches(result, seen))))
+
+
+def _sketches(result, seen):
     scene = seen.scene
-
-    def drawn(name, title, draw):
+    for frame in scene.frames if scene else ():
+        yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [_thumbnail_phase(scene)], GHOSTS))
+    for plot in drawable(result, seen.plots):
         try:
-            return Picture(name, title, svg(draw()))
-        except Exception as error:  # one figure that fails must not cost the others
-            return Picture(name, title, _instead(f"This figure is missing: {failure_reason(result.spec, error)}"))
+            yield Sketch(f"plot-{plot.name}", plot.title, draw_panels, (panels(result, plot), _marks(result, plot, scene)))
+        except Exception as error:
+            yield Sketch(f"plot-{plot.name}", plot.title, _fail, (error,))
+    for drawing in seen.drawings:
+        yield Sketch(f"drawing-{drawing.name}", sentence(drawing.title), draw_drawing, (drawing,))
 
-    frames = (
-        [
-            drawn(f"scene-{frame.name}", sentence(frame.label), partial(draw_scene, scene, frame.name, [_thumbnail_phase(scene)], GHOSTS))
-            for frame in scene.frames
-        ]
-        if scene
-        else []
-    )
-    curves = [
-        drawn(f"plot-{plot.name}", plot.title, lambda plot=plot: draw_panels(panels(result, plot), _marks(result, plot, scene)))
-        for plot in drawable(result, seen.plots)
-    ]
-    parts = [drawn(f"drawing-{drawing.name}", sentence(drawing.title), partial(draw_drawing, drawing)) for drawing in seen.drawings]
-    return (*frames, *curves, *parts)
+
+def _fail(error):
+    raise error
+
+
+def _drawn(spec, sketch):
+    try:
+        return Picture(sketch.name, sketch.title, svg(sketch.draw(*sketch.arguments)))
+    except Exception as error:  # one figure that fails must not cost the others
+        return Picture(sketch.name, sketch.title, _instead(f"This figure is missing: {failure_reason(spec, error)}"))
+
+
+def prepare_drawing() -> None:
+    """Load what figures need, by drawing an empty one."""
+    svg(new_figure(1.0))
 
 
 def _instead(text: str) -> str:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from drivewright.errors import InputError
+from drivewright.execution.helper import Map
 from drivewright.report.content import Picture, Views, pictures, thumbnail, views
 from drivewright.report.html import write_report
 from drivewright.report.moving import Place, recover, replacing_folder
@@ -15,17 +16,17 @@ from drivewright.result import Result, Table
 OURS = {"result.json", "report.html", "spec.toml", "figures", "tables", "data"}  # what a run writes, and the next one replaces
 
 
-def write_run_folder(result: Result[Any], out: str | Path, figures: bool = True, seen: Views | None = None) -> Path:
+def write_run_folder(result: Result[Any], out: str | Path, figures: bool = True, seen: Views | None = None, compute: Map = map) -> Path:
     """Write the run folder of a result to `out` and return its path.
 
     result.json, report.html, figures/*.svg, tables/*.parquet, spec.toml.  `seen` is a `Views`; None takes what the result's
     mechanism shows.  What an earlier run wrote is replaced, everything else in the folder stays; InputError for a folder that is
-    not empty and no run folder.
+    not empty and no run folder.  `compute` may draw the figures side by side.
     """
     out = recover_run_folder(out)
     refuse_foreign(out)
     with replacing_folder(Place(out, OURS, refuse_foreign)) as fresh:
-        _fill(fresh, result, views(result) if seen is None else seen, figures)
+        _fill(fresh, result, views(result) if seen is None else seen, figures, compute)
     return out
 
 
@@ -67,11 +68,11 @@ def file_name(name: str) -> str:
     return re.sub(r"[^\w.-]+", "-", name).strip(".-") or "unnamed"
 
 
-def _fill(folder: Path, result: Result[Any], seen: Views, figures: bool) -> None:
+def _fill(folder: Path, result: Result[Any], seen: Views, figures: bool, compute: Map) -> None:
     """Everything of one run, the result first: it is what makes a folder a run folder."""
     (folder / "result.json").write_text(record_text(result), encoding="utf-8")
     result.spec.write(folder / "spec.toml")
-    named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen)] if figures else []
+    named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen, compute)] if figures else []
     write_report(result, seen, folder, named)
     _write_tables(folder, result.tables.values())
     _write_figures(folder, [*named, thumbnail(seen.scene)] if figures and seen.scene else named)

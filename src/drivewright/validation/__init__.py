@@ -15,8 +15,11 @@ shaft_paper         the shafts of a pipe-lining machine of Li, Zhang and Chen
 source              a published source: the world's numbers beside ours, each with a verdict that is computed
 """
 
+from collections.abc import Callable, Iterable
+
 from drivewright import plugins
 from drivewright.errors import InputError, UnknownName
+from drivewright.execution.executors import side_by_side
 from drivewright.validation import (
     clearance_joints,
     elliptic_gears,
@@ -43,7 +46,35 @@ OURS = (
     hyvo_paper.source,
 )
 
-__all__ = ["AGREES", "EXPLAINED", "Explanation", "KINDS", "OPEN", "Printed", "Row", "Source", "page", "rounded", "sources"]
+__all__ = ["AGREES", "EXPLAINED", "Explanation", "KINDS", "OPEN", "Printed", "Row", "Source", "page", "rounded", "rows_of", "sources"]
+
+
+def rows_of(
+    chosen: Iterable[Source], progress: Callable[[int, int, str], object] = lambda done, total, name: None
+) -> dict[str, tuple[Row, ...]]:
+    """{name: rows} of sources, computed side by side; `progress` is told (done, total, sources that are computed)."""
+    named = {source.name: source for source in chosen}
+    if len(named) == 1:
+        return {name: source.rows() for name, source in named.items()}
+    names, found, running = list(named), dict[str, tuple[Row, ...]](), list[str]()
+
+    def tell():
+        progress(len(found), len(names), ", ".join(running))
+
+    def begun(index):
+        running.append(names[index])
+        tell()
+
+    for index, rows in side_by_side(_rows_of, [(name,) for name in names], begun=begun):
+        found[names[index]] = rows
+        running.remove(names[index])
+        tell()
+    return found
+
+
+def _rows_of(name: str) -> tuple[Row, ...]:
+    """In a process of its own; a source of a plug-in can be found there and not be sent."""
+    return sources(name)[0].rows()
 
 
 def sources(name: str | None = None) -> tuple[Source, ...]:

@@ -1,0 +1,66 @@
+"""A second process that helps this one with calls that do not depend on each other: figures, on the core that is free."""
+
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from drivewright.cases import worker_count
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    from drivewright.execution.executors import ProcessExecutor
+
+ItemT = TypeVar("ItemT")
+ResultT = TypeVar("ResultT")
+
+
+class Map(Protocol):
+    """Calls a function with each of some items, and gives the results in their order: as `map` does."""
+
+    def __call__(self, function: Callable[[ItemT], ResultT], items: Iterable[ItemT], /) -> Iterable[ResultT]:
+        """The results."""
+        ...
+
+
+@contextmanager
+def helping_hand(prepare: Callable[[], object], wanted: bool = True) -> Iterator[Map]:
+    """A `Map` that shares its calls with a process of its own, where one is wanted and there is a core for it.
+
+    The process starts at once and calls `prepare`, so that it is at hand when the calls come.  This process takes calls from the front, the
+    other one from the back, and nobody waits for one that has not come to work or cannot do it.
+    """
+    if not wanted or worker_count(None) < 2:
+        yield map
+        return
+    from drivewright.execution.executors import ProcessExecutor
+
+    executor = ProcessExecutor(prepare)
+    try:
+        yield lambda function, items: _shared(executor, function, list(items))
+    finally:
+        executor.close()
+
+
+def _shared(executor: "ProcessExecutor", function: Callable[[Any], Any], items: list[Any]) -> list[Any]:
+    results: dict[int, Any] = {}
+    left, given = deque(range(len(items))), deque["tuple[int, Future[Any]]"]()
+    while left:
+        _collect(given, results)
+        if executor.at_work and len(given) < executor.capacity and len(left) > 1:
+            index = left.pop()
+            given.append((index, executor.submit(function, items[index])))
+        else:
+            index = left.popleft()
+            results[index] = function(items[index])
+    for index, future in given:
+        results[index] = function(items[index]) if future.exception() else future.result()
+    return [results[index] for index in range(len(items))]
+
+
+def _collect(given, results):
+    """Take what is finished; what failed over there is left for here."""
+    while given and given[0][1].done() and not given[0][1].exception():
+        index, future = given.popleft()
+        results[index] = future.result()
