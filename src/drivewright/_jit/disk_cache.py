@@ -162,11 +162,12 @@ def _stamped(folder):
 
 @functools.cache
 def hash_of_all(modules: frozenset[str]) -> str:
-    """The name of the folder for kernels that depend on the packages of these modules."""
-    digest = hashlib.sha256(" ".join(sorted(modules)).encode())
+    """The name of the folder for kernels that depend on the packages of these modules: the same whichever modules of a package they are,
+    for which formulas a class has depends on what a process has imported."""
+    digest = hashlib.sha256()
     for package in sorted({PACKAGE}.union(module.partition(".")[0] for module in modules)):
         whole = package != PACKAGE or any(module.startswith(ABOVE) for module in modules)
-        digest.update(hash_of(package, whole))
+        digest.update(package.encode() + hash_of(package, whole))
     return digest.hexdigest()[:20]
 
 
