@@ -2,6 +2,7 @@
 
 import shutil
 import tempfile
+import time
 from pathlib import Path
 
 from drivewright import motion, registry
@@ -96,10 +97,14 @@ def worked_studies():
     from drivewright.studies.answers import analyse_study
 
     lines = ["# Worked studies", "", "Made by running the files of `examples/studies`; [Studies](studies.md) says how to write one."]
+    paths = sorted((DOCS.parent / "examples" / "studies").glob("*.toml"))
     with tempfile.TemporaryDirectory() as scratch:
-        for path in sorted((DOCS.parent / "examples" / "studies").glob("*.toml")):
+        for number, path in enumerate(paths, 1):
+            began = time.perf_counter()
+            print(f"[{number}/{len(paths)}] {path.stem} ...", end=" ", flush=True)
             study = dw.sweep(dw.load(path), out=Path(scratch) / path.stem)
             report = write_answers(study, analyse_study(study), study.folder)
+            print(f"{len(study)} cases, {time.perf_counter() - began:.1f} s", flush=True)
             drawn = DOCS / "worked-studies" / path.stem
             shutil.rmtree(drawn, ignore_errors=True)
             shutil.copytree(report.parent / "figures", drawn)
