@@ -87,6 +87,38 @@ def test_the_curvature_is_that_of_the_curve():
         assert curvature == pytest.approx(np.imag(np.conj(v[k]) * a[k]) / abs(v[k]) ** 3, rel=1e-3)
 
 
+@pytest.mark.parametrize("count", [1, 7, 8, 9, 100, 1025])
+def test_the_circles_hold_their_chords_and_each_other(count):
+    """Every circle holds the two below it, those of the runs the cubics on their chords, and the first one all."""
+    t = np.linspace(0, 2 * PI, count + 1)
+    z = 0.003 + 0.05 * np.exp(1j * t) + 0.006 * np.exp(-4j * t)
+    a, b = z[:-1], z[1:]
+    middle, radius = touching.bounding_circles(a, b)
+    runs = len(middle) // 2
+    for k in range(count):
+        circle = runs + k // 8
+        while circle:
+            assert max(abs(a[k] - middle[circle]), abs(b[k] - middle[circle])) <= radius[circle] * (1 + 1e-12)
+            circle //= 2
+    for k in range(1, runs):
+        for below in (2 * k, 2 * k + 1):
+            if radius[below] >= 0:
+                assert abs(middle[below] - middle[k]) + radius[below] <= radius[k] * (1 + 1e-12)
+    assert np.sum(radius[runs:] >= 0) == -(-count // 8)
+
+
+def test_a_longer_profile_is_searched_as_well_as_a_short_one():
+    """All places of a wave of thousands of chords within a limit, beside a search that leaves no chord out."""
+    nodes = touching.nodes_of(wave(), 1e-13)
+    assert len(nodes.a) > 1000
+    blind = nodes._replace(middle=np.zeros_like(nodes.middle), radius=np.where(np.isfinite(nodes.radius), 1.0, -np.inf))
+    for limit in (1e-3, 0.01, 0.04):
+        centres = 0.05 * np.exp(1j * np.linspace(0, 6, 25)) * np.linspace(0.4, 1.2, 25)
+        here, there = (touching.touches(each, centres, 0.0, limit) for each in (nodes, blind))
+        for own, wanted in zip(here, there, strict=True):
+            np.testing.assert_array_equal(own, wanted)
+
+
 def test_the_kernel_gives_the_same_uncompiled():
     nodes = touching.nodes_of(wave())
     for limit in (0.006, 0.02):

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from drivewright._jit import plain
-from drivewright.indexing.batch import envelope, evaluate_designs, values
+from drivewright.indexing import play
+from drivewright.indexing.batch import envelope, evaluate_designs, loops, values
 from drivewright.indexing.batch.pin_wheels import PinWheelValues, crank_samples, evaluate_pin_wheels
 from drivewright.indexing.motion import TURN, IndexMotion
 from drivewright.indexing.pin_wheel import PinWheel
@@ -93,6 +94,46 @@ def test_the_sampled_centres_are_the_path(sense):
     assert np.all(np.isfinite(centre_curvature(drive, theta)))
 
 
+def test_only_the_places_that_may_have_the_largest_play_are_looked_at_and_that_changes_nothing():
+    """The largest play is that of all places one by one on the same profile, whichever place is looked at first."""
+    wheel, table = envelope.PinWheelSizes(12, 0.12, 8e-3, 0.01, 3.3, 1.0), envelope.tabulate_law(SINE)
+    theta, count = crank_samples(3.3)
+    path, nodes = sampled_profile(wheel, table, theta)
+    work = np.empty(play.CAPACITY, complex), np.empty(play.CAPACITY)
+    for direction, name in ((FORWARD, "play_forward"), (BACKWARD, "play_backward")):
+        free = []
+        for j in range(0, len(theta), 2):
+            crank = 0.01 * np.exp(1j * theta[j])
+            centres = path.z.reshape(12, -1)[:, j] + crank
+            free.append(play.free_rotation(nodes, centres, crank, 8e-3, direction, TURN / 12, 5, *work)[0])
+        batch = getattr(evaluate_pin_wheels(SINE, 12, 0.12, 8e-3, 0.01, 3.3), name)[0]
+        assert max(free) > 30 * ARCMIN and batch == pytest.approx(max(free), abs=1e-9)
+
+
+def sampled_profile(wheel, table, theta):
+    """Path of the centres and nodes of the profile, as `values.evaluate_pin_wheel` makes them."""
+    path = envelope.sample_pin_path(wheel, table, theta)
+    margin = 1e-5
+    cells = envelope.sort_into_cells(path, 0.14, 2e-3)
+    exposed = envelope.find_exposed_samples(path, cells, wheel.pin_radius, margin)
+    segments = envelope.trace_exposed_segments(wheel, table, path, cells, margin, exposed)
+    return path, loops.loop_nodes(segments, loops.find_cam_loop(segments, True))
+
+
+@pytest.mark.parametrize("width", [5e-4, 3e-3, 0.3])
+def test_the_width_of_the_cells_changes_no_sample(width):
+    """Beside all samples one by one: a point further inside a pin than the foot is exact is covered, one further outside is not."""
+    wheel, table = envelope.PinWheelSizes(5, 0.05, 6e-3, 7e-3, 3.6, 1.0), envelope.tabulate_law(SINE)
+    path = envelope.sample_pin_path(wheel, table, crank_samples(3.6)[0])
+    exposed = envelope.find_exposed_samples(path, envelope.sort_into_cells(path, 0.06, width), 6e-3, 2e-5)
+    heading = path.v / np.abs(path.v)
+    for side, out in enumerate((6e-3j, -6e-3j)):
+        points = path.z + out * heading
+        least = np.min(np.abs(points[:, None] - path.z), axis=1)
+        assert not np.any(exposed[side, least < 6e-3 - 1e-7]) and np.all(exposed[side, least > 6e-3 - 1e-10])
+        assert 0.1 < np.mean(exposed[side]) < 0.9
+
+
 def test_sizes_scale():
     small = evaluate_pin_wheels(SINE, 12, 0.12, 7e-3, 0.01, 3.5)
     large = evaluate_pin_wheels(SINE, 12, 0.30, 17.5e-3, 0.025, 3.5)
@@ -148,6 +189,6 @@ def test_a_sample_is_moved_to_its_foot():
         j, turn = k % len(theta), k // len(theta)
         point = path.z[k] + 9e-3 * np.exp(0.7j) * path.v[k] / abs(path.v[k])
         near = [abs(envelope.pin_centre_at(wheel, table, one, turn)[0] - point) for one in np.linspace(theta[j - 1], theta[j + 1], 2001)]
-        moved = envelope._foot_distance(path, point - path.z[k], k)
+        moved = np.sqrt(envelope._foot_distance_squared(path, point - path.z[k], k))
         assert moved == pytest.approx(min(near), abs=1e-8)
         assert abs(point - path.z[k]) - moved > 1e-7

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
+from drivewright.indexing import play
 from drivewright.indexing.motion import index_motion
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.plane import find_contacts
@@ -95,3 +96,38 @@ def test_thin_pins_hold_both_ways():
     theta = np.deg2rad(np.arange(0.0, 360.0, 3.0))
     for direction in (FORWARD, BACKWARD):
         assert np.max(find_play(wheel(4.5e-3), theta, direction)) < 0.1 * ARCMIN
+
+
+@pytest.mark.parametrize("direction", [FORWARD, BACKWARD])
+def test_the_pin_asked_first_changes_nothing(direction):
+    """And the pin named is inside the cam just after, by shapely."""
+    drive, theta = wheel(), np.deg2rad(17.0 if direction == FORWARD else 163.0)
+    centres, crank = drive.pin_centres(theta).d0, complex(drive.crank_vector(theta).d0)
+    work = np.empty(play.CAPACITY, complex), np.empty(play.CAPACITY)
+    for likely in range(12):
+        free, pin = play.free_rotation(drive.nodes, centres, crank, 8e-3, direction, drive.motion.pitch, likely, *work)
+        assert free == pytest.approx(find_play(drive, theta, direction)[0], abs=1e-11)
+        after = centres[pin] * np.exp(1j * direction * (free + 0.1 * ARCMIN)) - crank
+        assert shapely.distance(cam(drive), shapely.Point(after.real, after.imag)) < 8e-3 - 1e-7
+
+
+def test_no_play_within_less_than_the_play():
+    """A pin is inside the cam at every rotation a little beyond the play and at none before it."""
+    drive, theta = wheel(), np.deg2rad(20.0)
+    centres, crank = drive.pin_centres(theta).d0, complex(drive.crank_vector(theta).d0)
+    free = find_play(drive, theta, FORWARD)[0]
+    work = np.empty(play.CAPACITY, complex), np.empty(play.CAPACITY)
+    for part, inside in ((0.0, False), (0.5, False), (1 - 1e-6, False), (1.02, True), (1.05, True)):
+        pin = play.pin_within_cam(drive.nodes, centres, crank, 8e-3, FORWARD, part * free, 3, *work)
+        assert (pin >= 0) == inside
+        assert inside == (depth(drive, theta, part * free) > 5e-7)
+
+
+def test_nothing_stops_a_wheel_within_less_than_its_play():
+    drive, theta = wheel(), np.deg2rad(20.0)
+    centres, crank = drive.pin_centres(theta).d0, complex(drive.crank_vector(theta).d0)
+    free = find_play(drive, theta, FORWARD)[0]
+    work = np.empty(play.CAPACITY, complex), np.empty(play.CAPACITY)
+    for limit in (0.3 * free, 0.999 * free):
+        assert np.isnan(play.free_rotation(drive.nodes, centres, crank, 8e-3, FORWARD, limit, 0, *work)[0])
+    assert play.free_rotation(drive.nodes, centres, crank, 8e-3, FORWARD, 1.001 * free, 0, *work)[0] == pytest.approx(free, abs=1e-11)

@@ -1,7 +1,8 @@
 """Where a round body comes nearest to a closed profile: all the places at once, compiled.
 
 The profile is stored as nodes with exact points and tangents, so close that the cubic through two of them leaves it by less than a
-nanometre; a place is sought on the cubic, or at a corner between two stretches.
+nanometre; a place is sought on the cubic, or at a corner between two stretches.  Circles around runs of chords, two in one up to a circle
+around all, tell which chords a search can leave out: it costs about the logarithm of their number.
 """
 
 from collections.abc import Sequence
@@ -15,24 +16,25 @@ from drivewright.curves.pieces import gather
 
 SAME = 1e-10  # feet nearer to each other than this [m] are one
 CORNER = 1e-6  # a turn [rad] below this is a smooth joint
-BLOCK = 32  # chords that are passed over together
+_RUN = 8  # chords that are passed over together
 _CHORDS = 16  # at least, on each stretch
 _HALVINGS = 12
 _TURN = 0.9  # least cosine of the turn on a chord
 
 
 class Nodes(NamedTuple):
-    """Chords of a closed profile: ends a, b (complex, [m]), derivatives by the chord's parameter there; blocks: middle and half width.
+    """Chords of a closed profile: ends a, b (complex, [m]), derivatives by the chord's parameter there; circles around runs of chords.
 
-    Chord k runs from a[k] to b[k] = a[k + 1]; a turn between the tangents at b[k] and a[k + 1] is a corner.
+    Chord k runs from a[k] to b[k] = a[k + 1]; a turn between the tangents at b[k] and a[k + 1] is a corner.  middle, radius: the
+    `bounding_circles`.
     """
 
     a: Complexes  # (n,)
     b: Complexes  # (n,)
     leave: Complexes  # (n,)
     arrive: Complexes  # (n,)
-    middle: Complexes  # (blocks,)
-    reach: Floats  # (blocks,)
+    middle: Complexes  # (circles,)
+    radius: Floats  # (circles,)
 
 
 class Touches(NamedTuple):
@@ -67,7 +69,7 @@ def nodes_of(spans: Sequence[Any], tolerance: float = 2e-10) -> Nodes:
         t, index = np.insert(t, chords[off] + 1, middles[off]), np.insert(index, chords[off] + 1, index[chords[off]])
     b = np.roll(a, -1)  # so that no foot falls between two ends that differ by rounding
     chord = np.abs(b - a)
-    return Nodes(a, b, leave * chord, arrive * chord, *_blocks(a, b, chord))
+    return Nodes(a, b, leave * chord, arrive * chord, *bounding_circles(a, b))
 
 
 def _along(spans, index, t):
@@ -77,11 +79,37 @@ def _along(spans, index, t):
     return jet.d0, slope / np.abs(slope)
 
 
-def _blocks(a, b, chord):
-    starts = np.arange(0, len(a), BLOCK)
-    middle = np.array([np.mean(a[k : k + BLOCK]) for k in starts])
-    reach = np.array([np.max(np.abs(a[k : k + BLOCK] - m) + 2 * chord[k : k + BLOCK]) for k, m in zip(starts, middle, strict=True)])
-    return middle, reach
+@kernel
+def bounding_circles(a: Complexes, b: Complexes) -> tuple[Complexes, Floats]:
+    """Middles (2 m,) [m] and radii (2 m,) [m] of circles around the chords from a to b (n,) complex [m] and the cubics on them.
+
+    A binary tree: circle k holds the circles 2 k and 2 k + 1, circle m + k the k-th run of chords, m a power of two; circle 1 holds all,
+    circle 0 and those of runs that do not exist have the radius -inf.
+    """
+    runs = 1
+    while runs * _RUN < len(a):
+        runs *= 2
+    middle, radius = np.zeros(2 * runs, np.complex128), np.full(2 * runs, -np.inf)
+    for run in range((len(a) + _RUN - 1) // _RUN):
+        low, high = run * _RUN, min((run + 1) * _RUN, len(a))
+        middle[runs + run] = 0.5 * (a[low] + b[high - 1])
+        for k in range(low, high):
+            radius[runs + run] = max(radius[runs + run], abs(a[k] - middle[runs + run]) + 2 * abs(b[k] - a[k]))
+    for k in range(runs - 1, 0, -1):
+        middle[k], radius[k] = _circle_around(middle[2 * k], radius[2 * k], middle[2 * k + 1], radius[2 * k + 1])
+    return middle, radius
+
+
+@inner
+def _circle_around(a: complex, a_radius: float, b: complex, b_radius: float) -> tuple[complex, float]:
+    """The least circle around the circles about a and b; radius -inf: around none."""
+    apart = abs(b - a)
+    if apart + b_radius <= a_radius:
+        return a, a_radius
+    if apart + a_radius <= b_radius:
+        return b, b_radius
+    radius = 0.5 * (apart + a_radius + b_radius)
+    return a + (b - a) * ((radius - a_radius) / apart), radius
 
 
 def touches(nodes: Nodes, centres: ArrayLike, radius: float, reach: float) -> Touches:
@@ -114,27 +142,53 @@ def nearest(nodes: Nodes, centre: complex, limit: float, points: Complexes, curv
 
     points (room,) [m] and curvature (room,) [1/m], both written.
     """
-    count = 0
-    chords = len(nodes.a)
-    for block in range(len(nodes.middle)):
-        away, sight = centre - nodes.middle[block], limit + nodes.reach[block]
-        if away.real * away.real + away.imag * away.imag > sight * sight:  # a root would cost more than the rest
-            continue
-        for k in range(block * BLOCK, min(block * BLOCK + BLOCK, chords)):
-            before = _rate(nodes.a[k] - centre, nodes.leave[k])
-            after = _rate(nodes.b[k] - centre, nodes.arrive[k])
-            beyond = _rate(nodes.b[k] - centre, nodes.leave[(k + 1) % chords])
-            at_end = after < 0.0 and beyond >= 0.0  # a corner, or a smooth joint within rounding
-            if not at_end and not (before < 0.0 and after >= 0.0):
-                continue
+    count, circle, runs = 0, 1, len(nodes.middle) // 2
+    while circle > 0:
+        if not _in_sight(nodes, circle, centre, limit):
+            circle = _after(circle)
+        elif circle < runs:
+            circle = 2 * circle
+        else:
+            first = (circle - runs) * _RUN
+            count = _nearest_of_run(nodes, first, min(first + _RUN, len(nodes.a)), centre, limit, points, curvature, count)
+            circle = _after(circle)
+    return count
+
+
+@inner
+def _in_sight(nodes, circle, centre, limit):
+    """Whether anything in a circle may be nearer to the centre than the limit [m]."""
+    away, sight = centre - nodes.middle[circle], limit + nodes.radius[circle]
+    return sight >= 0.0 and away.real * away.real + away.imag * away.imag <= sight * sight  # a root would cost more than the rest
+
+
+@inner
+def _after(circle):
+    """The circle after those within a circle; 0 after the last."""
+    while circle & 1:
+        circle >>= 1
+    return circle + 1 if circle > 0 else 0
+
+
+@inner
+def _nearest_of_run(nodes, first, last, centre, limit, points, curvature, count):
+    """`nearest` on the chords from `first` to `last`; count: of the places found before, and with the new ones."""
+    before = _rate(nodes.a[first] - centre, nodes.leave[first])
+    for k in range(first, last):
+        ahead = k + 1 if k + 1 < len(nodes.a) else 0
+        arm = nodes.b[k] - centre
+        after, beyond = _rate(arm, nodes.arrive[k]), _rate(arm, nodes.leave[ahead])
+        at_end = after < 0.0 and beyond >= 0.0  # a corner, or a smooth joint within rounding
+        if at_end or (before < 0.0 and after >= 0.0):
             u = 1.0 if at_end else _foot(nodes, k, centre)
-            point, first, second = _cubic(nodes, k, u)
+            point, along, bend = _cubic(nodes, k, u)
             if abs(point - centre) <= limit and not _known(points, min(count, len(points)), point):
                 if count < len(points):
                     points[count] = point
-                    corner = at_end and _turn(nodes.arrive[k], nodes.leave[(k + 1) % chords]) > CORNER
-                    curvature[count] = np.inf if corner else _cross(first, second) / abs(first) ** 3
+                    corner = at_end and _turn(nodes.arrive[k], nodes.leave[ahead]) > CORNER
+                    curvature[count] = np.inf if corner else _cross(along, bend) / abs(along) ** 3
                 count += 1
+        before = beyond
     return count
 
 

@@ -19,15 +19,16 @@ DIRECTIONS = {"forward": FORWARD, "backward": BACKWARD}
 _TOUCHING = 1e-9  # a gap below this [m] is a contact
 _PENETRATION = 5e-7  # a pin that turns away counts as inside the cam from this depth [m] on
 _LEAST_STEP = 2e-6  # [rad]; in a smaller one no pin can pass a horn
+_EXACT = 1e-13  # [rad]; a smaller step of Newton's method ends it
 _SEARCH_RADIUS = 1.25  # places up to this many radii from a pin's centre are looked at
-_CAPACITY = 16
+CAPACITY = 16  # places at which one pin may touch at once
 
 
 def find_play(drive: PinDrive, theta: ArrayLike, direction: float) -> Floats:
     """Free rotation [rad] of the wheel at the input angles theta in the direction (+1 forward, -1 backward); nan where nothing stops it.
 
-    The wheel advances by steps that no pin can use to pass the profile, and by bisection where one has gone into it.  The first of the
-    drive's levels that stops it counts.
+    Every pin advances by steps in which it cannot pass the profile, and by Newton's method where it has gone into it.  The pin that stops
+    first counts, and so does the first of the drive's levels.
     """
     theta = np.atleast_1d(np.asarray(theta, dtype=float))
     return np.fmin.reduce([_play_of_cam(level, theta, float(direction)) for level in drive.levels])
@@ -64,7 +65,7 @@ def _play_of_cam(drive: PlaneDrive, theta: Floats, direction: float) -> Floats:
     """All in the frame that turns with the cam about the wheel's axis."""
     place, turn = (jet.d0 for jet in drive.pose(theta))
     upright = np.exp(-1j * turn)
-    free, foot_points, curvatures = np.empty(len(theta)), np.empty(_CAPACITY, complex), np.empty(_CAPACITY)
+    free, foot_points, curvatures = np.empty(len(theta)), np.empty(CAPACITY, complex), np.empty(CAPACITY)
     centres, place = drive.pin_centres(theta).d0 * upright[:, None], place * upright
     _free_rotations(drive.nodes, centres, place, drive.pin_radius, direction, drive.motion.pitch, free, foot_points, curvatures)
     return free
@@ -73,8 +74,9 @@ def _play_of_cam(drive: PlaneDrive, theta: Floats, direction: float) -> Floats:
 @inner
 def _free_rotations(nodes, centres, place, radius, direction, limit, free, foot_points, curvatures):
     """Writes `free` (n,) [rad]: free rotation at n positions; centres (n, pins), place (n,) complex [m]."""
+    pin = 0
     for k in range(len(place)):
-        free[k] = free_rotation(nodes, centres[k], place[k], radius, direction, limit, foot_points, curvatures)
+        free[k], pin = free_rotation(nodes, centres[k], place[k], radius, direction, limit, pin, foot_points, curvatures)
 
 
 @inner
@@ -85,55 +87,108 @@ def free_rotation(
     radius: float,
     direction: float,
     limit: float,
+    likely: int,
     foot_points: Complexes,
     curvatures: Floats,
-) -> float:
-    """Free rotation [rad] of one position up to `limit` [rad], nan beyond it.
+) -> tuple[float, int]:
+    """Free rotation [rad] of one position up to `limit` [rad], nan beyond it, and the number of the pin that stops the wheel.
 
     centres (pins,) complex [m], place complex [m]: pins and cam from the wheel's axis, in the frame that turns with the cam; direction:
-    +1 or -1; foot_points (n,) complex [m], curvatures (n,) [1/m]: work arrays of the search.
+    +1 or -1; likely: the pin to ask first, as the one that stops the wheel at a position nearby, for no pin is followed beyond the least
+    rotation of those before it; foot_points (n,) complex [m], curvatures (n,) [1/m]: work arrays of the search.
     """
-    turned, last = 0.0, 0.0
-    while turned <= limit:
-        gap, step = _approach(nodes, centres, place, radius, direction, turned, foot_points, curvatures)
+    least, stopping, pins = np.inf, likely, len(centres)
+    for k in range(pins):
+        pin = (likely + k) % pins
+        turned = _pin_rotation(nodes, centres[pin], place, radius, direction, min(limit, least), foot_points, curvatures)
+        if turned < least:
+            least, stopping = turned, pin
+            if least == 0.0:
+                break
+    return (least if least <= limit else np.nan), stopping
+
+
+@inner
+def pin_within_cam(
+    nodes: Nodes,
+    centres: Complexes,
+    place: complex,
+    radius: float,
+    direction: float,
+    turned: float,
+    likely: int,
+    foot_points: Complexes,
+    curvatures: Floats,
+) -> int:
+    """A pin that is inside the cam when the wheel is `turned` [rad], so that the wheel is free for less than that; -1 where none is.
+
+    Arguments as for `free_rotation`.
+    """
+    pins = len(centres)
+    for k in range(pins):
+        pin = (likely + k) % pins
+        gap, _, _, _ = _approach(nodes, centres[pin], place, radius, direction, turned, foot_points, curvatures)
+        if gap < -_PENETRATION:
+            return pin
+    return -1
+
+
+@inner
+def _pin_rotation(nodes, centre, place, radius, direction, limit, foot_points, curvatures):
+    """Rotation [rad] up to `limit` at which a pin touches the cam; inf where it does not. Arguments as for `free_rotation`."""
+    low, turned = 0.0, 0.0
+    while True:
+        gap, rate, step, free = _approach(nodes, centre, place, radius, direction, turned, foot_points, curvatures)
         if gap < -_TOUCHING:
-            return _bisected(nodes, centres, place, radius, direction, max(turned - last, 0.0), turned, foot_points, curvatures)
+            return _contact_rotation(nodes, centre, place, radius, direction, low, turned, foot_points, curvatures)
         if gap <= _TOUCHING:
-            return turned
-        last = step
-        turned += step
-    return np.nan
+            return turned + min(-gap / rate, _LEAST_STEP) if turned > 0.0 else 0.0
+        if turned >= limit or turned + free >= limit:
+            return np.inf
+        low, turned = turned, min(turned + step, limit)
 
 
 @inner
-def _approach(nodes, centres, place, radius, direction, turned, foot_points, curvatures):
-    """Least gap [m] of the pins that come nearer when the wheel turns on, and the step [rad] to take."""
-    least, step = np.inf, np.inf
+def _approach(nodes, centre, place, radius, direction, turned, foot_points, curvatures):
+    """Least gap [m] of a pin where it comes nearer as the wheel turns on, its rate [m/rad], the step [rad] to take, and the rotation [rad]
+    within which the pin touches nothing new whatever its way."""
     turn = complex(np.cos(turned), direction * np.sin(turned))
-    for k in range(len(centres)):
-        centre = centres[k] * turn
-        count = min(nearest(nodes, centre - place, _SEARCH_RADIUS * radius, foot_points, curvatures), _CAPACITY)
-        step = min(step, (_SEARCH_RADIUS - 1.0) * radius / abs(centre))
-        for j in range(count):
-            arm = centre - place - foot_points[j]
-            gap = abs(arm) - radius
-            lever = direction * (centre.real * arm.imag - centre.imag * arm.real) / abs(arm)
-            if lever < -1e-12:
-                least = min(least, gap)
-                step = min(step, max((gap + 0.02 * radius) / abs(centre), _LEAST_STEP), max(-gap / lever, _LEAST_STEP))
-            elif gap < -_PENETRATION:
-                least = min(least, gap)
-    return least, step
+    at, size = centre * turn, abs(centre)
+    arm = at - place
+    count = min(nearest(nodes, arm, _SEARCH_RADIUS * radius, foot_points, curvatures), CAPACITY)
+    least, rate, nearest_gap = np.inf, 0.0, (_SEARCH_RADIUS - 1.0) * radius
+    step = nearest_gap / size
+    for j in range(count):
+        away = arm - foot_points[j]
+        gap = abs(away) - radius
+        lever = direction * (at.real * away.imag - at.imag * away.real) / abs(away)
+        nearest_gap = min(nearest_gap, gap)
+        if lever < -1e-12:
+            step = min(step, max((gap + 0.02 * radius) / size, _LEAST_STEP), max(-gap / lever, _LEAST_STEP))
+        if gap < least and (lever < -1e-12 or gap < -_PENETRATION):
+            least, rate = gap, lever
+    return least, rate, step, nearest_gap / size
 
 
 @inner
-def _bisected(nodes, centres, place, radius, direction, low, high, foot_points, curvatures):
-    """Rotation between a free one and one where a pin is in the profile, to 1e-12 rad. Arrays as for `free_rotation`."""
-    while high - low > 1e-12:
-        middle = 0.5 * (low + high)
-        gap, _ = _approach(nodes, centres, place, radius, direction, middle, foot_points, curvatures)
+def _contact_rotation(nodes, centre, place, radius, direction, low, high, foot_points, curvatures):
+    """Rotation [rad] between a free one and one where the pin is in the cam: Newton's method inside a shrinking bracket.
+
+    Arguments as for `free_rotation`.
+    """
+    turned, before = high, high - low
+    while high - low > _EXACT:
+        gap, rate, _, _ = _approach(nodes, centre, place, radius, direction, turned, foot_points, curvatures)
         if gap < 0.0:
-            high = middle
+            high = turned
         else:
-            low = middle
+            low = turned
+        following = turned - gap / rate if rate < 0.0 else low
+        step = abs(following - turned)
+        if step < _EXACT and rate < 0.0:
+            return following
+        if not low < following < high or step > 0.5 * before:
+            following = 0.5 * (low + high)
+            step = abs(following - turned)
+        turned, before = following, step
     return low

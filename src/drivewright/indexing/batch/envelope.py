@@ -55,13 +55,15 @@ class PinPath(NamedTuple):
 
 @by_reference
 class CellGrid(NamedTuple):
-    """Numbers of the samples by the square cell in which they lie: `order[start[c]:start[c + 1]]` in cell c.
+    """Samples by the square cell in which they lie: in cell c those of the numbers `order[start[c]:start[c + 1]]`.
 
-    start (per_side^2 + 1,), order (samples,); per_side cells of `width` [m] along x and along y, from -reach [m] on.
+    start (per_side^2 + 1,), order (samples,), centre (samples,): z of the samples in that order [m], for a search runs along it;
+    per_side cells of `width` [m] along x and along y, from -reach [m] on.
     """
 
     start: Ints
     order: Ints
+    centre: Complexes
     per_side: int
     width: float
     reach: float
@@ -166,27 +168,30 @@ def sort_into_cells(path: PinPath, reach: float, width: float) -> CellGrid:
         start[number[k] + 1] += 1
     for cell in range(count * count):
         start[cell + 1] += start[cell]
-    order, following = np.empty(len(path.z), np.int64), start.copy()
+    order, following, centre = np.empty(len(path.z), np.int64), start.copy(), np.empty(len(path.z), np.complex128)
     for k in range(len(path.z)):
-        order[following[number[k]]] = k
+        place = following[number[k]]
+        order[place], centre[place] = k, path.z[k]
         following[number[k]] += 1
-    return CellGrid(start, order, count, width, reach)
+    return CellGrid(start, order, centre, count, width, reach)
 
 
 @inner
 def is_covered(path: PinPath, cells: CellGrid, radius: float, margin: float, point: complex, own: int, last_cover: Ints) -> bool:
-    """Whether a pin at another place than about the sample `own` covers the point; writes the sample that does to hint[0].
-
-    last_cover (1,): that hint, a sample's number.
-    """
+    """Whether a pin at another place than about the sample `own` covers the point; last_cover (1,): a sample to try first, and, written,
+    the number of the one that does."""
     size, near = len(path.z), radius + margin
     if _covers_point(path, radius, near, point, own, last_cover[0], size):
         return True
     low_x, high_x = _cell_range(cells, point.real, near)
-    low_y, high_y = _cell_range(cells, point.imag, near)
     for x in range(low_x, high_x + 1):
+        apart = max(x * cells.width - cells.reach - point.real, point.real - (x + 1) * cells.width + cells.reach, 0.0)  # of the column
+        low_y, high_y = _cell_range(cells, point.imag, np.sqrt(max(near * near - apart * apart, 0.0)))
         first, last = cells.start[x * cells.per_side + low_y], cells.start[x * cells.per_side + high_y + 1]
         for place in range(first, last):
+            arm = point - cells.centre[place]
+            if arm.real * arm.real + arm.imag * arm.imag >= near * near:
+                continue
             if _covers_point(path, radius, near, point, own, cells.order[place], size):
                 last_cover[0] = cells.order[place]
                 return True
@@ -212,20 +217,21 @@ def _covers_point(path, radius, near, point, own, k, size):
     apart = abs(k - own)
     if min(apart, size - apart) <= _OWN_SAMPLES:
         return False
-    return _foot_distance(path, arm, k) < radius - _COVER_DEPTH
+    return _foot_distance_squared(path, arm, k) < (radius - _COVER_DEPTH) ** 2
 
 
 @inner
-def _foot_distance(path, arm, k):
-    """Distance from the centre curve, by its second order, to the point at `arm` from sample k."""
+def _foot_distance_squared(path, arm, k):
+    """Square of the distance from the centre curve, by its second order, to the point at `arm` from sample k."""
     v, a, last = path.v[k], path.a[k], len(path.theta)
     j = k % last
     back = path.theta[j] - path.theta[j - 1] if j else 2 * np.pi - path.theta[last - 1]
     ahead = path.theta[j + 1] - path.theta[j] if j + 1 < last else 2 * np.pi - path.theta[j]
-    curvature = abs(v) ** 2 - (a.real * arm.real + a.imag * arm.imag)
+    curvature = v.real * v.real + v.imag * v.imag - (a.real * arm.real + a.imag * arm.imag)
     step = (v.real * arm.real + v.imag * arm.imag) / curvature if curvature > 0 else 0.0
     step = min(max(step, -back), ahead)
-    return abs(arm - step * (v + 0.5 * step * a))
+    x, y = arm.real - step * (v.real + 0.5 * step * a.real), arm.imag - step * (v.imag + 0.5 * step * a.imag)
+    return x * x + y * y
 
 
 @kernel

@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright._jit import kernel
 from drivewright._typing import Bools, Ints
-from drivewright.curves.touching import BLOCK, Nodes
+from drivewright.curves.touching import Nodes, bounding_circles
 from drivewright.indexing.batch.envelope import ExposedSegments
 
 _STILL = 1e-10  # chords shorter than this [m] are left out
@@ -78,21 +78,8 @@ def loop_nodes(segments: ExposedSegments, loop: Ints) -> Nodes:
     a, b, leave, arrive = a[:count], b[:count], leave[:count], arrive[:count]
     for k in range(count):
         b[k] = a[(k + 1) % count]  # no foot falls between two ends that differ by rounding
-    middle, reach = _blocks(a, b)
-    return Nodes(a, b, leave, arrive, middle, reach)
-
-
-@kernel
-def _blocks(a, b):
-    """Middle (n,) complex [m] and half width (n,) [m] of the blocks of BLOCK chords with the ends a, b (chords,) complex [m]."""
-    count = (len(a) + BLOCK - 1) // BLOCK
-    middle, reach = np.empty(count, np.complex128), np.zeros(count)
-    for k in range(count):
-        low, high = k * BLOCK, min((k + 1) * BLOCK, len(a))
-        middle[k] = 0.5 * (a[low] + b[high - 1])
-        for j in range(low, high):
-            reach[k] = max(reach[k], abs(a[j] - middle[k]) + 2 * abs(b[j] - a[j]))
-    return middle, reach
+    middle, radius = bounding_circles(a, b)
+    return Nodes(a, b, leave, arrive, middle, radius)
 
 
 @kernel

@@ -15,12 +15,12 @@ from drivewright.indexing.batch.envelope import (
 )
 from drivewright.indexing.batch.loops import find_cam_loop, loop_nodes, restrict_to_loop
 from drivewright.indexing.plane import PROFILE_TOLERANCE
-from drivewright.indexing.play import BACKWARD, FORWARD, free_rotation
+from drivewright.indexing.play import BACKWARD, CAPACITY, FORWARD, free_rotation, pin_within_cam
 
 VALUES = 8
 _LEAST_ARM = 1e-6  # an arm above this part of the pin circle stops the wheel
-FOOT_CAPACITY = 16
-_CELL_WIDTH = 0.5  # width of a cell over the pin's radius
+_CELL_WIDTH = 0.25  # width of a cell over the pin's radius
+_PASSES = 7  # over the places of the play: the first visits every 64th, each of the others those in the middle between
 
 
 @kernel
@@ -42,7 +42,7 @@ def evaluate_pin_wheel(
         return
     restrict_to_loop(exposed, segments, loop)
     nodes = loop_nodes(segments, loop)
-    foot_points, curvatures = np.empty(FOOT_CAPACITY, np.complex128), np.empty(FOOT_CAPACITY)
+    foot_points, curvatures = np.empty(CAPACITY, np.complex128), np.empty(CAPACITY)
     _evaluate_contacts(wheel, path, nodes, exposed, index_stride, index_count, values, foot_points, curvatures)
     _evaluate_play(wheel, path, nodes, exposed, play_stride, values, foot_points, curvatures, np.empty(wheel.pins, np.complex128))
     values[7] = _convex_radius(path, exposed)
@@ -123,20 +123,28 @@ def _crank(wheel, theta):
 def _evaluate_play(wheel, path, nodes, exposed, stride, values, foot_points, curvatures, centres):
     """Greatest play forward and backward; nan where nothing stops the wheel somewhere.
 
+    Where a pin is inside the cam after the greatest play so far, the play is less than that and is not sought.
     exposed (2, samples); values (VALUES,), of which the first two [rad] are written; centres (pins,) [m], foot_points (n,) [m],
     curvatures (n,) [1/m]: work arrays.
     """
+    limit = 2 * np.pi / wheel.pins
     for n, direction in enumerate((FORWARD, BACKWARD)):
-        values[n] = 0.0
-        for j in range(0, len(path.theta), stride):
-            if not _is_stopped(wheel, path, exposed, j, direction):
+        largest, pin = 0.0, 0
+        for visit in range(_PASSES):
+            step = stride << (_PASSES - 1 - visit)
+            for j in range(step if visit else 0, len(path.theta), 2 * step if visit else step):
+                if largest != largest or _is_stopped(wheel, path, exposed, j, direction):
+                    continue
                 crank = _crank(wheel, path.theta[j])
                 for turn in range(wheel.pins):
                     centres[turn] = path.z[turn * len(path.theta) + j] + crank
-                free = free_rotation(nodes, centres, crank, wheel.pin_radius, direction, 2 * np.pi / wheel.pins, foot_points, curvatures)
-                values[n] = np.nan if free != free else max(values[n], free)
-                if free != free:
-                    break
+                within = pin_within_cam(nodes, centres, crank, wheel.pin_radius, direction, largest, pin, foot_points, curvatures)
+                if within >= 0:
+                    pin = within
+                else:
+                    free, pin = free_rotation(nodes, centres, crank, wheel.pin_radius, direction, limit, pin, foot_points, curvatures)
+                    largest = max(largest, free) if free == free else np.nan
+        values[n] = largest
 
 
 @inner
