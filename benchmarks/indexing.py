@@ -20,7 +20,7 @@ def profile():
     """Exact trimming, and the same by shapely: the centre curve as a polygon of as many points, widened by the pin."""
     from shapely import LineString
 
-    from drivewright.indexing.plane import find_contacts, index_angles
+    from drivewright.indexing.plane import contacts_at, index_angles
 
     found = wheel()
     angles = index_angles(found)
@@ -29,8 +29,7 @@ def profile():
         return wheel().profile
 
     def mapped():
-        fresh = wheel()
-        return [find_contacts(fresh, angle) for angle in angles]
+        return contacts_at(wheel(), angles)
 
     exact = ours()
     yield "profile of twelve pins, trimmed on both sides", best(ours), f"area {1e6 * exact.area:.6f} mm^2, {len(exact.corners)} corners"

@@ -51,13 +51,9 @@ def _separation(chain, a, b):
 
 def _from_chords(chain):
     """Places (n, 2) where two chords that are not neighbours cross."""
-    from scipy.spatial import KDTree
-
     start = chain.segments
     a, b = chain.z[start], chain.z[start + 1]
-    middle = 0.5 * (a + b)
-    pairs = KDTree(np.stack([middle.real, middle.imag], axis=1)).query_pairs(1.0001 * np.max(np.abs(b - a)), output_type="ndarray")
-    i, j = np.sort(pairs, axis=1).T
+    i, j = _overlapping(a, b)
     apart = _separation(chain, i, j) > 1  # chord number k runs from step k to k + 1
     i, j = i[apart], j[apart]
     along_i, along_j, between = b[i] - a[i], b[j] - a[j], a[j] - a[i]
@@ -66,6 +62,27 @@ def _from_chords(chain):
         s, r = _cross(between, along_j) / area, _cross(between, along_i) / area
         hit = (s >= 0) & (s <= 1) & (r >= 0) & (r <= 1)
     return np.stack([start[i[hit]] + s[hit], start[j[hit]] + r[hit]], axis=1)
+
+
+def _overlapping(a, b):
+    """Numbers i < j of the chords from a to b (n,) whose upright boxes meet.
+
+    A binary tree of boxes over the chords in their order is compared with itself, level by level: about n log n comparisons.
+    """
+    ends = np.stack([[a.real, b.real], [a.imag, b.imag]])
+    low, high = np.min(ends, axis=1), np.max(ends, axis=1)
+    levels = []
+    while low.shape[1] > 1:
+        if low.shape[1] % 2:
+            low, high = np.pad(low, ((0, 0), (0, 1)), constant_values=np.inf), np.pad(high, ((0, 0), (0, 1)), constant_values=-np.inf)
+        levels.append((low, high))
+        low, high = np.minimum(low[:, ::2], low[:, 1::2]), np.maximum(high[:, ::2], high[:, 1::2])
+    i = j = np.zeros(1, dtype=int)
+    for low, high in reversed(levels):
+        i, j = np.concatenate([2 * i, 2 * i, 2 * i + 1, 2 * i + 1]), np.concatenate([2 * j, 2 * j + 1, 2 * j, 2 * j + 1])
+        meet = (i <= j) & (low[0, i] <= high[0, j]) & (low[0, j] <= high[0, i]) & (low[1, i] <= high[1, j]) & (low[1, j] <= high[1, i])
+        i, j = i[meet], j[meet]
+    return i[i < j], j[i < j]
 
 
 def _cusps(chain):

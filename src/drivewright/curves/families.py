@@ -67,15 +67,19 @@ class CircleFamily:
         return (*self._envelope(self.side), *other)
 
     def _envelope(self, side):
-        branches = {}  # pieces that share a formula share that of their envelope
         stops, starts = self._ends
         for number, piece in enumerate(self.path):
-            formula = getattr(piece.at, "formula", piece.at)
-            branch = branches.setdefault(formula, partial(_branch, formula, self.radius, side))
-            branch = Member(branch, piece.at.numbers) if isinstance(piece.at, Member) else branch
+            formula, numbers = (piece.at.formula, piece.at.numbers) if isinstance(piece.at, Member) else (piece.at, ())
             if number not in self._shrunk[side]:
+                branch = Member(self._branches[formula], (side, *numbers))
                 yield Piece(piece.start, piece.stop, branch, piece.label, piece.shape, number)
             yield from self._corner(piece, stops[number], starts[number], side)
+
+    @cached_property
+    def _branches(self):
+        """By formula of the path that of the envelope's branches, one and the same for all pieces that share it."""
+        formulas = {getattr(piece.at, "formula", piece.at) for piece in self.path}
+        return {formula: partial(_branch, formula, self.radius) for formula in formulas}
 
     @cached_property
     def _ends(self):

@@ -46,10 +46,10 @@ def offset(jet: Jet, distance: Numbers) -> Jet:
 
     It has a cusp where distance * curvature = 1 and runs backwards where the product is larger.
     """
-    return jet + distance * normal(jet)
+    return jet + Jet(*(distance * part for part in normal(jet)))
 
 
-def envelope_of_circle(centre: Jet, radius: float, side: float) -> Jet:
+def envelope_of_circle(centre: Jet, radius: float, side: Numbers) -> Jet:
     """Envelope of a circle of `radius` whose centre runs along the jet `centre`: its left (side=+1) or right (side=-1) branch."""
     return offset(centre, side * radius)
 

@@ -50,33 +50,59 @@ class Touches(NamedTuple):
     curvature: Floats
 
 
+class _Places(NamedTuple):
+    """Places on the spans of a profile: number of the span, its parameter, how far along the span, point [m], unit tangent; all (n,)."""
+
+    span: Ints
+    t: Floats
+    along: Floats
+    point: Complexes
+    heading: Complexes
+
+    def of(self, chosen: Any) -> "_Places":
+        """Some of the places."""
+        return _Places(self.span[chosen], self.t[chosen], self.along[chosen], self.point[chosen], self.heading[chosen])
+
+    def and_of(self, other: "_Places") -> "_Places":
+        """The places of both, one after the other."""
+        return _Places(
+            np.append(self.span, other.span),
+            np.append(self.t, other.t),
+            np.append(self.along, other.along),
+            np.append(self.point, other.point),
+            np.append(self.heading, other.heading),
+        )
+
+
 def nodes_of(spans: Sequence[Any], tolerance: float = 2e-10) -> Nodes:
     """Nodes of the spans of a Trimmed profile, in order; in their middles the cubics leave it by less than the tolerance [m]."""
-    index = np.repeat(np.arange(len(spans)), _CHORDS + 1)
     t = np.concatenate([np.linspace(span.start, span.stop, _CHORDS + 1) for span in spans])
-    halvings = 0
-    while True:
-        points, headings = _along(spans, index, t)
-        chords = np.flatnonzero(index[1:] == index[:-1])
-        middles = 0.5 * (t[chords] + t[chords + 1])
-        exact, heading = _along(spans, index[chords], middles)
-        a, b, leave, arrive = points[chords], points[chords + 1], headings[chords], headings[chords + 1]
-        cubic = 0.5 * (a + b) + 0.125 * np.abs(b - a) * (leave - arrive)
-        off = (np.abs(np.imag(np.conj(heading) * (cubic - exact))) > tolerance) | (np.real(np.conj(leave) * arrive) < _TURN)
-        if not off.any() or halvings == _HALVINGS - 1:
+    places = _on_spans(spans, np.repeat(np.arange(len(spans)), _CHORDS + 1), t)
+    start = np.flatnonzero(np.diff(places.span) == 0)
+    low, high = places.of(start), places.of(start + 1)
+    starts, stops = low.of(slice(0)), high.of(slice(0))
+    for halving in range(_HALVINGS):
+        middle = _on_spans(spans, low.span, 0.5 * (low.t + high.t))
+        cubic = 0.5 * (low.point + high.point) + 0.125 * np.abs(high.point - low.point) * (low.heading - high.heading)
+        far = np.abs(np.imag(np.conj(middle.heading) * (cubic - middle.point))) > tolerance
+        off = (far | (np.real(np.conj(low.heading) * high.heading) < _TURN)) & (halving < _HALVINGS - 1)
+        starts, stops = starts.and_of(low.of(~off)), stops.and_of(high.of(~off))
+        if not off.any():
             break
-        halvings += 1
-        t, index = np.insert(t, chords[off] + 1, middles[off]), np.insert(index, chords[off] + 1, index[chords[off]])
+        low, high = low.of(off).and_of(middle.of(off)), middle.of(off).and_of(high.of(off))
+    order = np.lexsort((starts.along, starts.span))
+    a = starts.point[order]
     b = np.roll(a, -1)  # so that no foot falls between two ends that differ by rounding
     chord = np.abs(b - a)
-    return Nodes(a, b, leave * chord, arrive * chord, *bounding_circles(a, b))
+    return Nodes(a, b, starts.heading[order] * chord, stops.heading[order] * chord, *bounding_circles(a, b))
 
 
-def _along(spans, index, t):
-    """Points and unit tangents at parameters t of the spans `index`."""
+def _on_spans(spans, index, t):
+    """`_Places` at parameters t of the spans `index`."""
     jet = gather(tuple(span.piece for span in spans), index, t)
-    slope = jet.d1 * np.array([np.sign(span.stop - span.start) for span in spans])[index]
-    return jet.d0, slope / np.abs(slope)
+    sense = np.array([np.sign(span.stop - span.start) for span in spans])[index]
+    slope = jet.d1 * sense
+    return _Places(index, t, sense * t, jet.d0, slope / np.abs(slope))
 
 
 @kernel

@@ -68,7 +68,8 @@ class Trimmed:
     """The surviving profile of a family.
 
     spans: stretches of the envelope in order around the profile; corners: the trim points between them; crossings: every
-    self-intersection of the envelope; area [m^2], perimeter [m] of the closed profile (of the part, or of the hole in it).
+    self-intersection of the envelope; area [m^2], perimeter [m] of the closed profile (of the part, or of the hole in it); sense: +1
+    where the spans run counter-clockwise.
     """
 
     family: EnvelopeFamily
@@ -77,6 +78,7 @@ class Trimmed:
     crossings: tuple[Crossing, ...]
     area: float
     perimeter: float
+    sense: float
     chain: Chain = field(repr=False)
 
     @property
@@ -112,7 +114,7 @@ def trim(family: EnvelopeFamily, interior: complex = 0j, samples: int = 1440, le
     loop = _choose(chain, parts, _loops(turns_into, alive), interior, family.material)
     spans, corners = _spans(chain, cuts, parts, following, loop)
     area, perimeter = span_measures(spans)
-    return Trimmed(family, spans, corners, crossings, abs(area), perimeter, chain)
+    return Trimmed(family, spans, corners, crossings, abs(area), perimeter, float(np.sign(area)), chain)
 
 
 def _refuse_swept(family, chain, interior):
@@ -230,9 +232,10 @@ def _spans(chain, cuts, parts, following, loop):
 def _split(chain, part):
     """Spans of the part, one per piece."""
     spans = []
-    pieces = np.flatnonzero((chain.first[:-1] >= part.low) & (chain.first[1:] <= part.high))
+    begin, end = np.searchsorted(chain.first, [part.low, part.high])  # pieces of its loop
     for turn in (0, part.high - part.low):
-        for k in pieces:
+        above = np.searchsorted(chain.first, [part.start - turn, part.stop - turn], side="right")
+        for k in range(max(begin, above[0] - 1), min(end, above[1])):
             piece = chain.pieces[k]
             low, high = max(part.start, chain.first[k] + turn), min(part.stop, chain.first[k + 1] - 1 + turn)
             if high > low:

@@ -4,23 +4,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from drivewright._typing import Bools, Floats
+from drivewright._typing import Bools, Complexes, Floats
 from drivewright.curves import Trimmed
+from drivewright.curves.pieces import gather
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.motion import TURN
-from drivewright.indexing.plane import PinDrive, PlaneDrive, find_contacts
+from drivewright.indexing.plane import PinDrive, PlaneDrive, contacts_at
 from drivewright.result import Array, Column, Table
 
 
 def profile_table(trimmed: Trimmed, name: str, chords: int = 24) -> Table:
     """Points along the profile with the input angle and the pin that cuts them; curvature positive where the cam is convex."""
-    rows = []
-    for span in trimmed.spans:
-        t = np.linspace(span.start, span.stop, chords + 1)
-        jet = span.piece.at(t)
-        curvature = np.imag(np.conj(jet.d1) * jet.d2) / np.maximum(np.abs(jet.d1), 1e-300) ** 3 * np.sign(span.stop - span.start)
-        rows.append(np.stack(np.broadcast_arrays(t, jet.d0.real, jet.d0.imag, curvature)))
-    t, x, y, curvature = np.concatenate(rows, axis=1)
+    t, points, curvature = _along_spans(trimmed, chords)
+    x, y = points.real, points.imag
     turns = np.floor(np.clip(t, 0, None) / TURN * (1 - 1e-12))
     way = np.sign(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
     return Table(
@@ -36,24 +32,28 @@ def profile_table(trimmed: Trimmed, name: str, chords: int = 24) -> Table:
     )
 
 
+def _along_spans(trimmed: Trimmed, chords: int) -> tuple[Floats, Complexes, Floats]:
+    """(t [rad], point [m], curvature [1/m], left turns positive) at the ends of as many chords on every span, span after span."""
+    spans = trimmed.spans
+    t = np.concatenate([np.linspace(span.start, span.stop, chords + 1) for span in spans])
+    number = np.repeat(np.arange(len(spans)), chords + 1)
+    jet = gather(tuple(span.piece for span in spans), number, t)
+    sense = np.array([np.sign(span.stop - span.start) for span in spans])[number]
+    return t, jet.d0, np.imag(np.conj(jet.d1) * jet.d2) / np.maximum(np.abs(jet.d1), 1e-300) ** 3 * sense
+
+
 def least_convex_radius(drive: PlaneDrive) -> float:
     """Least radius of the centre curve [m] where the trimmed profile is convex; nan where it never is."""
-    radii = []
-    for span in drive.profile.spans:
-        jet = span.piece.at(np.linspace(span.start, span.stop, 257))
-        speed = np.maximum(np.abs(jet.d1), 1e-300)
-        curvature = np.imag(np.conj(jet.d1) * jet.d2) / speed**3 * np.sign(span.stop - span.start)
-        convex = drive.orientation * curvature > 0
-        radii.append(np.min(1 / np.abs(curvature[convex]) + drive.pin_radius, initial=np.inf))
-    least = float(np.min(radii))
-    return least if np.isfinite(least) else np.nan
+    curvature = drive.orientation * _along_spans(drive.profile, 256)[2]
+    sharpest = float(np.max(curvature, initial=0.0))
+    return 1 / sharpest + drive.pin_radius if sharpest > 0 else np.nan
 
 
-def find_all_contacts(drive: PinDrive, angle: float) -> CamContacts:
-    """Contacts of one cam of each shape; pins of the second level count on from those of the first."""
-    contacts = [find_contacts(level, angle) for level in drive.levels]
-    shifted = [each._replace(pin=each.pin + drive.levels[0].pins * k) for k, each in enumerate(contacts)]
-    return CamContacts(*(np.concatenate(parts) for parts in zip(*shifted, strict=True)))
+def find_all_contacts(drive: PinDrive, angles: Floats) -> list[CamContacts]:
+    """Contacts of one cam of each shape at the input angles (n,) [rad]; pins of the second level count on from those of the first."""
+    levels = [contacts_at(level, angles) for level in drive.levels]
+    shifted = [[each._replace(pin=each.pin + drive.levels[0].pins * k) for each in level] for k, level in enumerate(levels)]
+    return [CamContacts(*(np.concatenate(parts) for parts in zip(*each, strict=True))) for each in zip(*shifted, strict=True)]
 
 
 def best_pressure_angles(contacts: Sequence[CamContacts], circle_radius: float) -> Floats:

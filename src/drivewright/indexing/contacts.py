@@ -22,3 +22,15 @@ class CamContacts(NamedTuple):
     gap: Floats
     curvature: Floats
     intended: Bools
+
+    def of(self, chosen: slice | Ints | Bools) -> "CamContacts":
+        """Some of the contacts."""
+        return CamContacts(
+            self.pin[chosen],
+            self.centre[chosen],
+            self.normal[chosen],
+            self.arm[chosen],
+            self.gap[chosen],
+            self.curvature[chosen],
+            self.intended[chosen],
+        )

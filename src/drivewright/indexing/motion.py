@@ -6,7 +6,7 @@ from typing import Literal
 
 import numpy as np
 
-from drivewright._typing import ArrayLike, Numbers
+from drivewright._typing import ArrayLike, Ints, Numbers
 from drivewright.errors import InputError
 from drivewright.motion import MotionLaw, law
 from drivewright.numerics.jets import Jet
@@ -48,16 +48,17 @@ class IndexMotion:
         moving = tuple(MotionSegment(float(a), float(b), k) for k, (a, b) in enumerate(zip(ends[:-1], ends[1:], strict=True)))
         return moving if self.motion_angle >= TURN else (*moving, MotionSegment(self.motion_angle, TURN, None))
 
-    def on_segment(self, segment: MotionSegment, theta: ArrayLike, turn: Numbers = 0) -> Jet:
-        """Jet of phi [rad] by the input angle theta, counted in turn number `turn`, by the formula of a segment; one-sided at its ends."""
-        theta = np.asarray(theta, dtype=float)
-        if segment.law_piece is None:
-            still = np.zeros_like(theta)
-            return Jet(still + self.pitch * (turn + 1), still, still, still)
-        ends = self.law.breaks[segment.law_piece : segment.law_piece + 2]
-        law = self.law.on_piece(segment.law_piece, np.clip(theta / self.motion_angle, *ends))
-        s, v, a, j = (np.asarray(part, dtype=float) for part in law)
-        return Jet(self.pitch * (turn + s), *(self.pitch * d / self.motion_angle**k for k, d in enumerate((v, a, j), start=1)))
+    def on_segment(self, number: int | Ints, theta: ArrayLike, turn: Numbers = 0) -> Jet:
+        """Jet of phi [rad] by the input angle theta, counted in turn number `turn`, by the formula of a segment; one-sided at its ends.
+
+        number: of the segment, or an array of them; the dwell comes after the pieces of the law.
+        """
+        theta, last = np.asarray(theta, dtype=float), len(self.law.breaks) - 2
+        moving, piece = np.asarray(number) <= last, np.minimum(number, last)
+        u = np.clip(theta / self.motion_angle, self.law.breaks[piece], self.law.breaks[piece + 1])
+        s, *rates = (np.asarray(part, dtype=float) for part in self.law.on_piece(piece, u))
+        derivatives = (np.where(moving, self.pitch * d / self.motion_angle**k, 0.0) for k, d in enumerate(rates, start=1))
+        return Jet(self.pitch * (turn + np.where(moving, s, 1.0)), *derivatives)
 
     def __call__(self, theta: ArrayLike) -> Jet:
         """Jet of phi [rad] by the input angle theta [rad], any turn; at a joint the segment that begins there."""
@@ -65,13 +66,7 @@ class IndexMotion:
         turn = np.floor(theta / TURN)
         inside = theta - TURN * turn
         starts = np.array([segment.start for segment in self.segments])
-        number = np.clip(np.searchsorted(starts, inside, side="right") - 1, 0, len(starts) - 1)
-        parts = np.zeros((4, *theta.shape))
-        for k, segment in enumerate(self.segments):
-            here = number == k
-            if np.any(here):
-                parts[:, here] = np.stack(np.broadcast_arrays(*self.on_segment(segment, inside[here], turn[here])))
-        return Jet(parts[0], parts[1], parts[2], parts[3])
+        return self.on_segment(np.clip(np.searchsorted(starts, inside, side="right") - 1, 0, len(starts) - 1), inside, turn)
 
 
 def step_angle(name: str, motion_to_dwell: Numbers | Literal["no-dwell"]) -> Numbers:

@@ -4,7 +4,8 @@ import numpy as np
 
 from drivewright import contact
 from drivewright._typing import Floats
-from drivewright.indexing.plane import PinDrive, PlaneDrive, find_contacts
+from drivewright.indexing.contacts import CamContacts
+from drivewright.indexing.plane import PinDrive, contacts_at
 from drivewright.result import Column, Table, Value
 
 
@@ -19,9 +20,8 @@ def pin_pressure(force: float, curvature: float, pin_radius: float, width: float
     return float(contact.line_contact(force, width, 1 / relative, modulus).pressure)
 
 
-def best_resisting_contact(drive: PlaneDrive, angle: float, torque: float) -> tuple[int, float, float]:
+def best_resisting_contact(contacts: CamContacts, torque: float) -> tuple[int, float, float]:
     """(pin, arm [m], curvature [1/m]) of the intended contact that resists the torque with the longest arm; arm 0 where none does."""
-    contacts = find_contacts(drive, angle)
     lever = np.where(contacts.intended, -np.sign(torque) * contacts.arm, -np.inf)
     if not len(lever) or np.max(lever) <= 0:
         return 0, 0.0, 0.0
@@ -34,9 +34,9 @@ def longest_lever_table(drive: PinDrive, angles: Floats, torque: float, width: f
 
     angles (n,) [rad]: a row for each at which a roller of any cam resists; width of the cams [m], effective modulus E* [Pa].
     """
-    rows = []
-    for angle in angles:
-        best = [best_resisting_contact(level, angle, torque) for level in drive.levels]
+    rows, levels = [], zip(*(contacts_at(level, angles) for level in drive.levels), strict=True)
+    for angle, contacts in zip(angles, levels, strict=True):
+        best = [best_resisting_contact(each, torque) for each in contacts]
         number, (pin, arm, curvature) = max(enumerate(best), key=lambda each: abs(each[1][1]))
         if arm:
             force, level = abs(torque / arm), drive.levels[number]

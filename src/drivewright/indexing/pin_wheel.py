@@ -50,6 +50,10 @@ class PinWheel(PlaneDrive):
         """The cam's centre and its turn, which is 0."""
         return self.crank_vector(theta), constant(np.zeros(np.shape(theta)))
 
+    def seen_from_cam(self, point: Jet, theta: ArrayLike) -> Jet:
+        """The point from the cam's centre, for the cam does not turn."""
+        return point - self.crank_vector(theta)
+
     def refuse(self) -> None:
         """InputError for measures that leave no cam or no wheel."""
         refuse_impossible(self)

@@ -6,14 +6,14 @@ profile is the envelope of one circle on it, on both sides, trimmed by all of it
 """
 
 from collections.abc import Callable, Iterator
-from functools import cached_property
+from functools import cached_property, partial
+from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
 
-from drivewright._typing import ArrayLike, Bools, Complexes, Floats
-from drivewright.curves import CircleFamily, Piece, Trimmed, trim
-from drivewright.curves.outlines import span_measures
+from drivewright._typing import ArrayLike, Bools, Complexes, Floats, Numbers
+from drivewright.curves import CircleFamily, Member, Piece, Trimmed, trim
 from drivewright.curves.touching import Nodes, Touches, nodes_of, touches
 from drivewright.errors import InputError, SolverError
 from drivewright.indexing.contacts import CamContacts
@@ -83,35 +83,37 @@ class PlaneDrive:
         phi = _column(self.motion(theta))
         return self.circle_radius * exp(1j * (phi + self.phase + TURN / self.pins * np.arange(self.pins)))
 
+    def seen_from_cam(self, point: Jet, theta: ArrayLike) -> Jet:
+        """A point given from the wheel's axis as it is seen from the cam: complex jets by theta [m]."""
+        place, turn = self.pose(theta)
+        return (point - place) * exp(-1j * turn)
+
     def pin_paths(self, theta: ArrayLike) -> Jet:
         """Centres of the pins seen from the cam: complex jet by theta, shape (..., pins)."""
-        place, turn = (_column(jet) for jet in self.pose(theta))
-        return (self.pin_centres(theta) - place) * exp(-1j * turn)
+        return self.seen_from_cam(self.pin_centres(theta), np.asarray(theta, dtype=float)[..., None])
 
     @cached_property
     def family(self) -> CircleFamily:
         """All circles that cut the cam: pin 0 over as many turns of the input as there are pins."""
-        steps = [(segment, self._formula(segment)) for segment in self.motion.segments]  # one for all turns: evaluated together
         pieces = [
-            Piece(start, stop, at, f"step {turn}", _shape(segment))
-            for segment, at in steps
-            for turn, start, stop in _between_cusps(at, segment, self.pins)
+            Piece(start, stop, Member(self._path, (float(number),)), f"step {turn}", _shape(segment))
+            for number, segment in enumerate(self.motion.segments)
+            for turn, start, stop in _between_cusps(partial(self._path, number), segment, self.pins)
         ]
         pieces.sort(key=lambda piece: piece.start)
         return CircleFamily(tuple(pieces), self.pin_radius, self.side, both=True)
 
-    def _formula(self, segment: MotionSegment) -> Callable[[ArrayLike], Jet]:
-        """Pin 0 seen from the cam by the formula of one segment, theta counted over all turns."""
-        middle = 0.5 * (segment.start + segment.stop)
+    def _path(self, number: Numbers, theta: ArrayLike) -> Jet:
+        """Pin 0 seen from the cam, theta counted over all turns, by the formula of a segment's number or of an array of them."""
+        theta, segment = np.asarray(theta, dtype=float), np.asarray(number).astype(int)
+        turn = np.round((theta - self._middles[segment]) / TURN)
+        phi = self.motion.on_segment(segment, theta - TURN * turn, turn)
+        return self.seen_from_cam(self.circle_radius * exp(1j * (phi + self.phase)), theta)
 
-        def at(theta):
-            theta = np.asarray(theta, dtype=float)
-            turn = np.round((theta - middle) / TURN)
-            phi = self.motion.on_segment(segment, theta - TURN * turn, turn)
-            place, angle = self.pose(theta)
-            return (self.circle_radius * exp(1j * (phi + self.phase)) - place) * exp(-1j * angle)
-
-        return at
+    @cached_property
+    def _middles(self) -> Floats:
+        """Input angles [rad] in the middle of the segments."""
+        return np.array([0.5 * (segment.start + segment.stop) for segment in self.motion.segments])
 
     @cached_property
     def profile(self) -> Trimmed:
@@ -139,7 +141,7 @@ class PlaneDrive:
         """The profile as nodes, for the search of contacts."""
         return nodes_of(self.profile.spans)
 
-    @property
+    @cached_property
     def orientation(self) -> float:
         """+1 where the profile's nodes run counter-clockwise."""
         a, b = self.nodes.a, self.nodes.b
@@ -149,7 +151,7 @@ class PlaneDrive:
 def _runs_around(profile: Trimmed, family: CircleFamily) -> bool:
     """Whether the profile runs the way it must for the part to lie on its side; the edge on the other side of the pins runs against it."""
     side = family.side if family.material == "inside" else -family.side
-    return span_measures(profile.spans)[0] * side > 0
+    return profile.sense * side > 0
 
 
 def _between_cusps(
@@ -199,15 +201,22 @@ def pitch_point(drive: PlaneDrive, theta: ArrayLike) -> Complexes:
 
 def envelope_points(drive: PlaneDrive, theta: ArrayLike) -> Complexes:
     """The two candidate points of contact of each pin, complex, shape (..., pins, 2), seen from the cam; nan where a pin stands still."""
-    path = drive.pin_paths(theta)
+    return _both_sides(drive.pin_paths(theta), drive.pin_radius)
+
+
+def _both_sides(path: Jet, radius: float) -> Complexes:
+    """Points at `radius` [m] to the left and the right of a path."""
     with np.errstate(divide="ignore", invalid="ignore"):
         normal = 1j * path.d1 / np.abs(path.d1)
-    return path.d0[..., None] + drive.pin_radius * normal[..., None] * np.array([1.0, -1.0])
+    return path.d0[..., None] + radius * normal[..., None] * np.array([1.0, -1.0])
 
 
 def centre_curvature(drive: PlaneDrive, theta: ArrayLike) -> Floats:
     """Curvature of the centre curve of each pin, left turns positive [1/m], shape (..., pins)."""
-    path = drive.pin_paths(theta)
+    return _path_curvature(drive.pin_paths(theta))
+
+
+def _path_curvature(path: Jet) -> Floats:
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.imag(np.conj(path.d1) * path.d2) / np.abs(path.d1) ** 3
 
@@ -218,37 +227,46 @@ def find_contacts(drive: PlaneDrive, theta: float, reach: float = 5e-4, turned: 
     A place is `intended` where it is the envelope's own point, lies on the profile and the wheel stands in its place; its curvature is
     exact, that of the others good to some percent.
     """
-    theta = float(theta)
+    return contacts_at(drive, [float(theta)], reach, turned)[0]
+
+
+def contacts_at(drive: PlaneDrive, theta: ArrayLike, reach: float = 5e-4, turned: Numbers = 0.0) -> list[CamContacts]:
+    """`find_contacts` at the input angles theta (n,) [rad], the wheel off its place by `turned` [rad], one for all or (n,)."""
+    theta = np.asarray(theta, dtype=float)
+    turned = np.broadcast_to(np.asarray(turned, dtype=float), theta.shape)
     place, turn = (jet.d0 for jet in drive.pose(theta))
-    upright = np.exp(-1j * turn)
-    centre = drive.pin_centres(theta).d0 * np.exp(1j * turned)
-    touching = touches(drive.nodes, (centre - place) * upright, drive.pin_radius, reach)
-    point, curvature, own = _own_points(drive, touching, theta)
-    intended = own & (turned == 0.0)
-    at = centre[touching.centre]
-    arm = at - place - np.where(intended, point, touching.point) / upright
-    normal = arm / np.abs(arm)
+    upright, path = np.exp(-1j * turn), drive.pin_paths(theta)
+    centre = drive.pin_centres(theta).d0 * np.exp(1j * turned)[:, None]
+    touching = touches(drive.nodes, (centre - place[:, None]) * upright[:, None], drive.pin_radius, reach)
+    row, pin = np.divmod(touching.centre, drive.pins)
+    point, curvature, own = _own_points(drive, touching, path)
+    intended = own & (turned[row] == 0.0)
+    at = centre[row, pin]
+    arm = at - place[row] - np.where(intended, point, touching.point) / upright[row]
+    normal = np.asarray(arm / np.abs(arm), dtype=np.complex128)
     arm_about_wheel = np.imag(np.conj(at) * normal)
     arm_about_wheel[np.abs(arm_about_wheel) < _LEAST_ARM * drive.circle_radius] = 0.0
     gap = np.where(intended, 0.0, np.maximum(touching.gap, 0.0))
-    return CamContacts(
-        touching.centre, at, normal, arm_about_wheel, gap, np.where(intended, curvature, drive.orientation * touching.curvature), intended
-    )
+    curvature = np.where(intended, curvature, drive.orientation * touching.curvature)
+    all_contacts = CamContacts(pin, at, normal, arm_about_wheel, gap, curvature, intended)
+    ends = np.searchsorted(row, np.arange(len(theta) + 1))
+    return [all_contacts.of(slice(low, high)) for low, high in pairwise(ends)]
 
 
-def _own_points(drive: PlaneDrive, touching: Touches, theta: float) -> tuple[Complexes, Floats, Bools]:
+def _own_points(drive: PlaneDrive, touching: Touches, path: Jet) -> tuple[Complexes, Floats, Bools]:
     """For each touch the envelope's own point that is nearest, the part's curvature there, and whether the touch is that point.
 
+    path (n, pins): of the pins that the touches count one after the other.
     The gap alone would not tell: where the own point is cut away beside a corner, the corner is nearly as near to the pin.
     """
-    envelope = envelope_points(drive, theta)
+    envelope = _both_sides(path, drive.pin_radius).reshape(-1, 2)
     own = envelope[touching.centre]
     apart = np.nan_to_num(np.abs(touching.point[:, None] - own), nan=np.inf)
     nearest = np.arange(len(apart)), np.argmin(apart, axis=1)
     left = np.zeros(envelope.size, dtype=bool)
     left[touches(drive.nodes, envelope, 0.0, PROFILE_TOLERANCE).centre] = True
     on_profile = left.reshape(envelope.shape)[touching.centre][nearest]
-    signed = (1 - 2 * nearest[1]) * centre_curvature(drive, theta)[touching.centre]  # towards the side of the part
+    signed = (1 - 2 * nearest[1]) * _path_curvature(path).ravel()[touching.centre]  # towards the side of the part
     with np.errstate(divide="ignore", invalid="ignore"):
         curvature = signed / (1 - drive.pin_radius * signed)
     return own[nearest], curvature, on_profile & (apart[nearest] < _SAME_POINT) & (touching.gap < PROFILE_TOLERANCE)
@@ -276,10 +294,10 @@ def contact_pressure_angle(drive: PinDrive, theta: ArrayLike, direction: float) 
 
     nan where no intended contact of any level does.
     """
-    best = np.array([max((_best_arm(level, one, direction) for level in drive.levels), default=0.0) for one in np.atleast_1d(theta)])
+    best = np.max([_best_arms(level, np.atleast_1d(theta), direction) for level in drive.levels], axis=0)
     return np.arccos(np.where(best > 0, np.minimum(best / drive.circle_radius, 1.0), np.nan))
 
 
-def _best_arm(drive: PlaneDrive, theta: float, direction: float) -> float:
-    found = find_contacts(drive, theta, reach=2 * PROFILE_TOLERANCE)
-    return np.max(direction * found.arm[found.intended], initial=0.0)
+def _best_arms(drive: PlaneDrive, theta: Floats, direction: float) -> Floats:
+    found = contacts_at(drive, theta, reach=2 * PROFILE_TOLERANCE)
+    return np.array([np.max(direction * each.arm[each.intended], initial=0.0) for each in found])

@@ -24,10 +24,10 @@ def tabulate_motion(motion: IndexMotion, knots: int = KNOTS) -> tuple[Floats, Fl
     No cell crosses a joint of the law, where higher derivatives jump.
     """
     ends, rows = [0.0], []
-    for segment in motion.segments:
+    for number, segment in enumerate(motion.segments):
         count = max(4, int(np.ceil(knots * (segment.stop - segment.start) / TURN)))
         theta = np.linspace(segment.start, segment.stop, count + 1)
-        f, d1, d2, _ = motion.on_segment(segment, theta)
+        f, d1, d2, _ = motion.on_segment(number, theta)
         rows.append(_quintic(np.diff(theta), f, d1, d2))
         ends.extend(theta[1:])
     return np.array(ends), np.concatenate(rows)

@@ -10,7 +10,7 @@ from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.drivetrain import Drivetrain
 from drivewright.indexing.motion import TURN, IndexMotion
 from drivewright.indexing.pin_wheel import PinWheel
-from drivewright.indexing.plane import find_contacts
+from drivewright.indexing.plane import contacts_at
 from drivewright.indexing.play import find_play
 from drivewright.indexing.stiffness.result import FREE, TorsionalStiffness, take_up_play
 from drivewright.indexing.stiffness.solve import solve_torsional_stiffness
@@ -29,7 +29,7 @@ class LoadedWheel(NamedTuple):
 
 def solve_loaded(loaded: LoadedWheel, angles: Floats, torque: float) -> tuple[TorsionalStiffness, list[CamContacts]]:
     """(result, contacts) at the input angles (p,) [rad] under a torque [N m], the unloaded wheel in its ideal place."""
-    contacts = [find_contacts(loaded.wheel, angle, REACH) for angle in angles]
+    contacts = contacts_at(loaded.wheel, angles, REACH)
     return solve_at_contacts(loaded, angles, contacts, torque), contacts
 
 
@@ -48,10 +48,7 @@ def solve_after_play(
     play = np.where(turned, free, 0.0)
     if loaded.model == "bonded" or not turned.any():
         return first, contacts, play
-    touching = [
-        find_contacts(loaded.wheel, angle, REACH, turned=float(np.sign(torque) * each) if way else 0.0)
-        for angle, each, way in zip(angles, free, turned, strict=True)
-    ]
+    touching = contacts_at(loaded.wheel, angles, REACH, np.sign(torque) * play)
     return take_up_play(first, solve_at_contacts(loaded, angles, touching, torque)), touching, play
 
 

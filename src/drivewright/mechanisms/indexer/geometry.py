@@ -81,7 +81,7 @@ def _findings(model: IndexerModel) -> Iterator[str]:
 def contact_map(model: IndexerModel, done: Answers) -> Answer:
     """Which pins touch one cam, which way it can push them, and how well."""
     drive, angles = model.plane, model.angles
-    contacts = [find_all_contacts(drive, angle) for angle in angles]
+    contacts = find_all_contacts(drive, angles)
     best = best_pressure_angles(contacts, drive.circle_radius)
     driving = driving_pressure_angle(drive.motion(angles).d2, best)
     table = contact_count_table(angles, contacts, drive, driving, best)
