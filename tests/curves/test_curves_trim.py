@@ -5,6 +5,8 @@ import pytest
 import shapely
 
 from drivewright import curves
+from drivewright.curves import crossings
+from drivewright.curves.outlines import span_measures
 from drivewright.errors import InputError
 from drivewright.numerics.jets import constant, cos, exp, sin, variable
 
@@ -26,6 +28,39 @@ def test_a_roller_on_a_circle_leaves_a_circle(sense, material, radius):
     assert left.perimeter == pytest.approx(2 * PI * radius, rel=1e-13)
     (arc,) = left.outline().pieces
     np.testing.assert_allclose([*arc.center, arc.radius, arc.sweep], [0.004, 0.001, radius, 2 * PI], rtol=1e-9)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_the_sense_is_that_in_which_the_spans_run(sense):
+    left = curves.trim(curves.CircleFamily(circle_path(0.03, 0.004 + 0.001j, sense), 0.006, "inside"))
+    assert left.sense == sense
+
+
+def test_chords_that_may_cross_are_all_whose_boxes_meet():
+    """Beside every pair, for curves of 2 to 400 chords, upright and level ones among them; touching boxes meet."""
+    rng = np.random.default_rng(5)
+    for count in (2, 3, 5, 8, 63, 400):
+        z = np.cumsum(rng.normal(size=count + 1) + 1j * rng.normal(size=count + 1))
+        z[1] = z[0] + 1.0
+        a, b = z[:-1], z[1:]
+        found = crossings._overlapping(a, b)
+        x, y = (np.sort([part(a), part(b)], axis=0) for part in (np.real, np.imag))
+        meet = np.all([(low[:, None] <= high) & (low <= high[:, None]) for low, high in (x, y)], axis=0)
+        wanted = np.argwhere(np.triu(meet, 1))
+        np.testing.assert_array_equal(sorted(zip(*found, strict=True)), [tuple(pair) for pair in wanted])
+
+
+def test_measures_of_many_spans_are_the_sum_of_each():
+    """A wave cut into stretches of unequal length, beside the closed form of its area, (1/2) sum k |c_k|^2 2 pi, and each by itself."""
+    ends = np.array([0.0, 0.01, 0.9, 3.0, 2 * PI])
+    piece = curves.Piece(0.0, 2 * PI, lambda t: 0.003 + 0.05 * exp(1j * variable(t)) + 0.006 * exp(-4j * variable(t)))
+    spans = [curves.Span(piece, a, b) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    area, length = span_measures(spans)
+    assert area == pytest.approx(PI * (0.05**2 - 4 * 0.006**2), rel=1e-12)
+    each = np.sum([span_measures([span]) for span in spans], axis=0)
+    np.testing.assert_allclose([area, length], each, rtol=1e-12)
+    back = [curves.Span(piece, span.stop, span.start) for span in reversed(spans)]
+    np.testing.assert_allclose(span_measures(back), [-area, length], rtol=1e-12)
 
 
 def square_path(half):

@@ -10,7 +10,7 @@ from drivewright.indexing.motion import TURN, index_motion
 from drivewright.indexing.parallel import ParallelIndexer
 from drivewright.indexing.plane import centre_curvature, contact_pressure_angle, envelope_points, find_contacts, pitch_point
 from drivewright.indexing.play import BACKWARD, FORWARD, find_play
-from drivewright.numerics.jets import Jet, variable
+from drivewright.numerics.jets import Jet, constant, variable
 
 pytestmark = pytest.mark.analytical
 
@@ -137,3 +137,12 @@ def test_shafts_too_close_leave_play_and_the_mirror_theorem_holds():
 def test_play_knows_no_unit_of_length():
     theta = np.deg2rad(np.arange(3.0, 180.0, 9.0))
     np.testing.assert_allclose(find_play(drive(0.08), theta, FORWARD), find_play(drive(0.08, scale=3.0), theta, FORWARD), atol=1e-7)
+
+
+def test_a_point_is_seen_from_a_cam_that_turns():
+    """A point of the wheel's plane, turned by +theta about the input shaft: its distance stays, its derivatives are differences."""
+    level, h = drive().levels[0], 1e-5
+    seen = level.seen_from_cam(constant(np.full(THETA.shape, 0.01 + 0.02j)), THETA)
+    np.testing.assert_allclose(seen.d0, (0.01 + 0.02j - C) * np.exp(1j * THETA), rtol=1e-14)
+    ahead, back = (level.seen_from_cam(constant(np.full(THETA.shape, 0.01 + 0.02j)), THETA + d).d0 for d in (h, -h))
+    np.testing.assert_allclose(seen.d1, (ahead - back) / (2 * h), rtol=1e-8)

@@ -9,7 +9,7 @@ import shapely
 from drivewright.curves.touching import touches
 from drivewright.indexing.motion import TURN, index_motion
 from drivewright.indexing.pin_wheel import PinWheel
-from drivewright.indexing.plane import centre_curvature, envelope_points, find_contacts, index_angles, pitch_point
+from drivewright.indexing.plane import centre_curvature, contacts_at, envelope_points, find_contacts, index_angles, pitch_point
 
 pytestmark = pytest.mark.analytical
 
@@ -175,3 +175,28 @@ def test_a_missed_crossing_is_not_answered_with_the_outer_edge():
     """With 16 pins and slow places of the path the first sampling misses a crossing; the area is shapely's of the same pins."""
     drive = PinWheel(16, R, 6.983337529689183e-3, 14.160737410022744e-3, index_motion("modified-sine", 16, 5.958))
     assert drive.profile.area == pytest.approx(4.0176247e-2, rel=1e-4)
+
+
+def test_contacts_of_many_positions_are_those_of_each():
+    """At once beside one by one, with the wheel in its place and turned at some of the positions."""
+    drive, theta = wheel(), np.deg2rad([0.0, 13.5, 45.0, 90.0, 151.0, 230.0])
+    turned = np.array([0.0, 0.002, 0.0, -0.001, 0.0, 3e-4])
+    together = contacts_at(drive, theta, 2e-3, turned)
+    assert len(together) == len(theta)
+    for each, angle, off in zip(together, theta, turned, strict=True):
+        alone = find_contacts(drive, angle, 2e-3, off)
+        for own, wanted in zip(each, alone, strict=True):
+            np.testing.assert_allclose(own, wanted, rtol=1e-12)
+        assert len(each.pin) > 6 and each.intended.any() == (off == 0)
+
+
+def test_a_wheel_of_many_pins_is_as_exact_as_one_of_few():
+    """Forty pins on the pitch of twelve: area and lobes beside a union of the pins by shapely."""
+    drive = PinWheel(40, 0.4, 8e-3, E, index_motion("modified-sine", 40))
+    theta = np.linspace(0, TURN, 1440, endpoint=False)
+    centres = drive.pin_paths(theta).d0
+    path = np.append(centres.T.ravel(), centres[0, 0])
+    swept = shapely.LineString(np.stack([path.real, path.imag], axis=1)).buffer(8e-3, quad_segs=64)
+    hole = max((shapely.Polygon(ring) for ring in swept.interiors), key=lambda each: each.area)
+    assert drive.profile.area == pytest.approx(hole.area, rel=2e-6)
+    assert drive.profile.perimeter == pytest.approx(hole.length, rel=1e-3)

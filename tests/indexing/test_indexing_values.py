@@ -104,3 +104,27 @@ def test_dwell_angles_lie_inside_the_dwell_in_equal_steps():
         len(angles) == 9 and angles[0] == pytest.approx(4.0 + (TURN - 4.0) / 10) and angles[-1] == pytest.approx(TURN - (TURN - 4.0) / 10)
     )
     assert all(len(dwell_angles(IndexMotion(law("modified-sine"), 12, angle), 0.25)) == 0 for angle in (TURN - 0.2, TURN))
+
+
+def test_segments_by_number_are_those_of_the_law_and_a_dwell():
+    """An array of numbers gives what each number gives alone: the law's own pieces, and rest at the level reached."""
+    motion, turn = IndexMotion(law("modified-sine"), 12, 4.0), np.array([0.0, 3.0, 5.0, 2.0, 7.0])
+    middles = np.array([0.5 * (segment.start + segment.stop) for segment in motion.segments])
+    numbers = np.arange(len(middles))
+    jet = motion.on_segment(numbers, middles, turn[: len(middles)])
+    for k, number in enumerate(numbers):
+        np.testing.assert_allclose([part[k] for part in jet], [float(part) for part in motion.on_segment(int(number), middles[k], turn[k])])
+    s, v, a, j = motion.law(middles[:-1] / 4.0)
+    np.testing.assert_allclose(jet.d0, motion.pitch * (turn[: len(middles)] + [*s, 1.0]), rtol=1e-14)
+    for part, d, k in ((jet.d1, v, 1), (jet.d2, a, 2), (jet.d3, j, 3)):
+        np.testing.assert_allclose(part, motion.pitch * np.array([*d, 0.0]) / 4.0**k, rtol=1e-13, atol=1e-15)
+
+
+def test_a_segment_is_one_sided_at_its_ends():
+    """Beyond its ends a segment stays at them: before the dwell phi is that of the law's last piece, after its start that of rest."""
+    motion = IndexMotion(law("modified-trapezoid"), 12, 4.0)
+    last = len(motion.segments) - 2
+    jet = motion.on_segment(np.array([last, last + 1]), np.array([4.0, 4.0]))
+    np.testing.assert_allclose(jet.d0, motion.pitch, rtol=1e-14)
+    np.testing.assert_allclose(jet.d1, 0, atol=1e-12)
+    assert abs(jet.d3[0]) > 1e-3 and jet.d3[1] == 0

@@ -220,13 +220,14 @@ def _choose(chain, parts, loops, interior, material):
 
 
 def _spans(chain, cuts, parts, following, loop):
-    spans, corners = [], []
-    for number, k in enumerate(loop):
-        spans += _split(chain, parts[k])
-        if k < len(cuts):
-            index, t = chain.locate(cuts[[following[k], loop[(number + 1) % len(loop)]]])
-            corners.append(Corner(float(t[0]), float(t[1]), complex(gather(chain.pieces, index, t).d0[0])))
-    return tuple(spans), tuple(corners)
+    """Spans of the parts of the loop, in order, and the corners between them; a loop without a cut has none."""
+    spans = tuple(span for k in loop for span in _split(chain, parts[k]))
+    if loop[0] >= len(cuts):
+        return spans, ()
+    index, t = chain.locate(cuts[np.stack([following[loop], np.roll(loop, -1)])].ravel())
+    leaves, resumes = t.reshape(2, -1)
+    points = gather(chain.pieces, index[: len(loop)], leaves).d0
+    return spans, tuple(Corner(float(a), float(b), complex(point)) for a, b, point in zip(leaves, resumes, points, strict=True))
 
 
 def _split(chain, part):

@@ -24,6 +24,7 @@ PROFILE_TOLERANCE = 1e-6  # a point of contact nearer than this [m] to the profi
 _SAMPLES = (48, 96, 240)  # on each piece of the envelope: more where a crossing was missed
 _SLOW, _AT_REST = 0.05, 1e-7  # of the greatest speed of a path
 _CUSP_MARGIN = 2e-8  # rad
+_SETTLED = 1e-13  # rad; a smaller step of Newton's method ends it
 _SAME_POINT = 1e-4  # a place nearer than this [m] to the envelope's own point is that point
 _LEAST_ARM = 1e-9  # an arm below this, relative to the pin circle, turns the wheel neither way
 
@@ -166,8 +167,10 @@ def _between_cusps(
     place = t[row, column]
     low, high = starts[row] + segment.start, starts[row] + segment.stop
     for _ in range(12 if len(place) else 0):  # towards d1 = 0 along d2
-        jet = at(place)
+        jet, before = at(place), place
         place = np.clip(place - np.real(np.conj(jet.d2) * jet.d1) / np.abs(jet.d2) ** 2, low, high)
+        if np.max(np.abs(place - before)) < _SETTLED:
+            break
     cusp = np.abs(at(place).d1) < _AT_REST * np.max(speed) if len(place) else np.zeros(0, dtype=bool)
     for turn in range(turns):
         own = np.unique(np.round(place[cusp & (row == turn)], 12))
