@@ -7,6 +7,7 @@ from scipy.optimize import brentq, minimize_scalar
 from drivewright import fatigue
 from drivewright._jit import plain
 from drivewright.fatigue import critical, planes
+from drivewright.fatigue.bounds import search_grid, search_workspace
 
 pytestmark = pytest.mark.analytical
 
@@ -256,8 +257,8 @@ def test_out_of_phase_by_hand():
 
 def test_kernels_run_uncompiled():
     strain, stress = turning(6, samples=9)
-    curve, grid = critical.brown_miller_curve(CARD), critical._grid()[::150]
-    for kernel, more in ((critical._max_shear_planes, ()), (critical._max_damage_planes, (grid,))):
+    curve, grid, work = critical.brown_miller_curve(CARD), search_grid(6, 2), planes.plane_workspace(9)
+    for kernel, more in ((critical._max_shear_planes, (work,)), (critical._max_damage_planes, (grid, work, search_workspace(grid)))):
         with np.errstate(divide="ignore", invalid="ignore"):
             damage, _ = plain(kernel)(strain[None], stress[None], curve, *more)
         assert damage == pytest.approx(kernel(strain[None], stress[None], curve, *more)[0], rel=1e-9)

@@ -42,11 +42,11 @@ def log_root(log_a: float, p: float, log_b: float, q: float, log_total: float) -
     y = max(first, second) if p < 0 else min(first, second)
     for _ in range(60):
         u, v = log_a + p * y, log_b + q * y
-        top = max(u, v)
-        eu, ev = np.exp(u - top), np.exp(v - top)
-        step = (top + np.log(eu + ev) - log_total) * (eu + ev) / (p * eu + q * ev)
+        share = np.exp(-abs(u - v))  # the smaller term over the larger one
+        slope = (p + q * share if u > v else q + p * share) / (1.0 + share)
+        step = (max(u, v) + np.log1p(share) - log_total) / slope
         y -= step
-        if abs(step) <= 4e-16 * abs(y) + 1e-300:
+        if abs(step) <= 1e-9:  # what is left is about its square
             break
     return y
 

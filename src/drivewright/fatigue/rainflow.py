@@ -31,18 +31,18 @@ def turning_points(x: Floats, first: int, last: int, gate: float, turning: Ints)
     x (n,) and gate: the signal, both in its unit; turning (>= n,): sample numbers.  Of samples equal within the gate the first is taken.
     """
     turning[0] = first
-    count, heading, extreme = 1, 0, first
+    count, heading, extreme = 1, 0.0, first
+    level = x[first]
     for k in range(first + 1, last + 1):
-        rise = x[k] - x[extreme]
-        if heading == 0:
-            if abs(rise) > gate:
-                heading, extreme = (1 if rise > 0.0 else -1), k
-        elif heading * rise > gate:
-            extreme = k
-        elif heading * rise < -gate:
+        rise = heading * (x[k] - level)
+        if rise > gate:
+            extreme, level = k, x[k]
+        elif rise < -gate:
             turning[count] = extreme
-            count, heading, extreme = count + 1, -heading, k
-    if heading != 0:
+            count, heading, extreme, level = count + 1, -heading, k, x[k]
+        elif heading == 0.0 and abs(x[k] - level) > gate:
+            heading, extreme, level = np.copysign(1.0, x[k] - level), k, x[k]
+    if heading != 0.0:
         turning[count] = extreme
         count += 1
     return count
@@ -84,10 +84,10 @@ def pair_cycles(
 @inner
 def block_cycles(x: Floats, size: int, gate: float, turning: Ints, count: Floats, start: Ints, end: Ints, stack: Ints) -> int:
     """Number of the closed cycles of a block that is repeated, x (2 size,) holding it twice; start < end < 2 size."""
-    first = 0
+    first, bar = 0, abs(x[0]) + gate
     for k in range(1, size):
-        if abs(x[k]) > abs(x[first]) + gate:
-            first = k
+        if abs(x[k]) > bar:
+            first, bar = k, abs(x[k]) + gate
     points = turning_points(x, first, first + size, gate, turning)
     return pair_cycles(x, turning, points, gate, True, count, start, end, stack)
 

@@ -19,14 +19,14 @@ _AROUND = 32  # planes of a cone to begin with
 
 @inner
 def _difference(strain, i, j):
-    """Six numbers of the strain at sample i less that at j, of strain (n, 6) [-]."""
+    """Six numbers of the strain at sample i less that at j, of strain (6, n) [-]."""
     return (
-        strain[i, 0] - strain[j, 0],
-        strain[i, 1] - strain[j, 1],
-        strain[i, 2] - strain[j, 2],
-        strain[i, 3] - strain[j, 3],
-        strain[i, 4] - strain[j, 4],
-        strain[i, 5] - strain[j, 5],
+        strain[0, i] - strain[0, j],
+        strain[1, i] - strain[1, j],
+        strain[2, i] - strain[2, j],
+        strain[3, i] - strain[3, j],
+        strain[4, i] - strain[4, j],
+        strain[5, i] - strain[5, j],
     )
 
 
@@ -50,7 +50,7 @@ def _outer_difference(t, j2):
 def _largest_shear(strain):
     """The largest shear between any two instants; pairs that cannot reach it, for it is at most 2 sqrt(J2), are passed over."""
     best = 0.0
-    for i in range(len(strain)):
+    for i in range(strain.shape[1]):
         for j in range(i):
             t = _difference(strain, i, j)
             j2 = _second_invariant(t)
@@ -61,14 +61,14 @@ def _largest_shear(strain):
 
 @kernel
 def largest_differences(strain: Floats, gate: float) -> Floats:
-    """Differences (count, 6) [-] of a strain (n, 6) [-], each once, between instants whose shear is the largest;
+    """Differences (count, 6) [-] of a strain (6, n) [-], each once, between instants whose shear is the largest;
     none where no plane is sheared beyond `gate`.
     """
     best, differences = _largest_shear(strain), np.empty((4, 6))
     count = 0
     if best <= gate:
         return differences[:0]
-    for i in range(len(strain)):
+    for i in range(strain.shape[1]):
         for j in range(i):
             t = _difference(strain, i, j)
             j2 = _second_invariant(t)
