@@ -1,12 +1,14 @@
-"""Shafts on bearings: designs per second beside PyNite and ROSS and beside what this machine can do; a bearing, a coupled solve."""
+"""Shafts on bearings: designs per second beside PyNite and ROSS and beside what this machine can do; a bearing, large shafts."""
 
 import json
 import subprocess
 import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
+import shaft_specs
 from timing import best
 
 sys.path.insert(0, str(Path(__file__).parent.parent / "tests" / "support"))  # the peers' models are those of the tests
@@ -160,6 +162,29 @@ def coupled():
     yield "shaft and two ball bearings, coupled", best(lambda: shafts.apply_loads(shaft, loads)), f"{found.steps} steps of Newton's method"
 
 
+def large():
+    """Shafts with many bearings, stations and segments: a run in this process, and of it the statics and the sensitivities."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (text, wanted) in shaft_specs.SPECS.items():
+            path = Path(folder, "spec.toml")
+            path.write_text(text, encoding="utf-8")
+            seconds, remark = _large_run(path)
+            yield f"run of a shaft, {name}", seconds, f"wanted under {wanted:g} s; {remark}"
+
+
+def _large_run(path):
+    """((shortest, median) seconds of a run, what part of it are the statics and the sensitivities)."""
+    from drivewright import load, runner
+    from drivewright.mechanisms.shaft import build, mechanism
+
+    spec = load(path)
+    model, analyses = build(spec), {each.name: each for each in mechanism.analyses}
+    done = runner.run_analyses(spec, model, runner.select_analyses(mechanism.analyses, "sensitivities"))
+    statics, sensitivities = (best(lambda name=name: analyses[name].answer(model, done), 3)[0] for name in ("statics", "sensitivities"))
+    count = len(done["sensitivities"].values)
+    return best(lambda: runner.run(spec), 3), f"statics {1e3 * statics:.0f} ms, {count:,} sensitivities {1e3 * sensitivities:.0f} ms"
+
+
 def ball_bearing():
     """20 x 32 x 7 mm, inner geometry fitted to its ratings."""
     from drivewright.bearings import BallBearing
@@ -194,4 +219,5 @@ SECTIONS = (
     ("Shafts: peers", peers),
     ("Bearing", bearing),
     ("Shaft and bearings", coupled),
+    ("Shafts: large ones", large),
 )

@@ -15,7 +15,7 @@ import numpy as np
 
 from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError
-from drivewright.shafts.model import Shaft
+from drivewright.shafts.model import Shaft, Support
 from drivewright.shafts.sections import NODES, WEIGHTS, area, compliance_integrals_of, second_moment
 
 FREEDOMS = 6  # a node: x, y, z, rotations about x, y, z
@@ -62,10 +62,8 @@ def beam(shaft: Shaft, places: Iterable[float] = ()) -> Beam:
 
 
 def _nodes(shaft, places):
-    bands = [
-        np.linspace(s.position - s.width / 2, s.position + s.width / 2, BAND + 1) for s in shaft.supports if s.width > POINT * shaft.length
-    ]
-    wanted = np.concatenate([shaft.ends, [s.position for s in (*shaft.supports, *shaft.stations)], *bands, np.asarray(places, float)])
+    widths = [width_places(shaft, support) for support in shaft.supports]
+    wanted = np.concatenate([shaft.ends, [s.position for s in (*shaft.supports, *shaft.stations)], *widths, np.asarray(places, float)])
     near = 1e-9 * shaft.length
     if wanted.min() < -near or wanted.max() > shaft.length + near:
         off = wanted.min() if wanted.min() < -near else wanted.max()
@@ -75,6 +73,12 @@ def _nodes(shaft, places):
         )
     z = np.unique(np.clip(wanted, 0.0, shaft.length))
     return z[np.concatenate([[True], np.diff(z) > near])]
+
+
+def width_places(shaft: Shaft, support: Support) -> Floats:
+    """Places (m,) [m] of the ends and divisions of a support's width; none where it is a point."""
+    middle, half = support.position, support.width / 2
+    return np.linspace(middle - half, middle + half, BAND + 1) if support.width > POINT * shaft.length else np.zeros(0)
 
 
 def _pieces(shaft, left, right):

@@ -78,6 +78,27 @@ def compliance_integrals_of(pieces: Floats, modulus: float, poisson: float, shea
     return integrals
 
 
+def shear_area(diameter: Floats, bore: Floats, poisson: float, shear: float) -> Floats:
+    """kappa A [m^2]; inf without shear deformation.  Arguments as for `compliance_integrals`."""
+    if shear < 0:
+        return np.full_like(diameter, np.inf)
+    return (shear if shear > 0 else cowper_coefficient(diameter, bore, poisson)) * area(diameter, bore)
+
+
+def log_slopes(diameter: Floats, bore: Floats, poisson: float, shear: float) -> tuple[Floats, Floats, Floats]:
+    """(dlnI/dD, dln(kappa A)/dD, dlnA/dD) [1/m], the bore held:  4 D^3/(D^4 - d^4),  2 D/(D^2 - d^2) + dln(kappa)/dD,  2 D/(D^2 - d^2)."""
+    by_second_moment, by_area = 4 * diameter**3 / (diameter**4 - bore**4), 2 * diameter / (diameter**2 - bore**2)
+    by_shear_area = np.zeros_like(diameter) if shear < 0 else by_area
+    return by_second_moment, by_shear_area + (_cowper_slope(diameter, bore, poisson) if shear == 0 else 0.0), by_area
+
+
+def _cowper_slope(diameter, bore, poisson):
+    """dln(kappa)/dD [1/m] of `cowper_coefficient`: with w = (1 + m^2)^2 it is 6 (1 + nu) w/(a w + b m^2), and dm^2/dD = -2 m^2/D."""
+    m2 = (bore / diameter) ** 2
+    whole, steep, a, b = (1 + m2) ** 2, 2 * (1 + m2), 7 + 6 * poisson, 20 + 12 * poisson
+    return -2 * m2 / diameter * (steep / whole - (a * steep + b) / (a * whole + b * m2))
+
+
 @warmer
 def warm_sections() -> None:
     """Compile for `doctor --warm`."""

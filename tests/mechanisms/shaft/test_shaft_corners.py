@@ -261,10 +261,21 @@ def test_stations_on_rigid_bearings(places):
 
 
 def test_a_station_at_the_very_end_has_no_sensitivity_to_its_place_and_all_the_others():
-    ends = [{"name": "m1", "position": "0 mm"}, {"name": "m2", "position": "339.9 mm"}]
-    result = dw.run(shaft(stations=ends))
-    assert "sensitivity.m2.m2.stations.m2.position" not in result.values
+    result = dw.run(shaft(stations=[{"name": "m1", "position": "0 mm"}, {"name": "m2", "position": "340 mm"}]))
+    for name in ("m1", "m2"):
+        assert f"sensitivity.{name}.{name}.stations.{name}.position" not in result.values
     assert "sensitivity.m2.m2.distance.B-m2" in result.values and "sensitivity.m2.m2.segments.0.diameter" in result.values
+    assert "sensitivity.m1.m1.distance.m1-A" in result.values
+
+
+def test_a_station_as_near_to_the_end_as_can_be_has_its_sensitivity():
+    def run(place):
+        return dw.run(shaft(stations=[{"name": "m2", "position": f"{place} mm"}]), only=("sensitivities",))
+
+    near, step = run(339.999), 0.0005
+    slope = (run(339.999 + step)["flexibility.m2.m2"] - run(339.999 - step)["flexibility.m2.m2"]) / (2 * step)
+    wanted = 339.999 * slope / near["flexibility.m2.m2"]
+    assert near["sensitivity.m2.m2.stations.m2.position"] == pytest.approx(wanted, rel=1e-6)
 
 
 # -- other routes and second looks ---------------------------------------------------------------------------------------------
