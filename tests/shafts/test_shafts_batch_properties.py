@@ -7,6 +7,7 @@ from drivewright._jit import plain
 from drivewright.errors import InputError
 from drivewright.shafts import batch
 from drivewright.shafts.batch import flexibilities
+from drivewright.shafts.batch_kernels import LANES
 from drivewright.shafts.closed_form import flexibility
 from drivewright.shafts.model import COWPER, EULER_BERNOULLI
 
@@ -355,6 +356,47 @@ def test_uncompiled_the_same(kind, monkeypatch):
     monkeypatch.setattr(batch, "fill_flexibilities", plain(batch.fill_flexibilities))
     for a, b in zip(compiled, flexibilities(**many, reactions=True), strict=True):
         assert np.allclose(a, b, rtol=1e-13, atol=1e-14 * np.abs(a).max())
+
+
+@pytest.mark.parametrize("shear", [COWPER, 0.9, EULER_BERNOULLI])
+def test_neighbours_in_a_batch_do_not_matter(shear):
+    """Uniform, stepped, turned round and impossible shafts in any order, over several blocks of the kernel and a part of one."""
+    count = 2 * LANES + 7
+    many, rng = shafts(18, count, 2, 2, 3, shear=shear), np.random.default_rng(18)
+    uniform, turned, wrong = rng.random((3, count)) < [[0.6], [0.5], [0.1]]
+    for name in ("diameters", "bores"):
+        many[name][uniform] = many[name][uniform, :1]
+    many["end_diameters"][uniform] = many["diameters"][uniform]
+    for name in ("supports", "radial_stiffness"):
+        many[name][turned] = many[name][turned, ::-1]
+    many["diameters"][wrong, 0] = -1.0
+    assert all(0 < each[:LANES].sum() < LANES for each in (uniform, turned, wrong))
+    delta, carried = flexibilities(**many, reactions=True)
+    np.testing.assert_array_equal(np.isnan(delta).all(axis=(1, 2)), wrong)
+    np.testing.assert_array_equal(np.isnan(carried).any(axis=(1, 2)), wrong)
+    for n in range(count):
+        one = {name: value[n : n + 1] if np.ndim(value) else value for name, value in many.items()}
+        alone = flexibilities(**one, reactions=True)
+        np.testing.assert_allclose(delta[n], alone[0][0], rtol=1e-12)
+        np.testing.assert_allclose(carried[n], alone[1][0], rtol=1e-12)
+    rows = uniform & ~wrong
+    d, b, nu = many["diameters"][rows, 0], many["bores"][rows, 0], many["poisson"][rows]
+    modulus, m2 = many["youngs_modulus"][rows], (b / d) ** 2
+    cowper = 6 * (1 + nu) * (1 + m2) ** 2 / ((7 + 6 * nu) * (1 + m2) ** 2 + (20 + 12 * nu) * m2)
+    kappa = np.inf if shear == EULER_BERNOULLI else cowper if shear == COWPER else shear
+    bending, slide = modulus * np.pi / 64 * (d**4 - b**4), kappa * modulus / (2 + 2 * nu) * np.pi / 4 * (d**2 - b**2)
+    near(delta[rows], flexibility(many["stations"][rows], many["supports"][rows], many["radial_stiffness"][rows], bending, slide), 1e-13)
+
+
+@pytest.mark.parametrize("name", ["lengths", "diameters", "bores", "supports", "radial_stiffness", "stations", "youngs_modulus", "poisson"])
+def test_what_all_designs_share_is_given_once(name):
+    """One number, or one row, for all is the same as a row for each: a column is read in steps of no, one and several numbers."""
+    many = shafts(19, LANES + 3, 1, 2, 2)
+    many[name] = many[name][:1]
+    full = many | {name: np.repeat(many[name], LANES + 3, axis=0)}
+    if name in ("diameters", "bores"):
+        many["end_diameters"] = full["end_diameters"] = full["diameters"]
+    np.testing.assert_allclose(flexibilities(**many), flexibilities(**full), rtol=1e-13)
 
 
 IMPOSSIBLE = {

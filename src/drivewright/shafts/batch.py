@@ -95,7 +95,7 @@ def flexibilities(
     per_chunk = max(1, CHUNK // (points * points + sections))
 
     def chunk(begin):
-        fill_flexibilities(designs, sections, begin, min(begin + per_chunk, count), workspace(points), delta, carried)
+        fill_flexibilities(designs, sections, begin, min(begin + per_chunk, count), workspace(bearings, measured), delta, carried)
 
     if workers is None and count <= per_chunk:
         workers = 1  # starting a thread costs more than a few designs

@@ -20,9 +20,16 @@ import numpy as np
 from drivewright._jit import by_reference, inner
 from drivewright._typing import Floats, Ints
 from drivewright.shafts.closed_form import flexibility_entry, reaction_shares
-from drivewright.shafts.sections import compliance_integrals
+from drivewright.shafts.sections import compliance_integrals, cylinder_compliances
 
 OFF = 1e-9  # part of the shaft's length by which a place may lie beyond its end: sums of lengths are rounded
+
+
+LANES = 128  # designs that are checked, and taken by the closed form, at once: all that belongs to them stays in the first cache
+# Rows of `BatchWorkspace.lanes`: an entry of every column, in the order of `DesignColumns`; then of the shaft; of the two supports of the
+# closed form; of a pair of stations; then all stations, and the flexibilities of their pairs.
+PART, DIAMETER, END_DIAMETER, BORE, SUPPORT, STIFFNESS, PLACE, MODULUS, POISSON, SHEAR = range(10)
+POSSIBLE, UNIFORM, LENGTH, FIRST_DIAMETER, FIRST_BORE, START, SPAN, LEFT, RIGHT, TURNED, BEND, SLIP, X, S, ENTRY, STATION = range(10, 26)
 
 
 class DesignColumn(NamedTuple):
@@ -54,17 +61,22 @@ class BatchWorkspace(NamedTuple):
 
     order (P,): number of each point, from left to right; place (P,) [m]; pieces (P, 4): of the shaft to the next point its length [m],
     f [1/(N m)], g [m] from its left end, r [m/N]; sides (2, P, 3): u [m/N], c [m], q [N m] of all left and right of a point.
+    lanes: numbers of `LANES` designs side by side, a row of LANES for each; one array, so that the compiler sees that rows do not overlap.
     """
 
     order: Ints
     place: Floats
     pieces: Floats
     sides: Floats
+    lanes: Floats
 
 
-def workspace(points: int) -> BatchWorkspace:
-    """The `BatchWorkspace` for so many points."""
-    return BatchWorkspace(np.empty(points, np.int64), np.empty(points), np.empty((points, 4)), np.empty((2, points, 3)))
+def workspace(bearings: int, stations: int) -> BatchWorkspace:
+    """The `BatchWorkspace` for shafts with so many bearings and stations."""
+    points, rows = bearings + stations, STATION + stations + stations * (stations + 1) // 2
+    return BatchWorkspace(
+        np.empty(points, np.int64), np.empty(points), np.empty((points, 4)), np.empty((2, points, 3)), np.ones(rows * LANES)
+    )
 
 
 @inner
@@ -78,85 +90,170 @@ def fill_flexibilities(
     designs: DesignColumns, sections: int, begin: int, end: int, work: BatchWorkspace, delta: Floats, carried: Floats
 ) -> None:
     """Writes the rows begin ... end of delta (N, M, M) [m/N] and, where it has rows, carried (N, B, M) [-]."""
-    bearings, stations = carried.shape[1], carried.shape[2]
-    wanted = carried.shape[0] > 0
-    for n in range(begin, end):
-        total = np.nan
-        row = n if wanted else 0
-        if _is_possible(designs, sections, bearings, stations, n):
-            if bearings == 2 and _is_uniform(designs, sections, n):
-                _fill_closed_form(designs, n, delta, carried, wanted)
-            else:
-                _fill_two_sided(designs, sections, n, work, delta, carried, wanted)
-            total = 0.0
-            for i in range(stations):
-                for j in range(stations):
-                    total += delta[n, i, j]
-                for b in range(bearings if wanted else 0):
-                    total += carried[row, b, i]
-        if not np.isfinite(total):
-            for i in range(stations):
-                for j in range(stations):
-                    delta[n, i, j] = np.nan
-                for b in range(bearings if wanted else 0):
-                    carried[row, b, i] = np.nan
+    bearings, wanted, lanes = carried.shape[1], carried.shape[0] > 0, work.lanes
+    for first in range(begin, end, LANES):
+        count = min(LANES, end - first)
+        _check(designs, sections, bearings, delta.shape[1], first, count, lanes)
+        if bearings == 2:
+            _fill_closed_form(first, count, lanes, delta, carried, wanted)
+        for k in range(count):
+            if bearings != 2 or lanes[UNIFORM * LANES + k] == 0.0:
+                possible = lanes[POSSIBLE * LANES + k] == 1.0
+                if possible:
+                    _fill_two_sided(designs, sections, first + k, work, delta, carried, wanted)
+                if not (possible and np.isfinite(_total(first + k, delta, carried, wanted))):
+                    _fill_nan(first + k, delta, carried, wanted)
 
 
 @inner
-def _is_possible(designs, sections, bearings, stations, n):
-    """Whether sizes, material and places make a shaft; comparisons are turned so that nan fails."""
-    good = (
-        entry_of(designs.youngs_modulus, n, 0) > 0.0
-        and -1.0 < entry_of(designs.poisson, n, 0) < 0.5
-        and np.isfinite(entry_of(designs.shear, n, 0))
-    )
-    length = 0.0
-    for s in range(sections):
-        part, bore = entry_of(designs.lengths, n, s), entry_of(designs.bores, n, s)
-        good = (
-            good
-            and part > 0.0
-            and bore >= 0.0
-            and entry_of(designs.diameters, n, s) > bore
-            and entry_of(designs.end_diameters, n, s) > bore
-        )
-        length += part
-    low, high = -OFF * length, (1.0 + OFF) * length
-    for b in range(bearings):
-        good = good and low <= entry_of(designs.supports, n, b) <= high and entry_of(designs.radial_stiffness, n, b) >= 0.0
-    for i in range(stations):
-        good = good and low <= entry_of(designs.stations, n, i) <= high
-    return good
-
-
-@inner
-def _is_uniform(designs, sections, n):
-    """Whether all sections of design n have one diameter and one bore."""
-    diameter, bore = entry_of(designs.diameters, n, 0), entry_of(designs.bores, n, 0)
-    same = True
-    for s in range(sections):
-        same = same and entry_of(designs.diameters, n, s) == diameter and entry_of(designs.end_diameters, n, s) == diameter
-        same = same and entry_of(designs.bores, n, s) == bore
-    return same
-
-
-@inner
-def _fill_closed_form(designs, n, delta, carried, wanted):
-    """Row n of delta (N, M, M) [m/N] and, where wanted, of carried (N, B, M) [-], of a uniform shaft on two supports: `closed_form`."""
-    diameter, bore = entry_of(designs.diameters, n, 0), entry_of(designs.bores, n, 0)
-    modulus, poisson, shear = entry_of(designs.youngs_modulus, n, 0), entry_of(designs.poisson, n, 0), entry_of(designs.shear, n, 0)
-    bend, _, _, slip = compliance_integrals(1.0, diameter, diameter, bore, modulus, poisson, shear)
-    first = 0 if entry_of(designs.supports, n, 0) <= entry_of(designs.supports, n, 1) else 1
-    start, end = entry_of(designs.supports, n, first), entry_of(designs.supports, n, 1 - first)
-    span = end - start
-    gives = 1.0 / entry_of(designs.radial_stiffness, n, first), 1.0 / entry_of(designs.radial_stiffness, n, 1 - first)
+def _total(n, delta, carried, wanted):
+    """Sum of row n: finite where all of it is."""
+    total = 0.0
     for i in range(delta.shape[1]):
-        x = entry_of(designs.stations, n, i) - start
+        for j in range(delta.shape[1]):
+            total += delta[n, i, j]
+        for b in range(carried.shape[1] if wanted else 0):
+            total += carried[n, b, i]
+    return total
+
+
+@inner
+def _fill_nan(n, delta, carried, wanted):
+    """Row n of an impossible design."""
+    for i in range(delta.shape[1]):
+        for j in range(delta.shape[1]):
+            delta[n, i, j] = np.nan
+        for b in range(carried.shape[1] if wanted else 0):
+            carried[n, b, i] = np.nan
+
+
+@inner
+def _gather(column, entry, first, count, row):
+    """An entry of `count` designs from the first on, side by side in a row; the rest of the row repeats the last of them."""
+    source = column.values[first * column.row + entry * column.entry :]
+    if column.row == 0:
+        for k in range(count):
+            row[k] = source[0]
+    elif column.row == 1:
+        for k in range(count):
+            row[k] = source[k]
+    else:
+        apart = source[:: column.row]
+        for k in range(count):
+            row[k] = apart[k]
+    for k in range(count, LANES):
+        row[k] = row[count - 1]
+
+
+@inner
+def _check(designs, sections, bearings, stations, first, count, lanes):
+    """Rows `POSSIBLE` and `UNIFORM`: 1 where sizes, material and places make a shaft, and where it has one diameter and one bore, else 0.
+
+    Comparisons are turned so that nan fails.  What the closed form needs is kept: first section, two supports, stations.
+    """
+    for section in range(sections):
+        for number in range(PART, SUPPORT):
+            _gather(designs[number], section, first, count, lanes[number * LANES :])
+        if section == 0:
+            for number in range(MODULUS, SHEAR + 1):
+                _gather(designs[number], section, first, count, lanes[number * LANES :])
+            _check_material(lanes)
+        for k in range(LANES):
+            part, diameter = lanes[PART * LANES + k], lanes[DIAMETER * LANES + k]
+            end_diameter, bore = lanes[END_DIAMETER * LANES + k], lanes[BORE * LANES + k]
+            good = (part > 0.0) & (bore >= 0.0) & (diameter > bore) & (end_diameter > bore)
+            same = (diameter == lanes[FIRST_DIAMETER * LANES + k]) & (end_diameter == diameter) & (bore == lanes[FIRST_BORE * LANES + k])
+            lanes[POSSIBLE * LANES + k] *= 1.0 if good else 0.0
+            lanes[UNIFORM * LANES + k] *= 1.0 if same else 0.0
+            lanes[LENGTH * LANES + k] += part
+    for bearing in range(bearings):
+        for number in range(SUPPORT, PLACE):
+            _gather(designs[number], bearing, first, count, lanes[number * LANES :])
+        for k in range(LANES):
+            lanes[PLACE * LANES + k] = lanes[SUPPORT * LANES + k]
+            lanes[POSSIBLE * LANES + k] *= 1.0 if lanes[STIFFNESS * LANES + k] >= 0.0 else 0.0
+        _check_place(lanes)
+        if bearing < 2:
+            for k in range(LANES):
+                lanes[(START + bearing) * LANES + k] = lanes[PLACE * LANES + k]
+                lanes[(LEFT + bearing) * LANES + k] = lanes[STIFFNESS * LANES + k]
+    for station in range(stations):
+        _gather(designs[PLACE], station, first, count, lanes[PLACE * LANES :])
+        _check_place(lanes)
+        for k in range(LANES):
+            lanes[(STATION + station) * LANES + k] = lanes[PLACE * LANES + k]
+
+
+@inner
+def _check_material(lanes):
+    """Rows `POSSIBLE`, `UNIFORM`, `LENGTH` and those of the first section as they are before its sizes are looked at."""
+    for k in range(LANES):
+        modulus, poisson, shear = lanes[MODULUS * LANES + k], lanes[POISSON * LANES + k], lanes[SHEAR * LANES + k]
+        good = (modulus > 0.0) & (poisson > -1.0) & (poisson < 0.5) & (abs(shear) < np.inf)
+        lanes[POSSIBLE * LANES + k], lanes[UNIFORM * LANES + k], lanes[LENGTH * LANES + k] = 1.0 if good else 0.0, 1.0, 0.0
+        lanes[FIRST_DIAMETER * LANES + k], lanes[FIRST_BORE * LANES + k] = lanes[DIAMETER * LANES + k], lanes[BORE * LANES + k]
+
+
+@inner
+def _check_place(lanes):
+    """Row `POSSIBLE` becomes 0 where row `PLACE` is off the shaft."""
+    for k in range(LANES):
+        place, length = lanes[PLACE * LANES + k], lanes[LENGTH * LANES + k]
+        good = (place >= -OFF * length) & (place <= (1.0 + OFF) * length)
+        lanes[POSSIBLE * LANES + k] *= 1.0 if good else 0.0
+
+
+@inner
+def _fill_closed_form(first, count, lanes, delta, carried, wanted):
+    """Rows of delta (N, M, M) [m/N] and, where wanted, of carried (N, B, M) [-], as uniform shafts on two supports: `closed_form`."""
+    stations = delta.shape[1]
+    _measure_from_left(lanes)
+    for k in range(LANES):
+        diameter, bore = lanes[FIRST_DIAMETER * LANES + k], lanes[FIRST_BORE * LANES + k]
+        modulus, poisson, shear = lanes[MODULUS * LANES + k], lanes[POISSON * LANES + k], lanes[SHEAR * LANES + k]
+        lanes[BEND * LANES + k], lanes[SLIP * LANES + k] = cylinder_compliances(diameter, bore, modulus, poisson, shear)
+    row = STATION + stations
+    for i in range(stations):
         for j in range(i + 1):
-            entry = flexibility_entry(x, entry_of(designs.stations, n, j) - start, span, bend, slip, *gives)
-            delta[n, i, j], delta[n, j, i] = entry, entry
-        if wanted:
-            carried[n, first, i], carried[n, 1 - first, i] = reaction_shares(x, span)
+            for k in range(LANES):  # rows of known number from here, or the compiler has to look whether rows overlap
+                lanes[X * LANES + k], lanes[S * LANES + k] = lanes[(STATION + i) * LANES + k], lanes[(STATION + j) * LANES + k]
+            for k in range(LANES):
+                start, span = lanes[START * LANES + k], lanes[SPAN * LANES + k]
+                x, s = lanes[X * LANES + k] - start, lanes[S * LANES + k] - start
+                bend, slip = lanes[BEND * LANES + k], lanes[SLIP * LANES + k]
+                entry = flexibility_entry(x, s, span, bend, slip, lanes[LEFT * LANES + k], lanes[RIGHT * LANES + k])
+                lanes[ENTRY * LANES + k] = entry
+                lanes[POSSIBLE * LANES + k] = lanes[POSSIBLE * LANES + k] if abs(entry) < np.inf else 0.0
+            for k in range(LANES):
+                lanes[row * LANES + k] = lanes[ENTRY * LANES + k]
+            row += 1
+    rows, row = delta[first:], STATION + stations
+    for i in range(stations):
+        for j in range(i + 1):
+            entries = lanes[row * LANES :]
+            for k in range(count):
+                entry = entries[k] if lanes[POSSIBLE * LANES + k] == 1.0 else np.nan
+                rows[k, i, j], rows[k, j, i] = entry, entry
+            row += 1
+        for k in range(count if wanted else 0):
+            left, right = reaction_shares(lanes[(STATION + i) * LANES + k] - lanes[START * LANES + k], lanes[SPAN * LANES + k])
+            turned, possible = lanes[TURNED * LANES + k] == 1.0, lanes[POSSIBLE * LANES + k] == 1.0
+            carried[first + k, 0, i] = (right if turned else left) if possible else np.nan
+            carried[first + k, 1, i] = (left if turned else right) if possible else np.nan
+
+
+@inner
+def _measure_from_left(lanes):
+    """Places and stiffness of two supports become place `START` of the left one, distance `SPAN` to the other, what they yield [m/N].
+
+    `TURNED` is 1 where the left one is the second.
+    """
+    for k in range(LANES):
+        one, two, stiffness, other = lanes[START * LANES + k], lanes[SPAN * LANES + k], lanes[LEFT * LANES + k], lanes[RIGHT * LANES + k]
+        turned = two < one
+        lanes[TURNED * LANES + k], lanes[SPAN * LANES + k] = 1.0 if turned else 0.0, abs(two - one)
+        lanes[START * LANES + k] = two if turned else one
+        lanes[LEFT * LANES + k], lanes[RIGHT * LANES + k] = 1.0 / (other if turned else stiffness), 1.0 / (stiffness if turned else other)
 
 
 @inner

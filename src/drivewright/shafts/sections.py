@@ -40,6 +40,14 @@ def cowper_coefficient(diameter: NumberT, bore: float | NumberT, poisson: float)
 
 
 @kernel
+def cylinder_compliances(diameter: float, bore: float, modulus: float, poisson: float, shear: float) -> tuple[float, float]:
+    """(1/EI [1/(N m^2)], 1/(kappa G A) [1/N]) of one section; arguments as for `compliance_integrals`."""
+    kappa = shear if shear > 0.0 else cowper_coefficient(diameter, bore, poisson)
+    slip = 2.0 * (1.0 + poisson) / (modulus * kappa * area(diameter, bore))
+    return 1.0 / (modulus * second_moment(diameter, bore)), 0.0 if shear < 0.0 else slip
+
+
+@kernel
 def compliance_integrals(
     length: float, start: float, end: float, bore: float, modulus: float, poisson: float, shear: float
 ) -> tuple[float, float, float, float]:
@@ -48,12 +56,10 @@ def compliance_integrals(
     start, end: outer diameters [m], the cone between them straight; bore [m]; modulus E [Pa]; poisson nu.
     shear: a positive number is kappa, 0 means Cowper's, below 0 no shear deformation (Euler-Bernoulli).
     """
-    g = 0.5 * modulus / (1.0 + poisson)
     if start == end:
-        e = 1.0 / (modulus * second_moment(start, bore))
-        kappa = shear if shear > 0.0 else cowper_coefficient(start, bore, poisson)
-        slip = 0.0 if shear < 0.0 else length / (kappa * g * area(start, bore))
-        return e * length, 0.5 * e * length**2, e * length**3 / 3.0, slip
+        e, slip = cylinder_compliances(start, bore, modulus, poisson, shear)
+        return e * length, 0.5 * e * length**2, e * length**3 / 3.0, slip * length
+    g = 0.5 * modulus / (1.0 + poisson)
     zero, first, second, slip = 0.0, 0.0, 0.0, 0.0
     for i in range(len(NODES)):
         diameter = start + (end - start) * NODES[i]
