@@ -62,6 +62,26 @@ def test_inside_a_corner_both_sides_touch_and_the_corner_does_not():
     np.testing.assert_allclose(sorted(found.point, key=np.real), [0.015 + 0.02j, 0.02 + 0.014j], atol=1e-12)
 
 
+@pytest.mark.parametrize("ahead", range(8))
+def test_the_chord_at_which_a_profile_begins_changes_nothing(ahead):
+    """Beside a corner, inside and outside of it, wherever the corner stands among the chords of a run."""
+    nodes = touching.nodes_of(square(0.02))
+    turned = [np.roll(part, ahead) for part in nodes[:4]]
+    turned = touching.Nodes(*turned, *touching.bounding_circles(*turned[:2]))
+    for centre, count in ((0.019 + 0.0192j, 2), (0.021 + 0.0213j, 1), (0.021 + 0.0193j, 1), (0.0195 + 0.022j, 1)):
+        here, there = (touching.touches(each, [centre], 0.0, 3e-3) for each in (nodes, turned))
+        assert len(here.point) == len(there.point) == count
+        np.testing.assert_allclose(np.sort(there.point), np.sort(here.point), atol=1e-15)
+
+
+@pytest.mark.parametrize("tolerance", [1e-7, 2e-10])
+def test_no_more_nodes_than_the_tolerance_wants(tolerance):
+    """With unit tangents times the chord the cubic on an arc of the angle w leaves it in the middle by 2 R sin(w/4)^4."""
+    nodes = touching.nodes_of((smooth(lambda t: 0.03 * exp(1j * variable(t)), 0.0, 2 * PI, "arc"),), tolerance)
+    off = 2 * 0.03 * np.sin(PI / len(nodes.a) / 2) ** 4
+    assert off < tolerance < 16 * off
+
+
 def test_all_local_minima_against_brute_force():
     rng = np.random.default_rng(3)
     centres = rng.uniform(0.0, 0.06, 40) * np.exp(1j * rng.uniform(-PI, PI, 40))

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
+from drivewright.curves.touching import touches
 from drivewright.indexing import play
 from drivewright.indexing.motion import index_motion
 from drivewright.indexing.pin_wheel import PinWheel
@@ -98,15 +99,18 @@ def test_thin_pins_hold_both_ways():
         assert np.max(find_play(wheel(4.5e-3), theta, direction)) < 0.1 * ARCMIN
 
 
+@pytest.mark.parametrize("angle", [9.0, 13.5, 17.0, 22.0, 25.0])
 @pytest.mark.parametrize("direction", [FORWARD, BACKWARD])
-def test_the_pin_asked_first_changes_nothing(direction):
-    """And the pin named is inside the cam just after, by shapely."""
-    drive, theta = wheel(), np.deg2rad(17.0 if direction == FORWARD else 163.0)
+def test_the_pin_asked_first_changes_nothing(direction, angle):
+    """And the pin named touches the cam exactly, and is inside it just after, by shapely."""
+    drive, theta = wheel(), np.deg2rad(angle if direction == FORWARD else 180.0 - angle)
     centres, crank = drive.pin_centres(theta).d0, complex(drive.crank_vector(theta).d0)
     work = np.empty(play.CAPACITY, complex), np.empty(play.CAPACITY)
     for likely in range(12):
         free, pin = play.free_rotation(drive.nodes, centres, crank, 8e-3, direction, drive.motion.pitch, likely, *work)
         assert free == pytest.approx(find_play(drive, theta, direction)[0], abs=1e-11)
+        at = centres[pin] * np.exp(1j * direction * free) - crank
+        assert np.min(np.abs(touches(drive.nodes, [at], 8e-3, 1e-6).gap)) < 1e-13
         after = centres[pin] * np.exp(1j * direction * (free + 0.1 * ARCMIN)) - crank
         assert shapely.distance(cam(drive), shapely.Point(after.real, after.imag)) < 8e-3 - 1e-7
 
@@ -117,7 +121,7 @@ def test_no_play_within_less_than_the_play():
     centres, crank = drive.pin_centres(theta).d0, complex(drive.crank_vector(theta).d0)
     free = find_play(drive, theta, FORWARD)[0]
     work = np.empty(play.CAPACITY, complex), np.empty(play.CAPACITY)
-    for part, inside in ((0.0, False), (0.5, False), (1 - 1e-6, False), (1.02, True), (1.05, True)):
+    for part, inside in ((0.0, False), (0.5, False), (1 - 1e-6, False), (1.0002, False), (1.02, True), (1.05, True)):
         pin = play.pin_within_cam(drive.nodes, centres, crank, 8e-3, FORWARD, part * free, 3, *work)
         assert (pin >= 0) == inside
         assert inside == (depth(drive, theta, part * free) > 5e-7)

@@ -200,3 +200,15 @@ def test_a_wheel_of_many_pins_is_as_exact_as_one_of_few():
     hole = max((shapely.Polygon(ring) for ring in swept.interiors), key=lambda each: each.area)
     assert drive.profile.area == pytest.approx(hole.area, rel=2e-6)
     assert drive.profile.perimeter == pytest.approx(hole.length, rel=1e-3)
+
+
+def test_a_corner_lies_between_the_spans_that_meet_there():
+    """The span before it ends where the envelope leaves, that after it starts where it goes on, both at the corner's point."""
+    spans, corners = wheel().profile.spans, wheel().profile.corners
+    ahead = [(k, (k + 1) % len(spans)) for k in range(len(spans))]
+    for leaves, resumes, point in corners:
+        (k, after), *more = [(k, n) for k, n in ahead if abs(spans[k].stop - leaves) + abs(spans[n].start - resumes) < 1e-12]
+        assert not more
+        ends = [spans[k].piece.at(np.array([leaves])).d0[0], spans[after].piece.at(np.array([resumes])).d0[0]]
+        np.testing.assert_allclose(ends, point, atol=1e-13)
+    assert len(corners) == 14
