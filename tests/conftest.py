@@ -95,6 +95,12 @@ def _faults_fail(request, monkeypatch):
     monkeypatch.setattr("drivewright.runner._program_fault", fault)
 
 
+@pytest.fixture(autouse=True)
+def _no_helping_hand(monkeypatch):
+    """Tests have all cores at work already: figures are drawn by the process that wants them."""
+    monkeypatch.setattr("drivewright.execution.helper.worker_count", lambda workers: 1)
+
+
 @cache
 def missing(marker):
     """(why, the command that helps) for a marker whose requirement is not met, else None."""
