@@ -12,6 +12,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
+from unittest import mock
 
 from file_faults import FULL, KILL, KILLED, ONCE, TORN, Counter, in_fork, operations
 
@@ -141,11 +142,11 @@ def _cut_off(scenario, work, fault, number):
 
 
 def command(*arguments: object) -> int:
-    """Exit code of the command line; what it says is shown where it is not expected."""
+    """Exit code of the command line, in one process, whose operations are counted; what it says is shown where it is not expected."""
     from drivewright.cli import main
 
-    said = io.StringIO()
-    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+    said, alone = io.StringIO(), mock.patch("drivewright.execution.helper.worker_count", lambda workers: 1)
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said), alone:
         try:
             main([str(each) for each in arguments])
         except SystemExit as end:
