@@ -56,6 +56,11 @@ def ruled_out(block, curve, grid, damage, work, search):
 
 
 @kernel
+def rests(block, grid, factor, work, search):
+    return bounds._measure_rests(block, grid, factor, work, search)
+
+
+@kernel
 def tangent_at(block, curve, normal, direction, work, t):
     return climbing.tangent(block, curve, normal, direction, work, t)
 
@@ -131,6 +136,21 @@ def test_greatest_values_around_a_normal_stay_below_their_bound(seed):
         turn = rng.uniform(0, reach)
         there = np.cos(turn) * n + np.sin(turn) * side / np.linalg.norm(side)
         assert opening(there)[0] <= around(opening(n)[0], middle, amplitude, turn) * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("mean", [-2.0, 0.0, 2.0])
+def test_what_a_cycle_has_besides_its_shear_stays_below_its_bound(mean):
+    history, factor, above = block(9, 3, mean=mean), 1e-12, []
+    search, work = bounds.search_workspace(GRID), planes.plane_workspace(30)
+    least, most = rests(history, GRID, factor, work, search)
+    tension = np.einsum("mi,tij,mj->mt", GRID.normals, full(history.stress), GRID.normals)
+    assert (least, most) == pytest.approx((tension.min(), tension.max()), rel=1e-12)
+    for i in range(0, len(GRID.normals), 3):
+        for direction in GRID.directions[i]:
+            for _, opening, stress, *_ in planes.cycle_table(history, CURVE, GRID.normals[i], direction):
+                above.append(search.rest[i] - opening - factor * max(stress, 0.0))
+                assert search.opposite[i] - opening + factor * min(stress, 0.0) > -1e-12
+    assert -1e-12 < min(above) < 1e-9  # and it is reached, where a cycle is the whole block
 
 
 def test_the_most_damage_of_cycles_that_share_a_travel():

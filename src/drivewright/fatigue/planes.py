@@ -198,7 +198,7 @@ def plane_damage(block: Block, curve: Curve, normal: Vector, direction: Vector, 
     return damage
 
 
-def cycle_table(block: Block, curve: Curve, normal: Vector, direction: Vector) -> Floats:
+def cycle_table(block: Block, curve: Curve, normal: Vector | Floats, direction: Vector | Floats) -> Floats:
     """(cycles, 6): shear amplitude [-], normal strain amplitude [-], mean normal stress [Pa], damage [-], sample of start and turn."""
     return _cycle_table(block, curve, normal, direction, plane_workspace(block.strain.shape[1]))
 
