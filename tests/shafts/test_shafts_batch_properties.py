@@ -388,6 +388,18 @@ def test_neighbours_in_a_batch_do_not_matter(shear):
     near(delta[rows], flexibility(many["stations"][rows], many["supports"][rows], many["radial_stiffness"][rows], bending, slide), 1e-13)
 
 
+@pytest.mark.parametrize("name", ["diameters", "end_diameters", "bores"])
+def test_a_shaft_that_differs_in_its_middle_alone_is_not_uniform(name):
+    many = shafts(20, 5, 3, 2, 2)
+    for each in ("diameters", "bores"):
+        many[each][:] = many[each][:, :1]
+    many["end_diameters"] = many["diameters"].copy()
+    many[name][:, 1] *= 0.9
+    many["bores"][:, 1] += 1e-3 * (name == "bores")
+    third = {"supports": np.c_[many["supports"], many["lengths"][:, 0]], "radial_stiffness": np.c_[many["radial_stiffness"], np.zeros(5)]}
+    near(flexibilities(**many), flexibilities(**many | third), 1e-12)
+
+
 @pytest.mark.parametrize("name", ["lengths", "diameters", "bores", "supports", "radial_stiffness", "stations", "youngs_modulus", "poisson"])
 def test_what_all_designs_share_is_given_once(name):
     """One number, or one row, for all is the same as a row for each: a column is read in steps of no, one and several numbers."""

@@ -118,6 +118,21 @@ def test_every_slope_is_that_of_the_changed_shaft(supports, shear):
         assert_equal_for(delta(base), ours[name], difference(base, name), 3e-8)
 
 
+@pytest.mark.parametrize("place", [0.08, 0.1], ids=["on the right", "on the left"])
+def test_a_width_that_ends_at_a_step_slides_over_it(place, monkeypatch):
+    """The node there cannot be moved with both; what the division of the width leaves open is of second order."""
+    supports = (shafts.spring_support("A", place, 2e7, width=0.02), shafts.spring_support("B", B, 8e7, 1e7))
+    apart = []
+    for divisions in (4, 16):
+        monkeypatch.setattr(beams, "BAND", divisions)
+        at_rest = loaded(shaft(supports))
+        base, ours = tangent_shaft(at_rest), slopes(at_rest)
+        off = [ours[name] - difference(base, name) for name in ("distance.s-A", "distance.A-p")]
+        apart.append(np.abs(off).max() / np.diag(delta(base)).max())
+    assert 1e-7 < apart[0] < 1e-3
+    assert apart[1] < 0.1 * apart[0]
+
+
 def test_sensitivities_of_runs_are_those_of_whole_runs():
     def run(diameter=1.0, station=1.0, stretch=1.0, modulus=1.0):
         beyond = 200 * (stretch - 1)
