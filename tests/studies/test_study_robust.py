@@ -246,7 +246,7 @@ def test_a_worker_that_dies_while_nobody_looks_costs_nothing():
 
 
 def test_a_worker_that_cannot_start_is_no_fault_of_the_cases(monkeypatch):
-    monkeypatch.setattr(executors, "_warm", os.abort)
+    monkeypatch.setattr(executors, "_load_evaluation", os.abort)
     with pytest.raises(InputError, match="a worker process does not start"):
         sweep(chain(), RADII, workers=1)
 

@@ -280,7 +280,7 @@ async def test_analyses_tell_how_far_they_are_and_what_they_took(bench):
 async def too_slow(bench, *begun):
     """Analyses that take too long after some of them have begun."""
     for done, name in enumerate(begun):
-        bench.calls[-1].send((done, 2, name))
+        bench.calls[-1].send((done, 2, name, ""))
     await bench.calls[-1].fail(CallTimedOut("this took more than 120 s and was ended"))
 
 

@@ -2,7 +2,8 @@
 
 `material` cards and the uniform material law; `curves` strain over life and stress at a notch; `rainflow` counting cycles; `tensors`
 stress and strain tensors; `yielding` Neuber's rule along a history; `critical` life of a block on its critical plane, and of many nodes;
-`planes` damage on one plane and the search for the worst; `shear` the plane of the largest shear amplitude.
+`planes` damage on one plane; `search` the plane of the greatest damage, by `bounds` and by `climbing`;
+`shear` the plane of the largest shear amplitude.
 """
 
 from importlib import import_module

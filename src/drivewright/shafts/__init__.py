@@ -6,7 +6,7 @@ Kernels and elements: `sections` round cross-sections; `beam` exact two-node ele
 Statics: `assembly` beam and supports as one system; `equilibrium` Newton's method; `loaded` all loads, and the diagrams along the shaft;
 `audit` whether forces balance; `buckling` under axial forces; `linearised` the shaft about its equilibrium.
 Flexibility: `influence` flexibility, stiffness and their parts; `unit_loads` rigid bearings and stress under unit forces; `strength` what
-fails first; `sensitivity` how the flexibility follows every parameter.
+fails first; `sensitivity` how the flexibility follows every parameter, `piece_slopes` and a piece of shaft its dimensions.
 Vibration: `vibration` modes and critical speeds; `mode_shapes` what they are compared with.
 Many at once: `batch` checks the arguments, `batch_kernels` computes.
 To look at: `drawing` shapes of a shaft, `scenes` the shaft on screen as it bends; `tables`, `plots` and `values` answers as those of a
