@@ -7,6 +7,7 @@ given, it is the first phrase of the meaning.  `faults` is the house's rule for 
 import re
 from collections import Counter
 from collections.abc import Iterable
+from functools import lru_cache
 
 LONGEST = 40  # characters
 LEADING = (
@@ -33,6 +34,7 @@ LEADING = (
 PLAIN_UNITS = re.compile(r"\b(um|m\^2|mm\^2|m\^3|mm\^3|deg|arcmin|N m|s\^2)\b")  # as typed, not as set: µm, m², °
 
 
+@lru_cache(maxsize=4096)  # each case of a study asks for the same ones
 def label_of(meaning: str, label: str = "") -> str:
     """The label given, else the first phrase of the meaning, with a capital: "greatest lift, above the base" -> "Greatest lift"."""
     text = label or re.split(r"[,;:(]| - ", meaning, maxsplit=1)[0].strip()

@@ -63,6 +63,8 @@ def case_outputs(values: Mapping[str, Value], checks: Iterable[Check]) -> dict[s
 
 def _bounds(value: Value) -> dict[str, float]:
     """{end: number} of a value's interval."""
+    if value.low is None or value.high is None:
+        return {}
     plain = value.plain()
     ends = _ends(None if plain.low is None or plain.high is None else (plain.low, plain.high))
     return ends | ({ERROR: plain.error} if ends and plain.error is not None else {})
