@@ -253,3 +253,17 @@ def test_messages(call, word):
 def test_a_run_without_a_single_step_is_its_start(per_step, limits):
     found = integrate(Functions(lambda t, y: -1e6 * y), 0, 1, [1.0, 2.0], per_step=per_step, **limits)
     assert found.advice and found.t.tolist() == [0.0] and found.y.tolist() == [[1.0, 2.0]]
+
+
+@pytest.mark.parametrize("power", [1, 3, 9])
+def test_an_event_is_found_in_few_evaluations_and_on_its_far_side(power):
+    seen = []
+
+    def watched(t, y):
+        seen.append(t)
+        return [np.sign(y[0] - 0.3) * abs(y[0] - 0.3) ** power]
+
+    run = integrate(Functions(lambda t, y: [1.0], watched), 0.0, 1.0, [0.0], samples=[], watch=[Event(terminal=True)], first_step=1.0)
+    assert run.outcome == "event"
+    assert 0.0 <= run.t_end - 0.3 < 1e-11
+    assert len(seen) < (20 if power == 1 else 50)  # bisection takes as many in every case

@@ -7,7 +7,7 @@ import numpy as np
 from drivewright._jit import generic, inner, kernel
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.bearings.response import response
-from drivewright.numerics.small import cholesky_solve
+from drivewright.numerics.small import ldl_solve
 
 MAX_STEPS = 30  # at one load
 MAX_LOADS = 60  # on the way from an easy load to the wanted one
@@ -173,7 +173,7 @@ def _newton_step(displacement, miss, work):
                 work.matrix[i, j] = work.scale[i] * work.stiffness[i, j] * work.scale[j]
             work.matrix[i, i] += damping
             work.step[i] = work.scale[i] * (work.load[i] - work.force[i])
-        cholesky_solve(work.matrix, work.step)
+        ldl_solve(work.matrix, work.step)
         size = 0.0
         for i in range(5):
             size = np.hypot(size, work.step[i])

@@ -16,7 +16,7 @@ from drivewright.multibody.kinematics import jacobian_determinant, update_veloci
 from drivewright.multibody.loads import apply_forces
 from drivewright.multibody.system import BIAS, Motion, System, Work
 from drivewright.numerics.ode import events, rate, switch
-from drivewright.numerics.small import cholesky_factor, cholesky_substitute
+from drivewright.numerics.small import ldl_factor, ldl_substitute
 
 DECADE = 0.1  # part of its determinant to which a split may fall, or whose inverse it may reach, before another one is made
 FIRST_PIN = 2  # among the event functions: before it stand the split's own and the singular position
@@ -147,7 +147,7 @@ def contact_event(system: System, work: Work, index: int, t: float, y: Floats) -
 
 @inner
 def update_mass_matrix(system: System, work: Work) -> None:
-    """Partial velocities R = d(body)/d(independent) of the bodies, and the factor of the mass matrix  sum R^T M R."""
+    """Partial velocities R = d(body)/d(independent) of the bodies, and the factors of the mass matrix  sum R^T M R."""
     free = system.independent.size
     for m in range(free):
         for n in range(m + 1):
@@ -164,7 +164,7 @@ def update_mass_matrix(system: System, work: Work) -> None:
             for n in range(m + 1):
                 two = work.reduced_partial_velocities[i, n]
                 work.mass[m, n] += body.mass * (one.x * two.x + one.y * two.y) + body.inertia * one.t * two.t
-    cholesky_factor(work.mass)
+    ldl_factor(work.mass)
 
 
 @inner
@@ -186,7 +186,7 @@ def solve_accelerations(system: System, work: Work) -> None:
         for m in range(free):
             partial = work.reduced_partial_velocities[i, m]
             work.force[m] += partial.x * fx + partial.y * fy + partial.t * ft
-    cholesky_substitute(work.mass, work.force)
+    ldl_substitute(work.mass, work.force)
 
 
 @inner

@@ -97,7 +97,7 @@ class Work(NamedTuple):
     row_columns: Floats  # (3, rows)
     dependency_matrix: Floats  # (rows, independent + driven): d(dependent)/d(independent and, in a chart, driven)
     reduced_partial_velocities: Records  # (bodies, independent): the dependent coordinates following
-    mass: Floats  # (independent, independent): factor L of the mass matrix L L^T
+    mass: Floats  # (independent, independent): factors of the mass matrix L D L^T, see `numerics.small.ldl_factor`
     force: Floats  # (independent,)
     unit_load: Floats  # (independent,): scratch, what a unit force of a contact does
     node_state: Floats  # (stored + independent,): state of a node of the chart

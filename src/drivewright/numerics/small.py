@@ -52,36 +52,51 @@ def lu_solve(lu: Floats, pivots: Ints, b: Floats) -> None:
 
 
 @inner
-def cholesky_solve(a: Floats, b: Floats) -> None:
+def ldl_solve(a: Floats, b: Floats) -> None:
     """Overwrite b (n,) with x of a x = b, a (n, n) symmetric and positive definite (its lower half is used up); nan in b where it is
     not."""
-    cholesky_factor(a)
-    cholesky_substitute(a, b)
+    ldl_factor(a)
+    ldl_substitute(a, b)
 
 
 @inner
-def cholesky_factor(a: Floats) -> None:
-    """Overwrite the lower half of a (n, n), symmetric and positive definite, with its factor L, a = L L^T; nan where it is not."""
+def ldl_factor(a: Floats) -> None:
+    """Overwrite the lower half of a (n, n), symmetric and positive definite, with its factors, a = L D L^T; nan where it is not.
+
+    L has ones on its diagonal; in their places stand the reciprocals of D.  One division a column, where Cholesky's factor needs a root
+    and n divisions: in a mass matrix of two or three coordinates they are most of the time.
+    """
     n = a.shape[0]
     for j in range(n):
-        for k in range(j):
-            a[j, j] -= a[j, k] * a[j, k]
-        a[j, j] = np.sqrt(a[j, j])
+        reciprocal = 1.0 / a[j, j] if a[j, j] > 0.0 else np.nan
         for i in range(j + 1, n):
-            for k in range(j):
-                a[i, j] -= a[i, k] * a[j, k]
-            a[i, j] /= a[j, j]
+            factor = a[i, j] * reciprocal
+            for k in range(j + 1, i + 1):
+                a[i, k] -= factor * a[k, j]
+        for i in range(j + 1, n):
+            a[i, j] *= reciprocal
+        a[j, j] = reciprocal
 
 
 @inner
-def cholesky_substitute(a: Floats, b: Floats) -> None:
-    """Overwrite b (n,) with x of L L^T x = b, L in the lower half of a (n, n)."""
+def ldl_substitute(a: Floats, b: Floats) -> None:
+    """Overwrite b (n,) with x of L D L^T x = b, the factors in the lower half of a (n, n) as `ldl_factor` leaves them."""
     n = a.shape[0]
     for i in range(n):
         for k in range(i):
             b[i] -= a[i, k] * b[k]
-        b[i] /= a[i, i]
     for i in range(n - 1, -1, -1):
+        b[i] *= a[i, i]
         for k in range(i + 1, n):
             b[i] -= a[k, i] * b[k]
-        b[i] /= a[i, i]
+
+
+@inner
+def ldl_energy(a: Floats, b: Floats) -> float:
+    """b^T (L D L^T)^-1 b, the factors in the lower half of a (n, n) as `ldl_factor` leaves them; b (n,) is used up."""
+    total = 0.0
+    for i in range(b.size):
+        for k in range(i):
+            b[i] -= a[i, k] * b[k]
+        total += a[i, i] * b[i] * b[i]
+    return total

@@ -18,6 +18,7 @@ from drivewright.multibody.forces.contact import AMBROSIO, COULOMB, LONG_FILM, L
 from drivewright.multibody.frames import apply_force, relative_motion, rotated
 from drivewright.multibody.records import OneRecord, Records
 from drivewright.multibody.system import System, Work
+from drivewright.numerics.small import ldl_energy
 
 SLOWEST = 1e-4  # approach speed that counts at least, where a law divides by it [m/s]
 LASTING = -1.0  # in the memory of a contact that no longer remembers an approach; 0: no contact
@@ -32,19 +33,19 @@ def penetration(system: System, work: Work, n: int) -> float:
     px, py = rotated(one, contact.ax, contact.ay)
     qx, qy = rotated(two, contact.bx, contact.by)
     dx, dy = one.x + px - two.x - qx, one.y + py - two.y - qy
-    worn, _ = wear_depth(system.wear[n], work.poses[contact.i].angle, dx, dy)
-    return np.hypot(dx, dy) - contact.clearance - worn
+    distance = np.sqrt(dx * dx + dy * dy)
+    worn, _ = wear_depth(system.wear[n], work.poses[contact.i].angle, dx, dy, distance)
+    return distance - contact.clearance - worn
 
 
 @inner
-def wear_depth(wear: Floats, turned_by: float, dx: float, dy: float) -> tuple[float, float]:
-    """(depth [m] worn off the bearing where the journal is, opposite to e = (dx, dy) [m]; its slope by the angle over |e|).
+def wear_depth(wear: Floats, turned_by: float, dx: float, dy: float, distance: float) -> tuple[float, float]:
+    """(depth [m] worn off the bearing where the journal is, opposite to e = (dx, dy) [m]; its slope by the angle over |e| = distance).
 
     wear (bins,) [m] is in the bearing's frame, which has turned by an angle [rad]; see `contact.wear.wear_at`.
     The journal is taken to touch where its centre points, so that depth = |e| - clearance - h(angle); the force is that law's gradient,
     which keeps the energy.  It holds while the profile is flat: its slope by the angle well below the clearance.
     """
-    distance = np.hypot(dx, dy)
     if wear.size == 0 or distance == 0.0:  # in the middle there is no side
         return 0.0, 0.0
     depth, slope = wear_at(wear, np.arctan2(-dy, -dx) - turned_by)
@@ -153,8 +154,8 @@ def gap_motion(system: System, n: int, work: Work, memory: Numbers) -> tuple[flo
     """
     contact = system.contacts[n]
     dx, dy, vx, vy, px, py, qx, qy = relative_motion(work.poses, contact)
-    distance = np.hypot(dx, dy)
-    worn, wear_slope = wear_depth(system.wear[n], work.poses[contact.i].angle, dx, dy)
+    distance = np.sqrt(dx * dx + dy * dy)  # np.hypot takes twice as long, for lengths that no gap has
+    worn, wear_slope = wear_depth(system.wear[n], work.poses[contact.i].angle, dx, dy, distance)
     depth = distance - contact.clearance - worn
     if distance == 0.0:
         return depth, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
@@ -169,20 +170,8 @@ def gap_motion(system: System, n: int, work: Work, memory: Numbers) -> tuple[flo
             one, two = work.reduced_partial_velocities[contact.i, m], work.reduced_partial_velocities[contact.j, m]
             ux, uy = one.x - one.t * py - two.x + two.t * qy, one.y + one.t * px - two.y - two.t * qx
             work.unit_load[m] = nx * ux + ny * uy - wear_slope * (nx * uy - ny * ux - distance * one.t)
-        mobility = unit_response(work)
+        mobility = ldl_energy(work.mass, work.unit_load)
     return depth, rate, mobility, slip, nx, ny, wear_slope
-
-
-@inner
-def unit_response(work: Work) -> float:
-    """b^T M^-1 b of b in work.unit_load, which is used up."""
-    total = 0.0
-    for m in range(work.unit_load.size):
-        for k in range(m):
-            work.unit_load[m] -= work.mass[m, k] * work.unit_load[k]
-        work.unit_load[m] /= work.mass[m, m]
-        total += work.unit_load[m] * work.unit_load[m]
-    return total
 
 
 @inner
