@@ -2,6 +2,7 @@
 
 `kernel`      compiles a function of numbers and arrays; cached on disk, runs without the interpreter lock.
 `inner`       the same for code that allocates nothing: no reference counts, which is what an inner loop over many arrays needs.
+`elementwise` the same for loops over the elements of arrays whose turns do not depend on each other: they become vector code.
 `by_reference`  marks a NamedTuple of arrays that kernels get as one pointer.
 `generic`     declares a formula with one version per type of its first argument, a NamedTuple of parameters;
 `implements`  states the version of one type.  The call works in plain Python and inside kernels alike, and a new type
@@ -43,6 +44,16 @@ def inner(function: FunctionT) -> FunctionT:
     """A kernel that allocates nothing: without reference counts a call with twenty arrays in its tuples costs nothing; with them
     it costs microseconds."""
     return _compiled(function, _nrt=False)
+
+
+def elementwise(function: FunctionT) -> FunctionT:
+    """An inner kernel over the elements of arrays: no turn of its loops writes what another one reads or writes.
+
+    What it calls has numbers for arguments, no arrays.  LLVM is told so, and makes vector code of its loops; else it had to compare the places of all arrays in every call, and with more than
+    a dozen of them it leaves the loop as it is.
+    """
+    vars(function)["elementwise"] = True
+    return inner(function)
 
 
 def _compiled(function: FunctionT, **options: Any) -> FunctionT:

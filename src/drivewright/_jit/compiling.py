@@ -5,11 +5,12 @@ of its callers.  Here a kernel that kernels call is kept as it was lowered (`Low
 below it, optimised as a whole, and it alone gets machine code and a wrapper (`Linked`).
 """
 
+import re
 from collections.abc import Callable
 from typing import Any
 
 from llvmlite import binding as llvm
-from numba.core import codegen, compiler, funcdesc, lowering, types
+from numba.core import cgutils, codegen, compiler, funcdesc, lowering, types
 from numba.core.compiler_machinery import LoweringPass, register_pass
 from numba.core.registry import CPUDispatcher
 from numba.core.typing.templates import AbstractTemplate, infer_global
@@ -22,6 +23,17 @@ class Lowered(codegen.JITCodeLibrary):
     """The code of one function as it was lowered."""
 
     environment = ""  # name of the place for the objects that it may use: what numba calls its environment
+    elementwise = False  # whether the turns of its loops are independent of each other
+
+    def add_ir_module(self, ir_module: Any) -> None:
+        """Take a module in from numba's lowering."""
+        if not self.elementwise:
+            super().add_ir_module(ir_module)
+            return
+        module = llvm.parse_assembly(with_independent_turns(cgutils.normalize_ir_text(str(ir_module))))
+        module.name = ir_module.name
+        module.verify()
+        self.add_llvm_module(module)
 
     def add_llvm_module(self, ll_module: Any) -> None:
         """Take a module in as it is: it is optimised where it is linked."""
@@ -86,6 +98,29 @@ def _needed(library):
     return found.values()
 
 
+def with_independent_turns(code: str) -> str:
+    """LLVM's code with a word to it: in the loops of these functions no turn touches in memory what another one writes.
+
+    As LLVM wants it: all reads, writes and calls belong to one access group, and each branch back to the head of a loop names that group.
+    """
+    free = 1 + max((int(number) for number in re.findall(r"^!(\d+) = ", code, re.MULTILINE)), default=-1)
+    group, words, loops, seen, lines = f"!{free}", f"!{free + 1}", free + 2, set(), []
+    for line in code.splitlines():
+        if label := re.match(r'"?([\w.$-]+)"?:', line):
+            seen.add(label[1])
+        elif line.startswith("define "):
+            seen.clear()
+        elif re.match(r"\s+(store |\S+ = load |(\S+ = )?call )", line):
+            line += f", !llvm.access.group {group}"
+        elif line.lstrip().startswith("br ") and any(target in seen for target in re.findall(r'label %"?([\w.$-]+)', line)):
+            line += f", !llvm.loop !{loops}"
+            loops += 1
+        lines.append(line)
+    lines += [f"{group} = distinct !{{}}", f'{words} = !{{!"llvm.loop.parallel_accesses", {group}}}']
+    lines += [f"!{each} = distinct !{{!{each}, {words}}}" for each in range(free + 2, loops)]
+    return "\n".join(lines)
+
+
 class _Inside:
     """Stands for the machine code of a function that only kernels call."""
 
@@ -103,6 +138,7 @@ class _Lower(LoweringPass):
         context, flags, for_python = state.targetctx, state.flags, self.library is Linked
         state.library = library = self.library(context.codegen(), state.func_id.func_qualname)
         library.enable_object_caching()
+        library.elementwise = getattr(state.func_id.func, "elementwise", False)
         function = funcdesc.PythonFunctionDescriptor.from_specialized_function(
             state.func_ir,
             state.typemap,

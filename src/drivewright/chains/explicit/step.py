@@ -6,14 +6,14 @@ A contact's force is its mean over the step, see `contact.mean_force`.
 
 import numpy as np
 
-from drivewright._jit import inner
+from drivewright._jit import elementwise, inner
 from drivewright._typing import Floats, Records
 from drivewright.chains.explicit.state import PLATES_PER_VECTOR, ChainConstants, Joints, Plates, Teeth, Touches, flank_energy, law_of
 from drivewright.chains.touching.flank import flank_contact, is_active
 from drivewright.contact.time_step import mean_force
 
 
-@inner
+@elementwise
 def load_joints(chain: ChainConstants, p: Plates, j: Joints) -> None:
     """Rolling joints: stretch d = P - Q - 2r u, force f = k d + beta k d' on both plates where the two pins touch, midway between them.
 
@@ -45,7 +45,7 @@ def load_joints(chain: ChainConstants, p: Plates, j: Joints) -> None:
     j.fx_[0], j.fy_[0], j.mx_[0], j.my_[0], j.turn_[0] = j.fx[n], j.fy[n], j.mx[n], j.my[n], j.turn[n]
 
 
-@inner
+@elementwise
 def joint_damping_work(chain: ChainConstants, p: Plates, j: Joints, dt: float) -> None:
     """Power and work of the joints' damping: its force and torque, at the predicted rates, on the way between the half steps.
 
@@ -61,7 +61,7 @@ def joint_damping_work(chain: ChainConstants, p: Plates, j: Joints, dt: float) -
         j.lost[i] += dt * power
 
 
-@inner
+@elementwise
 def load_gravity(chain: ChainConstants, p: Plates, t: Touches) -> None:
     """Loads start anew with the weight."""
     for i in range(PLATES_PER_VECTOR * chain.blocks):
@@ -71,7 +71,7 @@ def load_gravity(chain: ChainConstants, p: Plates, t: Touches) -> None:
         t.stored[i] = 0.0
 
 
-@inner
+@elementwise
 def load_flanks(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, n: int, first: int, last: int, dt: float) -> None:
     """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n.
 
@@ -112,7 +112,7 @@ def load_flanks(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth:
         p.moment[i] += fr * at_r - fl * at_l + offset * fx
 
 
-@inner
+@elementwise
 def flank_damping_work(
     chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, n: int, first: int, last: int, dt: float
 ) -> None:
@@ -146,7 +146,7 @@ def total(row: Floats, first: int, last: int) -> float:
     return (a + b) + (c + d)
 
 
-@inner
+@elementwise
 def add_contact_forces(p: Plates, t: Touches, b: Records, n: int, first: int, last: int) -> None:
     """Contact forces onto the plates first .. last-1, and the opposite ones onto body n."""
     for i in range(np.uint64(first), np.uint64(last)):
@@ -157,21 +157,22 @@ def add_contact_forces(p: Plates, t: Touches, b: Records, n: int, first: int, la
     b.torque[n] += total(t.torque, first, last)
 
 
-@inner
-def acceleration(p: Plates, j: Joints, i: int) -> tuple[float, float, float]:
-    """Accelerations (x, y, angle) of plate i: its own load and the joints on both sides."""
-    x, y = p.x[i], p.y[i]
-    fx, fy, gx, gy = j.fx[i], j.fy[i], j.fx_[i], j.fy_[i]
-    turn = j.turn_[i] - j.turn[i]
-    moment = p.moment[i] + turn - (j.mx[i] - x) * fy + (j.my[i] - y) * fx + (j.mx_[i] - x) * gy - (j.my_[i] - y) * gx
-    return (p.fx[i] + gx - fx) * p.by_mass[i], (p.fy[i] + gy - fy) * p.by_mass[i], moment * p.by_inertia[i]
-
-
-@inner
-def kick_plates(chain: ChainConstants, p: Plates, j: Joints, dt: float) -> None:
-    """Accelerations, half-step rates by them, and the mean of these rates with those before."""
+@elementwise
+def accelerate_plates(chain: ChainConstants, p: Plates, j: Joints) -> None:
+    """Loads of the plates become accelerations, by their own load and the joints on both sides."""
     for i in range(PLATES_PER_VECTOR * chain.blocks):
-        p.fx[i], p.fy[i], p.moment[i] = acceleration(p, j, i)
+        x, y = p.x[i], p.y[i]
+        fx, fy, gx, gy = j.fx[i], j.fy[i], j.fx_[i], j.fy_[i]
+        turn = j.turn_[i] - j.turn[i]
+        moment = p.moment[i] + turn - (j.mx[i] - x) * fy + (j.my[i] - y) * fx + (j.mx_[i] - x) * gy - (j.my_[i] - y) * gx
+        p.fx[i] = (p.fx[i] + gx - fx) * p.by_mass[i]
+        p.fy[i] = (p.fy[i] + gy - fy) * p.by_mass[i]
+        p.moment[i] = moment * p.by_inertia[i]
+
+
+@elementwise
+def kick_plates(chain: ChainConstants, p: Plates, dt: float) -> None:
+    """Half-step rates by the accelerations, and the mean of these rates with those before."""
     for i in range(PLATES_PER_VECTOR * chain.blocks):
         ax, ay, a = p.fx[i], p.fy[i], p.moment[i]
         hx, hy, hw = p.hx[i], p.hy[i], p.hw[i]
@@ -183,7 +184,7 @@ def kick_plates(chain: ChainConstants, p: Plates, j: Joints, dt: float) -> None:
         p.hw[i] = hw + dt * a
 
 
-@inner
+@elementwise
 def drift_plates(chain: ChainConstants, p: Plates, dt: float) -> None:
     """Places by the half-step rates, directions by the increment of the angle (series, exact to 1e-19); rates predicted there."""
     for i in range(PLATES_PER_VECTOR * chain.blocks):
