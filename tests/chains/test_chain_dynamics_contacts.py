@@ -7,7 +7,7 @@ from drivewright._jit import plain
 from drivewright.chains.explicit.bodies import follow, load_guide, load_rollers, turn_acceleration
 from drivewright.chains.explicit.state import FRICTION, compile_model
 from drivewright.chains.explicit.step import (
-    acceleration,
+    accelerate_plates,
     drift_plates,
     flank_damping_work,
     joint_damping_work,
@@ -45,13 +45,13 @@ def put(drive, x, y, angle, psi=0.4, centre=(0.02, -0.01), v=(0.0, 0.0, 0.0), bo
 
 
 def flank(drive, seat, dt=1e-6):
-    drive.touches.seat[0] = seat
+    drive.touches.seat[0], drive.touches.seat_cos[0], drive.touches.seat_sin[0] = seat, np.cos(seat), np.sin(seat)
     plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
     plain(flank_damping_work)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
 
 
 def roller(drive, seat, dt=1e-6):
-    drive.touches.seat[0] = seat
+    drive.touches.seat[0], drive.touches.seat_cos[0], drive.touches.seat_sin[0] = seat, np.cos(seat), np.sin(seat)
     plain(load_rollers)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
 
 
@@ -210,6 +210,12 @@ def test_no_contact_ever_pulls(name):
     assert (drive.touches.right[0], drive.touches.left[0]) == (0.0, 0.0)
 
 
+def accelerations(drive):
+    """Of eight plates under the loads that they have, (8, 3)."""
+    plain(accelerate_plates)(drive.chain, drive.plates, drive.joints)
+    return np.stack([row[:8] for row in (drive.plates.fx, drive.plates.fy, drive.plates.moment)], axis=-1)
+
+
 def test_articulation_resists_the_turning_of_two_plates_against_each_other_alone():
     """c (w - w1) on one plate, the opposite on the other; the power lost is c (w - w1)^2."""
     quiet, drive = lowered(), lowered()
@@ -219,7 +225,7 @@ def test_articulation_resists_the_turning_of_two_plates_against_each_other_alone
         each.plates.w[:8], each.plates.w[8] = spin, spin[0]
         plain(load_gravity)(each.chain, each.plates, each.touches)
         plain(load_joints)(each.chain, each.plates, each.joints)
-        turned.append([plain(acceleration)(each.plates, each.joints, i) for i in range(8)])
+        turned.append(accelerations(each))
         plain(joint_damping_work)(each.chain, each.plates, each.joints, 1e-6)
     extra, against = np.diff(turned, axis=0)[0], spin - np.roll(spin, -1)
     np.testing.assert_allclose(6.4e-8 * extra[:, 2], 2e-4 * (np.roll(against, 1) - against), rtol=1e-6, atol=1e-9)
@@ -314,7 +320,7 @@ def test_joint_force_acts_where_the_pins_touch_and_turns_nothing_else():
     drive = drive._replace(chain=drive.chain._replace(joint_damping=3.0))
     plain(load_gravity)(drive.chain, p, drive.touches)
     plain(load_joints)(drive.chain, p, drive.joints)
-    a = np.array([plain(acceleration)(p, drive.joints, i) for i in range(8)])
+    a = accelerations(drive)
     turning = np.sum(2.5e-3 * (p.x[:8] * a[:, 1] - p.y[:8] * a[:, 0]) + 6.4e-8 * a[:, 2])
     assert abs(np.sum(2.5e-3 * a[:, 0])) < 1e-9 * np.max(np.abs(2.5e-3 * a))
     assert abs(turning) < 1e-11 * np.max(np.abs(2.5e-3 * a))

@@ -49,8 +49,8 @@ def inner(function: FunctionT) -> FunctionT:
 def elementwise(function: FunctionT) -> FunctionT:
     """An inner kernel over the elements of arrays: no turn of its loops writes what another one reads or writes.
 
-    What it calls has numbers for arguments, no arrays.  LLVM is told so, and makes vector code of its loops; else it had to compare the places of all arrays in every call, and with more than
-    a dozen of them it leaves the loop as it is.
+    What it calls has numbers for arguments, no arrays.  LLVM is told so, and makes vector code of its loops; else it had to compare the
+    places of all arrays in every call, and with more than a dozen of them it leaves the loop as it is.
     """
     vars(function)["elementwise"] = True
     return inner(function)

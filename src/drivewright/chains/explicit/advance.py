@@ -160,6 +160,7 @@ def find_candidates(
             before = i
             if n < teeth.base.size:
                 t.seat[i] = seat_of(p, b, teeth, n, i)
+                t.seat_cos[i], t.seat_sin[i] = np.cos(t.seat[i]), np.sin(t.seat[i])
     candidates.size[0] = size
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from drivewright._jit import inner
+from drivewright._jit import elementwise, inner
 from drivewright._typing import Floats, Records
 from drivewright.chains.explicit.state import (
     DRIVE,
@@ -27,7 +27,7 @@ from drivewright.contact.normal import stored_energy
 from drivewright.contact.time_step import mean_force
 
 
-@inner
+@elementwise
 def load_rollers(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, n: int, first: int, last: int, dt: float) -> None:
     """Rollers on the right-hand pins of the plates first .. last-1 in the gaps of sprocket n.
 
@@ -35,27 +35,30 @@ def load_rollers(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth
     """
     law, bx, by, spin = law_of(chain.laws, b[n], n), b.x[n], b.y[n], b.w[n]
     ex, ey, hx, hy = teeth.edge_x[n], teeth.edge_y[n], teeth.flank_x[n], teeth.flank_y[n]
-    for i in range(first, last):
+    seat_at, seat_gap, flank_gap, low, ux, uy = teeth.seat_at[n], teeth.seat_gap[n], teeth.flank_gap[n], teeth.low[n], b.vx[n], b.vy[n]
+    turned_c, turned_s = np.cos(b.psi[n]), np.sin(b.psi[n])
+    for i in range(np.uint64(first), np.uint64(last)):
         rx, ry = p.half[i] * p.c[i] + chain.offset * p.s[i], p.half[i] * p.s[i] - chain.offset * p.c[i]
         gx, gy = p.x[i] + rx - bx, p.y[i] + ry - by
-        c, s = np.cos(b.psi[n] + t.seat[i]), np.sin(b.psi[n] + t.seat[i])
-        across, out = s * gx - c * gy, c * gx + s * gy - teeth.seat_at[n]
+        c, s = turned_c * t.seat_cos[i] - turned_s * t.seat_sin[i], turned_s * t.seat_cos[i] + turned_c * t.seat_sin[i]
+        across, out = s * gx - c * gy, c * gx + s * gy - seat_at
         mirror = 1.0 if across >= 0.0 else -1.0
         across *= mirror
-        depth, far, x, y, seated = roller_contact(across, out, ex, ey, hx, hy, teeth.seat_gap[n], teeth.flank_gap[n])
+        depth, far, x, y, seated = roller_contact(across, out, ex, ey, hx, hy, seat_gap, flank_gap)
         near = 1.0 / max(far, 1e-15)
         nx, ny = (-x * near, -y * near) if seated else (x * near, y * near)
         nx *= mirror
         wx, wy = nx * s + ny * c, ny * s - nx * c
-        zx, zy = p.vx[i] - p.w[i] * ry - b.vx[n] + spin * gy, p.vy[i] + p.w[i] * rx - b.vy[n] - spin * gx
+        zx, zy = p.vx[i] - p.w[i] * ry - ux + spin * gy, p.vy[i] + p.w[i] * rx - uy - spin * gx
         rate = -(wx * zx + wy * zy)
         elastic, force, touching = mean_force(law, depth, rate, dt)
-        on = touching and teeth.seat_at[n] + out < teeth.low[n]
+        on = touching & (seat_at + out < low)
         elastic, force = (elastic if on else 0.0), (force if on else 0.0)
         t.fx[i], t.fy[i] = force * wx, force * wy
         t.torque[i] = -force * (gx * wy - gy * wx)
-        t.power[i] = (force - elastic) * rate
-        t.lost[i] += dt * t.power[i]
+        power = (force - elastic) * rate
+        t.power[i] = power
+        t.lost[i] += dt * power
         t.stored[i] += stored_energy(law, -depth) if on else 0.0
         t.right[i], t.left[i] = (force, 0.0) if seated else (0.0, force)
         p.moment[i] += force * (rx * wy - ry * wx)

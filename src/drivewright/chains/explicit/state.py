@@ -83,10 +83,12 @@ class Joints(NamedTuple):
 
 @by_reference
 class Touches(NamedTuple):
-    """Per plate: seat angle of its tooth (less psi), forces of the right and left flank (of roller seat and flank) and what of them is
-    damping, loss power and its sum, energy stored, force on the plate, torque on the body."""
+    """Per plate: seat angle of its tooth (less psi) with cosine and sine, forces of the right and left flank (of roller seat and flank) and
+    what of them is damping, loss power and its sum, energy stored, force on the plate, torque on the body."""
 
     seat: Floats
+    seat_cos: Floats
+    seat_sin: Floats
     right: Floats
     left: Floats
     damped_right: Floats

@@ -17,5 +17,5 @@ def roller_contact(
     """
     seated = edge_x * out - edge_y * across <= 0.0
     x, y = (across, out) if seated else (across - flank_x, out - flank_y)
-    distance = np.hypot(x, y)
+    distance = np.sqrt(x * x + y * y)  # np.hypot keeps loops from becoming vector code
     return distance - seat_gap if seated else flank_gap - distance, distance, x, y, seated
