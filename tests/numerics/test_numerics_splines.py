@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 from drivewright.errors import InputError
-from drivewright.numerics.splines import cubic_spline, interpolating_spline, solve_tridiagonal
+from drivewright.numerics.splines import cubic_spline, hermite_cubics, interpolating_spline, solve_tridiagonal
 
 pytestmark = pytest.mark.analytical
 
@@ -115,3 +115,11 @@ def test_cyclic_reduction_solves_the_system(count):
     diagonal = 2.5 + rng.uniform(0, 1, count)
     matrix = np.diag(diagonal) + np.diag(below[1:], -1) + np.diag(above[:-1], 1)
     np.testing.assert_allclose(solve_tridiagonal(below, diagonal, above, right), np.linalg.solve(matrix, right), rtol=1e-12, atol=1e-13)
+
+
+def test_cubics_through_samples_and_their_slopes_are_scipys():
+    rng = np.random.default_rng(4)
+    x = np.cumsum(rng.uniform(0.1, 1.0, 12))
+    y, slope = rng.normal(size=(2, 12))
+    at = np.linspace(x[0], x[-1], 200)
+    np.testing.assert_allclose(hermite_cubics(x, y, slope).at(at), CubicHermiteSpline(x, y, slope)(at), rtol=1e-11, atol=1e-12)

@@ -9,6 +9,7 @@
 `jets`           a value with its first three derivatives.
 `signals`        maxima, means and spectra of sampled signals.
 `ensemble`       means of correlated samples with their intervals.
+`student`        Student's distribution.
 `chaos`          the largest Lyapunov exponent, the period of an orbit.
 `ode`            initial value problems.
 """

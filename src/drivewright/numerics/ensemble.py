@@ -12,6 +12,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.errors import InputError
+from drivewright.numerics.student import student_quantile
 
 LEVEL = 0.95
 FALSE_ALARM = 0.01  # share of settled ensembles that are called unsettled
@@ -140,9 +141,7 @@ def _standard_error(numbers):
 
 def _student(freedom, share):
     """Student's quantile; one degree of freedom at least."""
-    from scipy.special import stdtrit
-
-    return float(stdtrit(max(freedom, 1.0), share))
+    return student_quantile(max(freedom, 1.0), share)
 
 
 def _drift(samples, halves, false_alarm=FALSE_ALARM):

@@ -20,6 +20,12 @@ class Cubics(NamedTuple):
     breaks: Floats
     coefficients: Floats
 
+    def at(self, x: Floats) -> Floats:
+        """Values at every x (n,) between the first break and the last."""
+        piece = np.clip(np.searchsorted(self.breaks, x, side="right") - 1, 0, len(self.breaks) - 2)
+        (third, second, first, value), along = self.coefficients[:, piece], x - self.breaks[piece]
+        return value + along * (first + along * (second + along * third))
+
     def integrals_to(self, at: Floats) -> Floats:
         """Integrals from breaks[0] to every `at` (n,) between the first break and the last."""
         whole = np.concatenate([[0.0], np.cumsum(_integral(self.coefficients, np.diff(self.breaks)))])
@@ -40,8 +46,12 @@ def cubic_spline(x: Floats, y: Floats) -> Cubics:
     (de Boor, A Practical Guide to Splines, chapter IV; recalled).
     """
     h, chord = np.diff(x), np.diff(y) / np.diff(x)
-    slope = _slopes(h, chord)
-    left, right = slope[:-1], slope[1:]
+    return hermite_cubics(x, y, _slopes(h, chord))
+
+
+def hermite_cubics(x: Floats, y: Floats, slope: Floats) -> Cubics:
+    """The cubics through samples y (m,) at x (m,), ascending, with these slopes (m,) there."""
+    h, chord, left, right = np.diff(x), np.diff(y) / np.diff(x), slope[:-1], slope[1:]
     return Cubics(x, np.stack([(left + right - 2 * chord) / h**2, (3 * chord - 2 * left - right) / h, left, y[:-1]]))
 
 

@@ -15,6 +15,7 @@ from drivewright.multibody.record import POINT_FIELDS, Record
 from drivewright.multibody.simulate import Run, simulate
 from drivewright.numerics.chaos import orbit_period
 from drivewright.numerics.ensemble import Estimate, estimate, estimate_statistic
+from drivewright.numerics.splines import hermite_cubics
 from drivewright.result import Check, Value
 
 SHIFT = 1e-3  # of the least clearance by which the starts of the members differ: below what is manufactured
@@ -156,10 +157,8 @@ def _places(model, record, name):
 
 def _scaled(t, x, rate, times):
     """x at the times over its range, by cubics between the samples and their rates."""
-    from scipy.interpolate import CubicHermiteSpline
-
     keep = np.flatnonzero(np.append(True, np.diff(t) > 0))
-    return CubicHermiteSpline(t[keep], x[keep], rate[keep])(times) / np.ptp(x)
+    return hermite_cubics(t[keep], x[keep], rate[keep]).at(times) / np.ptp(x)
 
 
 def perturbed_start(model: SimulationModel, number: int) -> Floats:
