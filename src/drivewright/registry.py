@@ -73,6 +73,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     batch: Callable[..., Any] | None = None
     sources: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
+    compile_ahead: Callable[[SpecT], object] | None = None  # compiles what a run of the spec comes to last, in a process of its own
     claims: Callable[[SpecT], Claims] | None = None  # what its results obey exactly, for `drivewright.testing`
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 

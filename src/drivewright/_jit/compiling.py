@@ -208,6 +208,17 @@ class Kernel(CPUDispatcher):
         self.callee = _Callee(py_func, targetoptions)
         super().__init__(py_func, targetoptions=targetoptions, pipeline_class=_ForPython)
 
+    def compile(self, sig: Any) -> Any:
+        """Compile it for a signature, or take it from the disk."""
+        try:
+            return super().compile(sig)
+        finally:
+            self._cache.release()
+
+    def compile_for(self, *arguments: Any) -> None:
+        """Compile it for the types of these arguments, without a call."""
+        self.compile(tuple(self.typeof_pyval(each) for each in arguments))
+
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """How kernels call it."""
         return self.callee.get_call_template(args, kws)

@@ -4,6 +4,8 @@ A kernel depends on its layer of this package and those below, and on the packag
 (numba's own cache watches the file of the kernel alone and would answer with old numbers after an edit anywhere else.)  There is one file
 for each kernel, signature and processor; it begins with its checksum, and one that is damaged is compiled again.
 
+While a process compiles a kernel it holds a lock beside the file; others wait for the file instead of compiling the same.
+
 A wheel may bring kernels along (`SHIPPED`), compiled for a processor that many can stand in for (`BASELINE`); those are taken where the
 processor at hand can, and where Python, numba and the sources are the same.
 """
@@ -12,6 +14,7 @@ import atexit
 import contextlib
 import functools
 import hashlib
+import os
 import pickle
 import shutil
 import sys
@@ -24,8 +27,14 @@ from typing import Any
 from drivewright import atomic
 from drivewright._jit import compilation
 
+try:
+    import fcntl
+except ImportError:  # Windows
+    fcntl = None
+
 PACKAGE = __name__.partition(".")[0]
 UNUSED_DAYS = 30
+WAIT, PATIENCE = 0.02, 120.0  # seconds between two looks at what another process compiles, and until this one compiles it itself
 # Nothing below may import these, so that kernels below do not depend on them.
 ABOVE = tuple(
     f"{PACKAGE}.{name}" for name in ("mechanisms", "oracles", "validation", "studies", "execution", "report", "view", "cli", "studio")
@@ -41,6 +50,7 @@ class KernelCache:
     def __init__(self, function: Callable[..., Any], formulas_for: Callable[[type], Iterable[Callable[..., Any]]]) -> None:
         """`formulas_for` gives the formulas that are chosen by a class."""
         self.function, self.formulas_for = function, formulas_for
+        self._lock: int | None = None  # held while a kernel is compiled; it ends with the process, however that ends
         self.name = f"{function.__module__.removeprefix(f'{PACKAGE}.')}.{function.__qualname__}"
 
     @property
@@ -53,14 +63,41 @@ class KernelCache:
         from numba.core.compiler import CompileResult
         from numba.core.runtime.nrt import rtsys
 
-        for file in self._files(signature, target.codegen()):
-            code = _read(file)
-            if code is not None:
-                compilation.tell(self.name, compilation.FOUND)
-                rtsys.initialize(target)  # all that machine code needs; what code is generated from takes half a second to register
-                return CompileResult._rebuild(target, *pickle.loads(code))
-        compilation.tell(self.name, compilation.BEGUN)
-        return None
+        files = list(self._files(signature, target.codegen()))
+        code = next(filter(None, map(_read, files)), None)
+        if code is not None:
+            compilation.tell(self.name, compilation.FOUND)
+        else:
+            compilation.tell(self.name, compilation.BEGUN)
+            code = self._from_another_process(files[0]) if files else None
+            if code is None:
+                return None
+            compilation.tell(self.name, compilation.DONE)
+        rtsys.initialize(target)  # all that machine code needs; what code is generated from takes half a second to register
+        return CompileResult._rebuild(target, *pickle.loads(code))
+
+    def _from_another_process(self, file):
+        """What another process is compiling at this moment, once it is there; None where this one is to compile it, and holds the lock."""
+        if fcntl is None:
+            return None
+        with contextlib.suppress(OSError):  # no locks on this disk: two may compile the same
+            self._lock, began = os.open(file.with_suffix(".lock"), os.O_RDWR | os.O_CREAT, 0o600), time.monotonic()
+            while time.monotonic() - began < PATIENCE:
+                try:
+                    fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+                    break
+                except BlockingIOError:
+                    time.sleep(WAIT)
+        code = _read(file)
+        if code is not None:
+            self.release()
+        return code
+
+    def release(self) -> None:
+        """Let others at the kernel that this process has compiled, or could not."""
+        if self._lock is not None:
+            os.close(self._lock)
+            self._lock = None
 
     def save_overload(self, signature: Any, result: Any) -> None:
         """Keep a compiled kernel, where that can be."""
@@ -150,6 +187,12 @@ def cache_folder() -> Path:
         atexit.register(shutil.rmtree, folder, ignore_errors=True)
     remove_unused(folder)
     return folder
+
+
+def is_first_run() -> bool:
+    """Whether none of the kernels below the mechanisms is here, neither shipped nor compiled by an earlier run."""
+    digest = hash_of_all(frozenset({PACKAGE}))
+    return not any(any((root / digest).glob("*.kernel")) for root in (cache_folder(), SHIPPED))
 
 
 @functools.cache

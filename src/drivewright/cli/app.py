@@ -91,7 +91,7 @@ def run(
 ) -> None:
     """Validate, analyse and write a run folder per spec."""
     from drivewright import runner
-    from drivewright.execution.helper import helping_hand
+    from drivewright.execution.helper import compiling_ahead, helping_hand
     from drivewright.report.content import prepare_drawing, views
     from drivewright.report.folder import write_run_folder
 
@@ -103,8 +103,9 @@ def run(
     for path in specs:
         spec = _load(path, set_)
         with helping_hand(prepare_drawing, figures) as compute, show.progress(path.name, spec.mechanism) as step, show.located(path):
-            model = runner.build(spec)
-            result = runner.run(spec, _names(only), all_, step, model)
+            with compiling_ahead(spec):
+                model = runner.build(spec)
+                result = runner.run(spec, _names(only), all_, step, model)
             folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model), compute)
         results.append(result)
         show.note(f"wrote {folder}/")

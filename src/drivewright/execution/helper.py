@@ -1,11 +1,17 @@
-"""A second process that helps this one with calls that do not depend on each other: figures, on the core that is free."""
+"""A second process that helps this one, on the core that is free: with calls that do not depend on each other, as of figures, and with
+kernels that are compiled while this one compiles others."""
 
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
+from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
+from drivewright import registry
+from drivewright._jit.compilation import BEGUN, watched_by
+from drivewright._jit.disk_cache import is_first_run
 from drivewright.cases import worker_count
+from drivewright.result import SpecLike
 
 if TYPE_CHECKING:
     from concurrent.futures import Future
@@ -41,6 +47,38 @@ def helping_hand(prepare: Callable[[], object], wanted: bool = True) -> Iterator
         yield lambda function, items: _shared(executor, function, list(items))
     finally:
         executor.close()
+
+
+@contextmanager
+def compiling_ahead(spec: SpecLike) -> Iterator[None]:
+    """Within the block a second process compiles what a run of the spec comes to last: from the beginning where nothing has been compiled yet,
+    else as soon as something is.
+
+    This process finds it on the disk, or waits for it there; where there is no core for a second one it compiles all by itself.
+    """
+    if worker_count(None) < 2 or registry.mechanism(spec.mechanism).compile_ahead is None:
+        yield
+        return
+    with ExitStack() as at_the_end:
+        begun: list[ProcessExecutor] = []
+
+        def begin(_: str = "", what: str = BEGUN) -> None:
+            if what == BEGUN and not begun:
+                from drivewright.execution.executors import ProcessExecutor
+
+                begun.append(ProcessExecutor(partial(_compile_ahead, spec)))
+                at_the_end.callback(begun[0].close)
+
+        at_the_end.enter_context(watched_by(begin))
+        if is_first_run():
+            begin()
+        yield
+
+
+def _compile_ahead(spec):
+    compile_ahead = registry.mechanism(spec.mechanism).compile_ahead
+    assert compile_ahead is not None
+    compile_ahead(spec)
 
 
 def _shared(executor: "ProcessExecutor", function: Callable[[Any], Any], items: list[Any]) -> list[Any]:

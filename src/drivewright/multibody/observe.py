@@ -1,6 +1,7 @@
 """What a moving system does at given states: poses, rates, accelerations, forces, powers, pins with play."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -18,10 +19,20 @@ from drivewright.multibody.system import BIAS, SCRATCH, Motion, System, Work, mo
 def observe(system: System, t: ArrayLike, y: ArrayLike) -> Observed:
     """`Observed` of states y (m, n) at times t (m,)."""
     t, y = np.ascontiguousarray(t, float), np.ascontiguousarray(y, float)
-    counts = (len(system.bodies), len(FIELDS)), (len(system.contacts), len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),)
-    observed = Observed(t, *(np.zeros((len(t), *count)) for count in counts))
+    observed = _room(system, t)
     observe_all(motion(system), t, y, np.zeros(y.shape[1]), *observed[1:])
     return observed
+
+
+def compile_observation(system: System) -> None:
+    """Compile what `observe` calls, without a state."""
+    kernel: Any = observe_all
+    kernel.compile_for(motion(system), np.zeros(1), np.zeros((1, 1)), np.zeros(1), *_room(system, np.zeros(1))[1:])
+
+
+def _room(system, t):
+    counts = (len(system.bodies), len(FIELDS)), (len(system.contacts), len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),)
+    return Observed(t, *(np.zeros((len(t), *count)) for count in counts))
 
 
 def concatenate(parts: Sequence[Observed]) -> Observed:

@@ -10,15 +10,18 @@ from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble, counted
 from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.chart import outside_fold, solve_kinematics
+from drivewright.multibody.compile_model import compile_model
 from drivewright.multibody.continuation import Stretch, continue_motion
 from drivewright.multibody.dynamics import FIRST_PIN
 from drivewright.multibody.forces.pin_contact import LASTING, penetration
-from drivewright.multibody.observe import FIELDS, observe
+from drivewright.multibody.model import MultibodyModel
+from drivewright.multibody.observe import FIELDS, compile_observation, observe
 from drivewright.multibody.partition import evaluate_at, partition_coordinates
 from drivewright.multibody.passages import Passage, passage, smallest_singular_values
 from drivewright.multibody.singular import Outlook, distance_to_singularity, look_ahead
 from drivewright.multibody.system import System, Work, motion, no_chart
-from drivewright.numerics.ode import Event, integrate
+from drivewright.multibody.tree import build_tree, expand
+from drivewright.numerics.ode import Event, integrate, loop
 from drivewright.stops import Stop, note_stop
 
 GEAR = 1e-3  # absolute over relative tolerance, at lengths and angles of the size of 1
@@ -222,8 +225,6 @@ def touching(system: System, t: float, y: Floats) -> Floats:
 
 def _integrate(system, t, leg, y, settings, steps, samples, speed):
     most = settings.max_steps if samples is not None else min(settings.max_steps, MOST_KEPT // settings.per_step)
-    pins, switches = len(system.contacts), Event(switches=True)
-    watch = [Event(-1, terminal=True), Event(), *[switches] * pins, *[Event(1, switches=True)] * pins, *[switches] * pins]
     longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
     return integrate(
         motion(system),
@@ -234,12 +235,29 @@ def _integrate(system, t, leg, y, settings, steps, samples, speed):
         tolerances(system, settings, speed),
         method=settings.method,
         samples=samples,
-        watch=watch,
+        watch=_watched(system),
         max_steps=max(most - steps, 0),
         max_step=longest,
         min_step=settings.min_step,
         per_step=settings.per_step,
     )
+
+
+def _watched(system):
+    """What to do at each of `dynamics.event_values`."""
+    pins, switches = len(system.contacts), Event(switches=True)
+    return [Event(-1, terminal=True), Event(), *[switches] * pins, *[Event(1, switches=True)] * pins, *[switches] * pins]
+
+
+def compile_run(model: MultibodyModel, settings: Settings | None = None) -> None:
+    """Compile what a run comes to last, without one: the observation of its states and, with settings, the steps of a simulation."""
+    expanded = expand(model)
+    system = compile_model(expanded, build_tree(expanded))
+    if settings:
+        memories = [contact[name] for contact in system.contacts for name in ("memory", "bristle")]
+        states = max([len(system.stored) + len(system.independent), *(memory + 1 for memory in memories)])
+        loop.compile_ahead(motion(system), states, _watched(system), settings.method)
+    compile_observation(system)
 
 
 def fastest_drive_speed(assembly: Assembly) -> float:

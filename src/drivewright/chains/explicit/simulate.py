@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any, cast
 
 import numpy as np
 
@@ -62,6 +63,12 @@ def simulate(
     drive = _begun(model, begin, settings, step, search_interval)
     log = _in_chunks(drive, settings, samples, every, search_interval, step, progress)
     return Motion(model, settings, step, every, log.rows, log.bodies, log.tension, log.plate)
+
+
+def compile_run(model: ChainDrive) -> None:
+    """Compile what `simulate` takes its steps with, without a step: every drive whose contacts have such a law runs on it."""
+    drive, kernel = compile_model(model), cast(Any, run)
+    kernel.compile_for(drive, empty_snapshots(1, len(drive.bodies), drive.chain.count), 0, 1, 1, 1.0, 1e-6)
 
 
 def first_start(model: ChainDrive, settings: RunSettings) -> Start:

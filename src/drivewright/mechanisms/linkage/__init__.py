@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from drivewright.mechanisms.linkage.analyses import ANALYSES
-from drivewright.mechanisms.linkage.build import build
+from drivewright.mechanisms.linkage.build import build, compile_ahead
 from drivewright.mechanisms.linkage.claims import claims
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.scene import scene
@@ -49,6 +49,7 @@ mechanism = Mechanism(
     summary="planar linkage with ideal joints or joints with play",
     spec=LinkageSpec,
     build=build,
+    compile_ahead=compile_ahead,
     claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,

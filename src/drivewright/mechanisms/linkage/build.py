@@ -9,7 +9,7 @@ from drivewright.mechanisms.linkage.describe import describe, output_marker
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.multibody.analyses.simulation_model import Output, RunLimits, SimulationModel
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.simulate import Settings
+from drivewright.multibody.simulate import Settings, compile_run
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -50,6 +50,12 @@ def build(spec: LinkageSpec) -> LinkageModel:
             limits.energy_error,
         ),
     )
+
+
+def compile_ahead(spec: LinkageSpec) -> None:
+    """Compile what a run of this spec comes to last."""
+    model = describe(spec)
+    compile_run(model, _settings(spec) if any(joint.play for joint in model.joints) else None)
 
 
 def _output(spec, output):

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, missing, stress
 from drivewright.mechanisms.silent_chain.build import build
+from drivewright.mechanisms.silent_chain.chain_drive import compile_ahead
 from drivewright.mechanisms.silent_chain.claims import claims
 from drivewright.mechanisms.silent_chain.designs import batch
 from drivewright.mechanisms.silent_chain.geometry import geometry
@@ -68,6 +69,7 @@ mechanism = Mechanism(
     summary="chain drive",
     spec=SilentChainSpec,
     build=build,
+    compile_ahead=compile_ahead,
     claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,

@@ -5,10 +5,13 @@ from typing import Any
 import numpy as np
 
 from drivewright.chains import masses
+from drivewright.chains.explicit.simulate import compile_run
+from drivewright.chains.explicit.warm import small_drive
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket
 from drivewright.chains.standards import pitch_diameter
 from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.build import ChainModel
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 
 
 def chain_drive(model: ChainModel) -> ChainDrive:
@@ -19,6 +22,12 @@ def chain_drive(model: ChainModel) -> ChainDrive:
     driven = [_driven(model, touch), *(_further(model, each, touch) for each in spec.sprockets)]
     guides = tuple(_guide(model, each, touch) for each in spec.guides)
     return ChainDrive(_chain(model), (_driver(model, touch), *driven), guides, model.drive.gravity)
+
+
+def compile_ahead(spec: SilentChainSpec) -> None:
+    """Compile what a run of this spec comes to last: the steps of the running chain."""
+    if spec.drive is not None and spec.dynamics.integrator == "explicit":
+        compile_run(small_drive(spec.contact.law))
 
 
 def _chain(model: ChainModel) -> Chain:

@@ -18,7 +18,7 @@ The kernels run in batches of steps, between which Ctrl-C and other threads get 
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -141,11 +141,8 @@ def integrate(
     start, advance = advancing.start, advancing.advance
     if isinstance(system, Functions):
         start, advance = plain(start), plain(advance)
-    event_system = system if watch else NoEvents(0)
-    switch_system = system if any(event.switches for event in watch) else NoEvents(0)
     control = _control(t0, t1, y, rtol, atol, max_step, min_step)
-    if chosen.needs_jacobian:
-        system = with_jacobian(system, control.rtol, control.atol)
+    system, event_system, switch_system = _parts(system, watch, chosen, control)
     work, rules, scratch = chosen.workspace(y.size), _rules(watch), (np.empty(y.size), *np.empty((3, len(watch))))
     clock, values = np.empty(3), np.empty(len(watch))
     clock[TIME], clock[STEP], clock[ERROR] = t0, 0.0, 1e-4
@@ -161,6 +158,24 @@ def integrate(
         parts.append(_points(batch, done, clock[TIME], per_step) if times is None else _sampled(batch, done, times, clock[TIME]))
         steps, rejected = steps + done, rejected + refused
     return _trajectory(t0, np.array(y0, dtype=float), parts, times, clock[TIME], y, crossings, code, control, steps, rejected, chosen)
+
+
+def compile_ahead(system: tuple[object, ...], states: int, watch: Sequence[Event] = (), method: str | Method = "dopri5") -> None:
+    """Compile what `integrate` takes its steps with, for a system of so many states, without a step."""
+    chosen, y = method_by_name(method), np.zeros(states)
+    control = _control(0.0, 1.0, y, 1e-6, 1e-6, np.inf, 0.0)
+    system, event_system, switch_system = _parts(system, watch, chosen, control)
+    batch = _batch(1, states, len(watch), (np.empty(states), *np.empty((3, len(watch)))))
+    clock, values = np.empty(3), np.empty(len(watch))
+    advance: Any = advancing.advance
+    advance.compile_for(chosen.workspace(states), system, event_system, switch_system, control, _rules(watch), clock, y, values, batch)
+
+
+def _parts(system, watch, method, control):
+    """The system as the method needs it; what stands for it where events are watched, and where they switch."""
+    event_system = system if watch else NoEvents(0)
+    switch_system = system if any(event.switches for event in watch) else NoEvents(0)
+    return with_jacobian(system, control.rtol, control.atol) if method.needs_jacobian else system, event_system, switch_system
 
 
 def method_by_name(method: str | Method) -> Method:
