@@ -66,9 +66,9 @@ def solve(model: ShaftSystem, force: Floats) -> ShaftEquilibrium:
     refuse_unbalanced(model, force)
     load = model.basis.T @ force
     v, held = _first_guess(model, load)
-    change = v
+    change, small = v, regularisation(model)
     for step in range(1, MAX_STEPS + 1):
-        change, more = _newton_step(model, v, held, load)
+        change, more = _newton_step(model, v, held, load, small)
         share = _step_length(model, (v, held), (change, more), load)
         v, held = v + share * change, held + share * more
         if not np.all(np.isfinite(v)):
@@ -110,26 +110,39 @@ def _refuse_runaway(model, v):
         )
 
 
+def _responses(model, v):
+    """(mount, force, stiffness) of every law at v."""
+    for mount in model.mounts:
+        if mount.support.law is not None:
+            yield mount, *evaluate_response(mount.support.law, mount.rows @ v - mount.support.offset)[1:]
+
+
+def _gradient(model, v):
+    """Gradient of the energy of shaft and laws."""
+    gradient = model.linear @ v
+    for mount, force, _ in _responses(model, v):
+        gradient += mount.rows.T @ force
+    return gradient
+
+
 def _energy_derivatives(model, v):
     """(gradient, Hessian) of the energy of shaft and laws."""
     gradient, hessian = model.linear @ v, model.linear.copy()
-    for mount in model.mounts:
-        if mount.support.law is not None:
-            _, force, stiffness = evaluate_response(mount.support.law, mount.rows @ v - mount.support.offset)
-            gradient += mount.rows.T @ force
-            hessian += mount.rows.T @ stiffness @ mount.rows
+    for mount, force, stiffness in _responses(model, v):
+        gradient += mount.rows.T @ force
+        hessian += mount.rows.T @ stiffness @ mount.rows
     return gradient, hessian
 
 
-def _newton_step(model, v, held, load):
+def _newton_step(model, v, held, load, small):
     """Changes of v and of the forces m to the minimum of the quadratic that touches the energy at v.
 
-    What a law does not resist at the moment is held to where it is by a regularisation that leaves the equilibrium alone.
+    What a law does not resist at the moment is held to where it is by a regularisation, `small`, that leaves the equilibrium alone.
     """
     gradient, hessian = _energy_derivatives(model, v)
     off = gradient - load + model.constraints.T @ held
     apart = model.constraints @ v - model.compliance * held - model.given
-    solution = solve_saddle_point(hessian + regularisation(model), model.constraints, model.compliance, -np.concatenate([off, apart]))
+    solution = solve_saddle_point(hessian + small, model.constraints, model.compliance, -np.concatenate([off, apart]))
     return solution[: model.size], solution[model.size :]
 
 
@@ -189,7 +202,7 @@ def _step_length(model, state, change, load):
     (v, held), (dv, dm) = state, change
 
     def slope(share):
-        return (_energy_derivatives(model, v + share * dv)[0] - load) @ dv + (held + share * dm) @ (model.compliance * dm)
+        return (_gradient(model, v + share * dv) - load) @ dv + (held + share * dm) @ (model.compliance * dm)
 
     steepness = slope(0.0)
     if steepness >= 0:
