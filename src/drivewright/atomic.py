@@ -27,11 +27,15 @@ def token() -> str:
 
 
 @contextmanager
-def replacing(path: str | Path) -> Iterator[Path]:
-    """A temporary name beside `path` to write to; it takes the place of `path` when the block ends well, else it is removed."""
+def replacing(path: str | Path, clear: bool = True) -> Iterator[Path]:
+    """A temporary name beside `path` to write to; it takes the place of `path` when the block ends well, else it is removed.
+
+    `clear` False leaves what dead writers of `path` left: for a folder of very many files whose owner looks for that once.
+    """
     path = Path(path)
     _make_folder(path.parent)
-    _remove_remnants(path)
+    if clear:
+        _remove_remnants(path)
     temporary = path.with_name(f".{path.name}.{token()}.tmp{path.suffix}")
     try:
         with _made(temporary):

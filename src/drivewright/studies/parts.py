@@ -77,7 +77,7 @@ def write_part(folder: Path, first: int, table: pa.Table, study: str) -> Part:
     parquet.write_table(marked, sink, write_page_checksum=True)
     content = sink.getvalue()
     part = Part(first, table.num_rows, part_name(first, table.num_rows), content.size, hashlib.sha256(content).hexdigest())
-    with replacing(folder / part.name) as temporary:
+    with replacing(folder / part.name, clear=False) as temporary:  # the folder of a study is cleared at its start
         temporary.write_bytes(content)
     return part
 
