@@ -5,7 +5,7 @@ BIN    := $(VENV)/bin
 JOBS   ?= 2
 export MPLBACKEND = Agg
 
-.PHONY: demo quick test test-slow durations system bench wheel docs lint clean
+.PHONY: demo quick test test-slow durations system bench growth wheel docs lint clean
 
 demo: $(VENV)/core.ready
 	$(BIN)/drivewright examples --run all --out out
@@ -26,6 +26,10 @@ test-slow: $(VENV)/test.ready
 
 bench: $(VENV)/test.ready
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/run.py
+
+# How run time grows with size, and a study with its workers: docs/growth.md and its figures, about six minutes.
+growth: $(VENV)/test.ready
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python benchmarks/growth.py
 
 # Linux x86-64: a wheel with compiled kernels, so that the first run of whoever installs it compiles nothing.
 wheel: $(VENV)/core.ready
