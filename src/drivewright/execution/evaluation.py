@@ -22,6 +22,7 @@ from drivewright.execution.case_table import Columns, case_table
 from drivewright.execution.keys import KeyKind, key_kind
 from drivewright.execution.outputs import INTERVAL_PARTS, Output, OutputInfo, case_outputs
 from drivewright.spec import MechanismSpec, document, from_document, set_key
+from drivewright.spec.shared_tables import share_tables
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -195,6 +196,7 @@ class PreparedTask:
             )
         self.task, self._alone = task, Lock()
         self.spec: MechanismSpec = from_document(task.tables)
+        self._shared = share_tables(task.tables, self.spec, task.keys)
         self.mechanism = registry.mechanism(self.spec.mechanism)
         self.analyses = runner.select_analyses(self.mechanism.analyses, task.analyses, task.everything)
         self.kinds: dict[str, KeyKind] = {key: key_kind(self.spec, key) for key in task.keys}
@@ -257,10 +259,12 @@ class PreparedTask:
 
     def _spec(self, columns: Columns, n: int) -> MechanismSpec:
         """The spec of case n; one at a time, as all have the same tables and a process may have several threads."""
+        given = {key: kind.given(columns[key][n]) for key, kind in self.kinds.items()}
         with self._alone:
-            for key, kind in self.kinds.items():
-                set_key(self.task.tables, key, kind.given(columns[key][n]))
-            return from_document(self.task.tables, type(self.spec))
+            try:
+                return _changed(self._shared, given, type(self.spec))
+            except SpecError:  # once more from raw tables only, which the message may quote
+                return _changed(self.task.tables, given, type(self.spec))
 
     def run(self, spec: MechanismSpec) -> CaseResult:
         """`CaseResult` of a spec: "partial" where an analysis failed or used a run that stopped, "failed" where that leaves no value."""
@@ -280,6 +284,13 @@ class PreparedTask:
         return CaseResult(values, status, _short("; ".join(runner.incomplete_reasons(by_analysis))))
 
 
+def _changed(tables: dict[str, Any], given: Mapping[str, Any], model: type[MechanismSpec]) -> MechanismSpec:
+    """The spec of a class from raw tables in which some keys are set, in place."""
+    for key, value in given.items():
+        set_key(tables, key, value)
+    return from_document(tables, model)
+
+
 def _fault(error: Exception) -> str:
     """The message of a case that fails by a fault of the program."""
     return _short(f"a fault of the program, please report it: {type(error).__name__}: {error}")
@@ -294,6 +305,7 @@ def _gathered(rows: Sequence[CaseResult]) -> tuple[dict[str, Floats], dict[str, 
     about: dict[str, OutputInfo] = {}
     for row in rows:
         for name, output in row.values.items():
-            about.setdefault(name, output.about)
+            if name not in about:
+                about[name] = output.about
     values = {name: np.array([row.values[name].value if name in row.values else np.nan for row in rows], float) for name in about}
     return values, about, [row.status for row in rows], [row.message for row in rows]

@@ -53,11 +53,10 @@ def case_outputs(values: Mapping[str, Value], checks: Iterable[Check]) -> dict[s
     collected: dict[str, Output] = {}
     for name, output, bounds in outputs:
         collected[name] = output
-        collected |= {
-            f"{name}{end}": Output(number, output.unit, f"{output.meaning}, {INTERVAL_PARTS[end]}", name, output.label)
-            for end, number in bounds.items()
-            if f"{name}{end}" not in stated
-        }
+        for end, number in bounds.items():
+            if f"{name}{end}" not in stated:
+                meaning = f"{output.meaning}, {INTERVAL_PARTS[end]}"
+                collected[f"{name}{end}"] = Output(number, output.unit, meaning, name, output.label)
     return collected
 
 
@@ -71,7 +70,7 @@ def _bounds(value: Value) -> dict[str, float]:
 
 
 def _ends(bounds: tuple[float, float] | None) -> dict[str, float]:
-    return dict(zip((LOW, HIGH), bounds or (), strict=False))
+    return dict(zip((LOW, HIGH), bounds, strict=True)) if bounds else {}
 
 
 def _margin(check: Check) -> Output:

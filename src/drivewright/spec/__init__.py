@@ -20,6 +20,7 @@ optimise_table      the [optimise] table: unknowns, requirements and objectives
 parsing             from TOML files and "key=value" texts to raw tables, and from raw tables to a spec
 sample_values       values that the keys of a spec could have: for the commented template and for forms
 serialisation       a spec as raw tables, as TOML text, and as the canonical text under its digest
+shared_tables       many specs that differ in a few keys, all other tables validated once
 study_table         the [study] table: what varies from case to case, how it is sampled, what is kept
 """
 

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         model_config: ClassVar[ConfigDict]
         model_fields: ClassVar[dict[str, FieldInfo]]
         model_fields_set: set[str]
+        __pydantic_decorators__: ClassVar[Any]
 
         def __init__(self, **keys: Any) -> None: ...
         def model_copy(self, *, update: Mapping[str, Any] | None = None) -> Self: ...

@@ -179,7 +179,7 @@ def _cells(column, kind):
     if pa.types.is_string(kind):
         texts = [text.encode() for text in known.to_pylist()]
         yield np.array([len(text) for text in texts], np.int64).tobytes()
-        yield from texts
+        yield b"".join(texts)
     elif not pa.types.is_null(kind):
         yield np.ascontiguousarray(known.to_numpy()).tobytes()
 
