@@ -11,7 +11,7 @@ import statistics
 import sys
 import tempfile
 import time
-from collections import Counter, deque
+from collections import defaultdict, deque
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future
 from contextlib import closing
@@ -59,7 +59,7 @@ class Simulated(NamedTuple):
     work: float
     workers: int
     batches: int
-    busy: Counter[str]
+    busy: dict[str, float]
 
     @property
     def efficiency(self) -> float:
@@ -87,7 +87,7 @@ def simulate(total: int, workers: int, costs: Costs, draw: Callable[[int], float
     idle, fresh = [costs.start] * workers, workers  # when each worker is free; how many have computed nothing yet
     results: list[tuple[float, int, Any, float]] = []  # (arrival, number, batch, seconds), a heap
     clock = passed_on = work = 0.0
-    batches, busy = 0, Counter[str]()
+    batches, busy = 0, defaultdict[str, float](float)
 
     def spend(what: str, seconds: float) -> None:
         nonlocal clock
@@ -291,7 +291,7 @@ def text(costs: Costs, sample: Floats, studies: dict[tuple[str, float], list[Sim
     yield (
         f"A batch of few cases costs the one process {1e3 * once:.1f} ms. As batches take {TARGET:g} s where a case does not take "
         f"longer, it keeps up with about {_saturation(costs, 1e-3):.0f} workers with cases of 1 ms, {_saturation(costs, 1e-2):.0f} with "
-        f"10 ms, {_saturation(costs, 1.0):.0f} with 1 s; longer batches would raise these numbers in proportion."
+        f"10 ms, {_saturation(costs, 1.0):.0f} with 1 s; longer batches would raise these numbers."
     )
     yield ""
     yield "![Efficiency against workers](img/cluster.svg)"

@@ -53,7 +53,7 @@ class Measured(NamedTuple):
         """How the exponent lies against what is expected, where its interval does not touch that."""
         low, high = self.quantity.expected
         exponent, half = self.fit[:2]
-        return "faster than expected" if exponent - half > high else "slower than expected" if exponent + half < low else ""
+        return "grows more than expected" if exponent - half > high else "grows less than expected" if exponent + half < low else ""
 
 
 def fitted(sizes: ArrayLike, seconds: ArrayLike) -> Fit:
@@ -83,8 +83,8 @@ def median_seconds(call: Callable[[], object]) -> float:
 def measured(quantity: Quantity) -> Measured:
     """A quantity at all its sizes."""
     prepared = (quantity.prepare(size) for size in quantity.sizes)
-    sizes, seconds = zip(*((each.size, median_seconds(each.call)) for each in prepared), strict=True)
-    return Measured(quantity, sizes, seconds)
+    pairs = [(each.size, median_seconds(each.call)) for each in prepared]
+    return Measured(quantity, tuple(size for size, _ in pairs), tuple(seconds for _, seconds in pairs))
 
 
 def studio() -> tuple[list[Measured], str]:

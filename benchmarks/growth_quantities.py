@@ -6,9 +6,12 @@ A call does the same work per link, case, body ... at every size: the same numbe
 import tempfile
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+
+if TYPE_CHECKING:
+    from drivewright.chains.closure.model import Strands
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 PITCH, ROLLING = 9.525e-3, 1.2e-3  # of the chain [m]
@@ -17,10 +20,11 @@ MODULUS, POISSON = 206e9, 0.3
 
 
 class Prepared(NamedTuple):
-    """One size made ready: the size as it came out, and what is timed."""
+    """One size made ready: the size as it came out, what is timed, and what has to live as long as that."""
 
     size: int
     call: Callable[[], object]
+    kept: object = None
 
 
 class Quantity(NamedTuple):
@@ -60,7 +64,7 @@ def running_chain(scale: int) -> Prepared:
     return Prepared(model.chain.count, lambda: simulate(model, 0.01, settings))
 
 
-def closure(strands: str) -> Callable[[int], Prepared]:
+def closure(strands: "Strands") -> Callable[[int], Prepared]:
     """Closure of such a chain over a tooth, 48 positions."""
 
     def prepare(scale: int) -> Prepared:
@@ -83,6 +87,7 @@ def pusher_designs(count: int) -> Prepared:
 
     evaluate = designs.batch(load(EXAMPLES / "seedling_pusher.toml"), ("train.axis_ratio",), designs.NAMES)
     rows = np.linspace(0.98, 0.99, count)[:, None]
+    assert evaluate is not None, "the batch covers the ratio of the axes"
     return Prepared(count, lambda: evaluate(rows))
 
 
@@ -131,8 +136,7 @@ def parts(count: int) -> Prepared:
     def another() -> None:
         folder.add(next(first), table, 1.0)
 
-    another.folder = scratch  # which lives as long as the call
-    return Prepared(count, another)
+    return Prepared(count, another, scratch)
 
 
 # -- linkages ------------------------------------------------------------------------------------------------------------------
@@ -195,8 +199,9 @@ def bearings(count: int) -> Prepared:
 
 
 def pins(count: int) -> Prepared:
-    """Trimmed profile of a cam for a wheel of so many pins, 10 mm of circumference each at least."""
-    from drivewright.indexing import PinWheel, index_motion
+    """Trimmed profile of a cam for a wheel of so many pins, 63 mm of the pin circle each."""
+    from drivewright.indexing.motion import index_motion
+    from drivewright.indexing.pin_wheel import PinWheel
 
     motion = index_motion("modified-sine", count, 1.0)
     return Prepared(count, lambda: PinWheel(count, 0.01 * count, 0.008, 0.01, motion).profile)
@@ -224,7 +229,13 @@ def elements(size: float) -> Prepared:
 SCALES = (1, 2, 4, 8, 16, 32, 47)  # a spec takes 2000 links
 QUANTITIES = (
     Quantity(
-        "Chains", "running, 10 000 steps", "links", SCALES, running_chain, (0.8, 1.05), "a link has two neighbours: one pass over the links"
+        "Chains",
+        "running, 10 000 steps",
+        "links",
+        SCALES,
+        running_chain,
+        (0.8, 1.05),
+        "a link has two neighbours: one pass over the links; short chains pay for the rest of a step",
     ),
     Quantity("Chains", "closure, bent strands", "links", SCALES, closure("equilibrium"), (0.8, 1.1), "each strand is summed link by link"),
     Quantity(
@@ -288,7 +299,7 @@ QUANTITIES = (
         (2, 4, 8, 16, 32, 64),
         parallelograms,
         (2.0, 3.0),
-        "dense: the partial velocities of n bodies by n coordinates, and a factorisation of all loops at once, n^3",
+        "dense: partial velocities of n bodies by n coordinates, n^2, and a factorisation of all loops at once, n^3",
     ),
     Quantity(
         "Linkages",
@@ -305,8 +316,8 @@ QUANTITIES = (
         "segments",
         (10, 20, 40, 80, 160, 320),
         segments,
-        (2.0, 3.0),
-        "dense Newton's method with 6 unknowns a segment; a banded solve would grow with 1",
+        (0.9, 1.1),
+        "a beam is a band; here each step of Newton's method factorises a dense matrix with 6 unknowns a segment, n^3",
     ),
     Quantity(
         "Shafts",
