@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from drivewright.errors import InputError, SolverError
-from drivewright.numerics.roots import bracketed_roots, extremes, newton
+from drivewright.numerics.roots import bracketed_roots, extremes, newton, roots_in_brackets
 
 pytestmark = pytest.mark.analytical
 
@@ -126,3 +126,13 @@ def test_the_first_of_equal_extremes():
 def test_extremes_refuse_infinity():
     with np.errstate(divide="ignore"), pytest.raises(InputError, match="not finite at 0"):
         extremes(lambda x: 1 / x, 0, 1)
+
+
+def test_brackets_of_functions_of_their_own_are_closed_together():
+    """Each column has its own cosine: roots where they are, nan at a pole and where the signs are equal."""
+    shift = np.array([[0.3], [1.1]])
+    a, b = np.array([[1.0, 2.5], [2.0, 3.0]]), np.array([[2.0, 3.0], [3.5, 3.2]])
+    roots = roots_in_brackets(lambda x: np.cos(x - shift), a, b, np.cos(a - shift), np.cos(b - shift))
+    np.testing.assert_allclose(roots, [[np.pi / 2 + 0.3, np.nan], [np.pi / 2 + 1.1, np.nan]], rtol=1e-15)
+    ends = np.array([1.0]), np.array([2.0])
+    assert np.isnan(roots_in_brackets(np.tan, *ends, *map(np.tan, ends)))

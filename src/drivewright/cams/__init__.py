@@ -2,6 +2,7 @@
 
 `translating`, `oscillating`  pitch curve and pressure angle of the two kinds of follower
 `followers`          a follower with its face: from lift to contact
+`refusals`           which of many designs is refused first, and its numbers
 `cycle`              one turn in smooth pieces; extremes of any quantity
 `profile`            family of the face in the cam frame, overtravel
 `finished`           the trimmed profile, its size, inspection table

@@ -30,7 +30,7 @@ def breadth(cycle: Cycle) -> Breadth:
 def opposite_contact(cycle: Cycle, follower: TranslatingRound | TranslatingFlat, angle: Jet, lift: Jet) -> CamContact:
     """`CamContact` of the second face of a yoke: that of the first half a turn later, driving the return."""
     later = follower.contact(angle + np.pi, cycle.after(np.pi, angle))
-    return replace(later, leverage=-later.leverage)
+    return replace(later, way=-later.way)
 
 
 def crossovers(cycle: Cycle, required: Quantity) -> int:

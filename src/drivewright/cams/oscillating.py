@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from drivewright._typing import Numbers
+from drivewright.cams.refusals import first_refused
 from drivewright.curves import derivative
 from drivewright.errors import DoesNotAssemble
 from drivewright.numerics.jets import Jet, atan, cos, exp, sin
@@ -25,7 +26,9 @@ def rest_angle(prime_radius: Numbers, pivot_distance: Numbers, arm_length: Numbe
     Raises DoesNotAssemble unless |C - L| < R < C + L.
     """
     shortest, longest = abs(pivot_distance - arm_length), pivot_distance + arm_length
-    if not shortest < prime_radius < longest:
+    reaches = np.less(shortest, prime_radius) & np.less(prime_radius, longest)
+    if refused := first_refused(reaches, pivot_distance, arm_length, shortest, longest, prime_radius):
+        pivot_distance, arm_length, shortest, longest, prime_radius = refused
         raise DoesNotAssemble(
             f"oscillating follower: with pivot_distance {1e3 * pivot_distance:.6g} mm and arm_length {1e3 * arm_length:.6g} mm the "
             f"roller reaches radii from {1e3 * shortest:.6g} to {1e3 * longest:.6g} mm; prime_radius {1e3 * prime_radius:.6g} mm is not "

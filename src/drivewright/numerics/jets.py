@@ -60,7 +60,8 @@ class Jet:
     def __mul__(self, other: "Jet | ArrayLike") -> "Jet":
         """Leibniz: (f g)''' = f''' g + 3 f'' g' + 3 f' g'' + f g'''."""
         f0, f1, f2, f3 = self
-        if not isinstance(other, Jet) and np.ndim(other) == 0:
+        if not isinstance(other, Jet):
+            other = other if np.isscalar(other) else np.asarray(other)
             return Jet(f0 * other, f1 * other, f2 * other, f3 * other)
         g0, g1, g2, g3 = _jet(other)
         return Jet(f0 * g0, f1 * g0 + f0 * g1, f2 * g0 + 2 * f1 * g1 + f0 * g2, f3 * g0 + 3 * f2 * g1 + 3 * f1 * g2 + f0 * g3)

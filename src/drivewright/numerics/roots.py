@@ -30,6 +30,18 @@ def bracketed_roots(f: Callable[[Floats], ArrayLike], grid: ArrayLike) -> Floats
     return np.sort(np.concatenate([grid[values == 0], inside[is_root]]))
 
 
+def roots_in_brackets(f: Callable[[Floats], ArrayLike], a: Floats, b: Floats, fa: Floats, fb: Floats) -> Floats:
+    """The root of f in each bracket [a, b], where f has the values fa and fb; nan where these do not differ in sign, and at a pole.
+
+    All of one shape; f is elementwise: every bracket may have a function of its own.  Each root is refined to a few units in the last
+    place.
+    """
+    bracketed = np.sign(fa) * np.sign(fb) < 0
+    b, fb = np.where(bracketed, b, a), np.where(bracketed, fb, fa)  # an empty bracket is done at once
+    root, residual = _refine(f, a, b, fa, fb)
+    return np.where(bracketed & (np.abs(residual) <= np.maximum(np.abs(fa), np.abs(fb))), root, np.nan)
+
+
 def _refine(f, a, b, fa, fb, steps=200):
     """Root and residual in each bracket [a, b], all at once.
 
