@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from drivewright import cams
-from drivewright.errors import DoesNotAssemble
+from drivewright.errors import DoesNotAssemble, InputError
 from drivewright.motion import Programme, Segment
 
 pytestmark = pytest.mark.property
@@ -68,3 +68,17 @@ def test_one_design_of_many_that_is_refused_is_named_with_its_own_numbers(kind):
     with pytest.raises(DoesNotAssemble) as together:
         replace(follower, **{radius: radii}).contact(*turn.sampled())
     assert str(together.value) == str(alone.value)
+
+
+@pytest.mark.parametrize("depth", [0.0309, 0.0319, 0.0321, 0.0331])
+def test_a_face_is_clear_of_the_axis_exactly_where_trimming_leaves_a_cam_around_it(depth):
+    """A roller of 8 mm that falls from 40 mm by a little less, and a little more, than the 32 mm between it and the axis."""
+    turn = (Segment(np.pi, "cycloidal", -depth), Segment(np.pi, "cycloidal", depth))
+    programme, follower = Programme(turn), cams.TranslatingRound(0.04, 0.008)
+    clear = cams.CamTrack("cam", "", follower, follower.contact).clear_of_axis(cams.Cycle(programme.function))
+    assert bool(clear) == (depth < 0.032)
+    if clear:
+        cams.finished_profile(follower, programme)
+    else:
+        with pytest.raises(InputError, match="no part is left"):
+            cams.finished_profile(follower, programme)

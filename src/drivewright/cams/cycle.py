@@ -17,6 +17,10 @@ EQUAL = 1e-12  # values closer than this, relative to the largest, are one; the 
 Quantity: TypeAlias = Callable[[Jet, Jet], Jet]  # of the jets angle and lift
 
 
+class SampledJet(Jet):
+    """The lift at the samples of a `Cycle`: what is computed there is worth keeping, as one quantity after another is asked for."""
+
+
 class PiecewiseMotion(Protocol):
     """What a `Cycle` needs of a motion over one turn; a `motion.Programme` has it."""
 
@@ -72,15 +76,16 @@ class Cycle:
         """(piece, angle): places at most `step` apart with both ends of every piece, so that each joint stands twice."""
         return self._finest[:2] if (step, least) == (STEP, LEAST) else self._places(step, least)
 
-    def sampled(self) -> tuple[Jet, Jet]:
+    def sampled(self) -> tuple[Jet, "SampledJet"]:
         """(angle, lift): the jets at `samples()`, the same objects each time."""
         return self._finest[2:]
 
     @cached_property
-    def _finest(self) -> tuple[Ints, Floats, Jet, Jet]:
+    def _finest(self) -> tuple[Ints, Floats, Jet, "SampledJet"]:
         """(piece, angle, jet of the angle, jet of the lift) at the usual step."""
         piece, angle = self._places(STEP, LEAST)
-        return piece, angle, *self.at(piece, angle)
+        of_angle, lift = self.at(piece, angle)
+        return piece, angle, of_angle, SampledJet(*lift)
 
     def _places(self, step, least):
         pieces, breaks = self.pieces, self.motion.breaks

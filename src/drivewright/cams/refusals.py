@@ -1,4 +1,4 @@
-"""Refusals of one design, or of many at once: whether any is refused, and the numbers of the first of them for the message."""
+"""Refusals of one design, or of many at once: whether any is refused, the numbers of the first of them, nan for what does not exist."""
 
 from typing import Any
 
@@ -12,3 +12,8 @@ def first_refused(good: Any, *numbers: Any) -> tuple[float, ...] | None:
         return None
     place = int(np.argmin(good.ravel()))
     return tuple(float(np.broadcast_to(number, good.shape).ravel()[place]) for number in numbers)
+
+
+def nan_unless(good: Any, number: Any) -> Any:
+    """A number, or the column of many designs, where it is `good`; nan where not."""
+    return np.where(good, number, np.nan)[()]

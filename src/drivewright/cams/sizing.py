@@ -1,12 +1,14 @@
 """Least radii of curvature of a cam, and how large a flat-faced follower and its cam must be."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from drivewright.cams.cycle import Cycle, Extreme
 from drivewright.cams.followers import ContactAt, OscillatingFlat, TranslatingFlat, flat_radius
 from drivewright.curves import derivative
+from drivewright.numerics.roots import roots_in_brackets
 
 
 def min_flat_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> Extreme:
@@ -14,14 +16,15 @@ def min_flat_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -
     return cycle.minimum(lambda angle, lift: flat_radius(*follower.face(angle, lift)))
 
 
-def min_pitch_radius(cycle: Cycle, contact_at: ContactAt, sign: int) -> Extreme | None:
-    """Least radius of curvature [m] of the pitch curve where it is convex (sign +1) or concave (-1), and where; None if nowhere."""
+def min_pitch_radius(cycle: Cycle, contact_at: ContactAt, sign: int) -> Extreme:
+    """Least radius of curvature [m] of the pitch curve where it is convex (sign +1) or concave (-1), and where; nan if nowhere."""
     sharpest = cycle.maximum(lambda angle, lift: sign * contact_at(angle, lift).pitch_curvature)
-    return sharpest._replace(value=1 / sharpest.value) if sharpest.value > 0 else None
+    radius = np.divide(1.0, sharpest.value, where=np.greater(sharpest.value, 0), out=np.full(np.shape(sharpest.value), np.nan))
+    return Extreme(radius[()], np.where(np.isnan(radius), np.nan, sharpest.angle)[()], sharpest.piece)
 
 
-def min_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> float | None:
-    """Base radius [m] below which a flat face undercuts the profile: 0 where none is too small, None where none is large enough.
+def min_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> Any:
+    """Base radius [m] below which a flat face undercuts the profile: 0 where none is too small, nan where none is large enough.
 
     Translating: max(0, -min(s + s'') cos tilt), exact, as the radius of curvature is R + (s + s'') cos tilt.  Oscillating: the
     base radius at which the least radius of curvature is zero.
@@ -32,18 +35,14 @@ def min_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -
         return min_flat_radius(cycle, changed).value
 
     if isinstance(follower, TranslatingFlat):
-        return max(0.0, follower.base_radius - sharpest(follower.base_radius))
+        return np.maximum(0.0, follower.base_radius - sharpest(follower.base_radius))
     highest = cycle.maximum(lambda _, lift: lift).value
     # The lever is short of its dead point at the greatest lift.
     low, high = 1e-6 * follower.pivot_distance, follower.face_offset + follower.pivot_distance * np.cos(highest) * (1 - 1e-9)
-    low = max(low, follower.face_offset - follower.pivot_distance * (1 - 1e-9))
-    if sharpest(low) >= 0:
-        return 0.0
-    if sharpest(high) < 0:
-        return None
-    from scipy.optimize import brentq
-
-    return float(brentq(sharpest, low, high, xtol=1e-15 * high, rtol=1e-14))  # pyright: ignore[reportArgumentType]  scipy's stub: full_output
+    low = np.maximum(low, follower.face_offset - follower.pivot_distance * (1 - 1e-9))
+    at_low, at_high = np.asarray(sharpest(low)), np.asarray(sharpest(high))
+    root = roots_in_brackets(sharpest, np.asarray(low), np.asarray(high), at_low, at_high)
+    return np.where(at_low >= 0, 0.0, np.where(at_high < 0, np.nan, root))[()]
 
 
 def face_ends(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> tuple[float, float]:

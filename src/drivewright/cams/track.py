@@ -1,19 +1,40 @@
 """A surface of a cam and what runs on it: how it is named beside the others of the cam, and its geometry over the turn."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
-from drivewright._typing import Floats
-from drivewright.cams.cycle import Cycle
-from drivewright.cams.followers import ContactAt
+from drivewright._typing import Bools, Floats
+from drivewright.cams.cycle import Cycle, SampledJet
+from drivewright.cams.followers import CamContact, ContactAt
 from drivewright.cams.pressure import contact_pressure
 from drivewright.cams.profile import FlatFollower, Follower, RoundFollower
 from drivewright.cams.sizing import min_flat_radius
+from drivewright.numerics.jets import Jet
 from drivewright.result import Column, Table
 
+ROUNDING = 1e-9  # of a radius
 
-@dataclass(frozen=True)
+
+class KeptContacts:
+    """`contact_at` that keeps its answers at the samples of a turn, and with them what has been computed of them."""
+
+    def __init__(self, contact_at: ContactAt) -> None:
+        self._contact_at, self._kept = contact_at, {}
+
+    def __call__(self, angle: Jet, lift: Jet) -> CamContact:
+        if not isinstance(lift, SampledJet):
+            return self._contact_at(angle, lift)
+        if lift not in self._kept:
+            self._kept[lift] = self._contact_at(angle, lift)
+        return self._kept[lift]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return KeptContacts, (self._contact_at,)
+
+
+@dataclass(frozen=True, eq=False)
 class CamTrack:
     """A surface of a cam and what runs on it: `contact(angle, lift)` gives the `CamContact`.
 
@@ -26,6 +47,9 @@ class CamTrack:
     contact: ContactAt
     flank: int = 1
     cut: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "contact", KeptContacts(self.contact))
 
     @property
     def flat(self) -> bool:
@@ -64,10 +88,22 @@ class CamTrack:
         """Radius of the face [m]; 0 for a knife edge, inf for a flat face."""
         return np.inf if self.flat else self.round_face.radius
 
+    def clear_of_axis(self, cycle: Cycle) -> Bools:
+        """Whether the face keeps clear of the cam's axis over the whole turn, so that a cam is left around it; an outer wall always is.
+
+        Of many designs a column (n, 1).
+        """
+        if self.flank < 0:
+            return np.array(True)
+        if self.flat:
+            return np.greater(cycle.minimum(lambda angle, lift: self.flat_face.face(angle, lift)[1]).value, 0.0)
+        nearest = np.sqrt(cycle.minimum(lambda angle, lift: self.contact(angle, lift).pitch.abs2()).value)
+        return np.greater(nearest, self.radius * (1 + ROUNDING))
+
     def geometry_table(self, cycle: Cycle) -> Table:
         """Pressure angle, curvature and profile of one surface over the turn, one-sided at the joints."""
-        piece, angle = cycle.samples()
-        contact = self.contact(*cycle.at(piece, angle))
+        _, angle = cycle.samples()
+        contact = self.contact(*cycle.sampled())
         return Table(
             f"geometry{self.suffix}",
             f"Pressure angle and curvature{self.of}",
@@ -85,8 +121,8 @@ class CamTrack:
 
     def undercut_table(self, cycle: Cycle) -> Table:
         """Curvature of the pitch curve against that of the face: above 1 the profile cuts itself away."""
-        piece, angle = cycle.samples()
-        ratio = self.flank * self.radius * self.contact(*cycle.at(piece, angle)).pitch_curvature.d0
+        _, angle = cycle.samples()
+        ratio = self.flank * self.radius * self.contact(*cycle.sampled()).pitch_curvature.d0
         return Table(
             f"undercut{self.suffix}",
             f"Undercut{self.of}",
@@ -98,8 +134,8 @@ class CamTrack:
 
     def contact_table(self, cycle: Cycle, normal_force: Floats, speed: float, rolls: bool) -> Table:
         """Normal force [N] at the cycle's samples, and the speeds of the contact at a speed of the cam [rad/s]."""
-        piece, angle = cycle.samples()
-        contact = self.contact(*cycle.at(piece, angle))
+        _, angle = cycle.samples()
+        contact = self.contact(*cycle.sampled())
         surface = f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{self.of}"
         return Table(
             f"contact{self.suffix}",
@@ -114,8 +150,8 @@ class CamTrack:
 
     def pressure_table(self, cycle: Cycle, normal_force: Floats, width: float, modulus: float) -> Table:
         """Hertz pressure at the cycle's samples under a normal force [N]; width [m] of the contact, effective modulus [Pa]."""
-        piece, angle = cycle.samples()
-        pressure = contact_pressure(normal_force, self.contact(*cycle.at(piece, angle)), self.radius, width, modulus)
+        _, angle = cycle.samples()
+        pressure = contact_pressure(normal_force, self.contact(*cycle.sampled()), self.radius, width, modulus)
         return Table(
             f"pressure{self.suffix}",
             f"Contact pressure{self.of}",

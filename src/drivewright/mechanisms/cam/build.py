@@ -45,10 +45,11 @@ class CamModel:
         followers = tuple(track.follower for track in self.tracks if track.cut and track.flank > 0)
         return FollowerShapes(followers, self.spec.follower.face, self.cycle, self.yoke_breadth if self.spec.closure == "yoke" else 0.0)
 
-    def phase(self, name: str) -> cams.Cycle | None:
-        """The pieces of the turn in a phase, "rise", "return" or "dwell"; None where there are none."""
-        chosen = tuple(k for k, piece in enumerate(self.programme.pieces) if piece.phase == name)
-        return replace(self.cycle, chosen=chosen) if chosen else None
+    @cached_property
+    def phases(self) -> dict[str, cams.Cycle]:
+        """The pieces of the turn in each phase that there is: "rise", "return", "dwell"."""
+        names = [piece.phase for piece in self.programme.pieces]
+        return {name: replace(self.cycle, chosen=tuple(k for k, own in enumerate(names) if own == name)) for name in dict.fromkeys(names)}
 
     @property
     def follower(self) -> Any:
@@ -111,9 +112,10 @@ def build(spec: CamSpec) -> CamModel:
     tracks = (CamTrack("cam", "", follower, follower.contact), *_closing_tracks(spec, follower, programme))
     model = CamModel(spec, programme, tracks, _material(spec), tuple(_findings(spec, programme)))
     for track in tracks:  # lever past its dead point, lift through the cam's centre: said here, not in the middle of an analysis
-        track.contact(*model.cycle.at(*model.cycle.samples()))
-    for number in range(len(tracks)):  # of a cam that is cut away altogether nothing is left to analyse
-        profile(model, number)
+        track.contact(*model.cycle.sampled())
+    for number, track in enumerate(tracks):  # of a cam that is cut away altogether nothing is left to analyse
+        if track.cut and not track.clear_of_axis(model.cycle):
+            profile(model, number)
     return model
 
 

@@ -1,5 +1,9 @@
 """What is asked of a cam's geometry: motion, pressure angle, curvature, size of the face, closure."""
 
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+
 import numpy as np
 
 from drivewright import cams, curves
@@ -65,12 +69,42 @@ def _infinite(peaks):
 
 def geometry(model: CamModel, done: Answers) -> Answer:
     """Pressure angles per phase and surface, curvature of the pitch curve, size of a flat face, closure."""
-    cut = [track for track in model.tracks if track.cut]
-    answers = [_closure(model), *(part for track in cut for part in (_pressure(model, track), _curvature(model, track)))]
+    measured = merge_answers(measure(model) for measure in geometry_measures(model))
+    tables = tuple(table for track in model.tracks if track.cut for table in _tables(model, track))
+    return merge_answers((existing(measured), Answer(tables=tables, findings=tuple(_absent(model, measured.values)))))
+
+
+def geometry_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
+    """The functions that give the values and checks of the geometry; of many designs columns (n, 1), nan where there is none.
+
+    All models of one structure (follower, closure, phases of the programme) have the same ones.
+    """
+    yield _closure
+    for number, track in enumerate(model.tracks):
+        if track.cut:
+            yield partial(_pressure, number=number)
+            yield from (partial(_phase_pressure, number=number, phase=phase) for phase in ("rise", "return") if phase in model.phases)
+            yield partial(_convex, number=number)
+            if not track.flat:
+                yield partial(_concave, number=number)
     if model.tracks[0].flat:
-        answers.append(_face(model))
-    answers += [Answer(tables=tuple(_tables(model, track))) for track in cut]
-    return merge_answers(answers)
+        yield _face
+        yield _base_radius
+
+
+def existing(answer: Answer) -> Answer:
+    """The answer without the values and checks that are nan, as they do not exist for the design."""
+    values = {name: value for name, value in answer.values.items() if not np.isnan(value.value)}
+    return replace(answer, values=values, checks=tuple(check for check in answer.checks if not np.isnan(check.value)))
+
+
+def _absent(model, values):
+    """What to say of values that a design should have and does not."""
+    for track in model.tracks:
+        if track.cut and np.isnan(values[f"{track.prefix}min_convex_radius"].value):
+            yield f"{track.prefix}min_convex_radius is absent: the radius of the {track.curve} passes through zero"
+    if "min_base_radius" in values and np.isnan(values["min_base_radius"].value):
+        yield "min_base_radius is absent: no base radius is free of undercut; move the pivot away or reduce the swing"
 
 
 def _tables(model, track):
@@ -87,62 +121,69 @@ def _extreme_values(name, place, unit, meaning):
     }
 
 
-def _pressure(model, track):
-    """Extremes of the pressure angle over the turn, signed, and its largest magnitude in every phase."""
+def _pressure_angle(track):
+    return lambda angle, lift: track.contact(angle, lift).pressure_angle
 
-    def angle_of(angle, lift):
-        return track.contact(angle, lift).pressure_angle
 
-    high, low = model.cycle.maximum(angle_of), model.cycle.minimum(angle_of)
+def _pressure(model, number):
+    """Extremes of the pressure angle over the turn, signed."""
+    track = model.tracks[number]
+    high, low = (extreme(_pressure_angle(track)) for extreme in (model.cycle.maximum, model.cycle.minimum))
     values = _extreme_values(f"{track.prefix}max_pressure_angle", high, "rad", "largest pressure angle, positive where it opposes the rise")
     values |= _extreme_values(f"{track.prefix}min_pressure_angle", low, "rad", "least pressure angle, positive where it opposes the rise")
-    for phase in ("rise", "return"):
-        if cycle := model.phase(phase):
-            size = max(cycle.maximum(angle_of).value, -cycle.minimum(angle_of).value)
-            values[f"{track.prefix}max_pressure_angle.{phase}"] = Value(size, "rad", f"largest pressure angle in the {phase}, magnitude")
     if track.flank < 0:  # the walls of a groove share their normals
         return Answer(values)
-    limit = model.spec.limits.pressure_angle or np.radians(45 if model.oscillating else 30)
-    size = max(high.value, -low.value)
+    given = model.spec.limits.pressure_angle
+    limit = np.radians(45 if model.oscillating else 30) if given is None else given
+    size = np.maximum(high.value, -low.value)
     check = Check(f"pressure_angle{track.suffix}", size, limit, "<=", "rad", "largest pressure angle, magnitude", (track.name,))
     return Answer(values, (), (check,))
 
 
-def _curvature(model, track):
-    """Sharpest convex and concave places of the pitch curve (of the profile under a flat face), and undercut."""
+def _phase_pressure(model, number, phase):
+    """Largest magnitude of the pressure angle in a phase."""
+    track, cycle = model.tracks[number], model.phases[phase]
+    size = np.maximum(cycle.maximum(_pressure_angle(track)).value, -cycle.minimum(_pressure_angle(track)).value)
+    name, meaning = f"{track.prefix}max_pressure_angle.{phase}", f"largest pressure angle in the {phase}, magnitude"
+    return Answer({name: Value(size, "rad", meaning)})
+
+
+def _convex(model, number):
+    """Sharpest convex place of the pitch curve (of the profile under a flat face), and undercut of a profile worked from outside."""
+    track = model.tracks[number]
     if track.flat:
         least = cams.min_flat_radius(model.cycle, track.flat_face)
-        places = {"convex": least if least.value > 0 else None}
         message = "least radius of curvature of the profile: below 0 the face cuts it away"
-        checks = (Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True),)
-    else:
-        places = {
-            "convex": cams.min_pitch_radius(model.cycle, track.contact, 1),
-            "concave": cams.min_pitch_radius(model.cycle, track.contact, -1),
-        }
-        checks = _undercut(model, track, places["convex" if track.flank > 0 else "concave"])
-    values = {}
-    for name, place in places.items():
-        if place:
-            meaning = f"least radius of curvature of the {track.curve} where it is {name} seen from outside"
-            values |= _extreme_values(f"{track.prefix}min_{name}_radius", place, "m", meaning)
-            values |= _profile_radius(track, name, place)
-    absent = f"{track.prefix}min_convex_radius is absent: the radius of the {track.curve} passes through zero"
-    return Answer(values, (), checks, () if places["convex"] else (absent,))
+        check = Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True)
+        good = np.greater(least.value, 0)
+        place = least._replace(value=np.where(good, least.value, np.nan)[()], angle=np.where(good, least.angle, np.nan)[()])
+        return Answer(_radius_values(track, "convex", place), (), (check,))
+    place = cams.min_pitch_radius(model.cycle, track.contact, 1)
+    return Answer(_radius_values(track, "convex", place), (), _undercut(model, track, place) if track.flank > 0 else ())
 
 
-def _profile_radius(track, name, place):
-    """The same of the profile that a round face leaves on the outside of a cam: the face takes its radius from a convex bend."""
+def _concave(model, number):
+    """Sharpest concave place of the pitch curve, and undercut of an outer wall."""
+    track = model.tracks[number]
+    place = cams.min_pitch_radius(model.cycle, track.contact, -1)
+    return Answer(_radius_values(track, "concave", place), (), _undercut(model, track, place) if track.flank < 0 else ())
+
+
+def _radius_values(track, name, place):
+    """A least radius of curvature of the pitch curve, and that of the profile which a round face leaves on the outside of a cam: the face
+    takes its radius from a convex bend."""
+    meaning = f"least radius of curvature of the {track.curve} where it is {name} seen from outside"
+    values = _extreme_values(f"{track.prefix}min_{name}_radius", place, "m", meaning)
+    if track.flat or track.flank < 0:
+        return values
     radius = place.value + (track.radius if name == "concave" else -track.radius)
-    if track.flat or track.flank < 0 or radius <= 0:
-        return {}
     meaning = f"least radius of curvature of the profile where it is {name} seen from outside"
-    return {f"{track.prefix}profile.min_{name}_radius": Value(radius, "m", meaning)}
+    return values | {f"{track.prefix}profile.min_{name}_radius": Value(np.where(radius > 0, radius, np.nan)[()], "m", meaning)}
 
 
 def _undercut(model, track, place):
     """Radius of the pitch curve over that of the face, where the face is inside the bend."""
-    if not track.radius or place is None:
+    if np.all(track.radius == 0):
         return ()
     ratio, recommended, parts = place.value / track.radius, model.spec.limits.curvature_ratio, (track.name,)
     message = "least radius of the pitch curve over that of the face: below 1 the profile cuts itself away"
@@ -155,7 +196,7 @@ def _undercut(model, track, place):
 
 
 def _face(model):
-    """How large a flat-faced cam and its face must be."""
+    """How large a flat face must be."""
     low, high = cams.face_ends(model.cycle, model.follower)
     slope = [extreme(lambda _, lift: curves.derivative(lift)).value for extreme in (model.cycle.minimum, model.cycle.maximum)]
     half = 0.5 * (high - low) if model.oscillating else max(-slope[0], slope[1])
@@ -166,17 +207,18 @@ def _face(model):
         "face.end": Value(high, "m", f"greatest place of the contact on the face, from {origin}"),
         "min_half_face": Value(half, "m", f"half the length of face that is used{about}"),
     }
-    base, findings = cams.min_base_radius(model.cycle, model.follower), ()
-    if base is None:
-        findings = ("min_base_radius is absent: no base radius is free of undercut; move the pivot away or reduce the swing",)
-    else:
-        values["min_base_radius"] = Value(base, "m", "least base radius without undercut")
     given = model.spec.follower
+    if given.half_face is None:
+        return Answer(values)
     middle = given.arm_length if model.oscillating else given.face_offset
-    used = max(high - middle, middle - low)
-    message = "the contact stays on the flat face, measured from its middle"
-    checks = (Check("half_face", used, given.half_face, "<=", "m", message, ("follower",)),) if given.half_face else ()
-    return Answer(values, (), checks, findings)
+    used, message = np.maximum(high - middle, middle - low), "the contact stays on the flat face, measured from its middle"
+    return Answer(values, (), (Check("half_face", used, given.half_face, "<=", "m", message, ("follower",)),))
+
+
+def _base_radius(model):
+    """How large a flat-faced cam must be."""
+    base = cams.min_base_radius(model.cycle, model.follower)
+    return Answer({"min_base_radius": Value(base, "m", "least base radius without undercut")})
 
 
 def _closure(model):
