@@ -257,6 +257,12 @@ class Check(NamedTuple):
         return self.limit - self.value if self.sense == "<=" else self.value - self.limit
 
     @property
+    def counted_margin(self) -> Any:
+        """The margin, 0 where rounding alone makes it negative: at least 0 exactly where the check is ok.  Of many designs an array."""
+        rounding = 1e-9 * np.maximum(np.abs(self.limit), np.abs(self.value))
+        return np.where((self.margin < 0) & (self.margin >= -rounding), 0.0, self.margin)[()]
+
+    @property
     def margin_bounds(self) -> tuple[float, float] | None:
         """(low, high) of the margin, None where the value has no interval."""
         if self.bounds is None:

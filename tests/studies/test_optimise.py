@@ -128,14 +128,14 @@ key = "follower.prime_radius"
 lower = "30 mm"
 upper = "80 mm"
 [[optimise.objectives]]
-value = "min_convex_radius"
+value = "profile.perimeter"
 [[optimise.requirements]]
 value = "max_pressure_angle"
 at_most = "25 deg"
 """
 
 
-def test_a_kind_without_batch_is_run_design_by_design():
+def test_values_beyond_the_batch_are_run_design_by_design():
     """The smallest cam whose pressure angle stays below 25 deg: there the requirement is active."""
     found = dw.optimise(from_document(tomllib.loads(CAM)))
     assert found.feasible

@@ -48,7 +48,7 @@ key = "follower.prime_radius"
 lower = "1 mm"
 upper = "80 mm"
 [[optimise.objectives]]
-value = "min_convex_radius"
+value = "profile.perimeter"
 [[optimise.requirements]]
 value = "max_pressure_angle"
 at_most = "25 deg"
@@ -143,7 +143,7 @@ def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undi
         "message": "",
         "generation": "-",
         "follower.prime_radius": "m",
-        "min_convex_radius": "m",
+        "profile.perimeter": "m",
         "max_pressure_angle": "rad",
         "violation": "-",
     }

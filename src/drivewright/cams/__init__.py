@@ -2,7 +2,7 @@
 
 `translating`, `oscillating`  pitch curve and pressure angle of the two kinds of follower
 `followers`          a follower with its face: from lift to contact
-`refusals`           which of many designs is refused first, and its numbers
+`refusals`           which of many designs is refused first, and its numbers; nan for what a design lacks
 `cycle`              one turn in smooth pieces; extremes of any quantity
 `profile`            family of the face in the cam frame, overtravel
 `finished`           the trimmed profile, its size, inspection table
@@ -62,6 +62,7 @@ from drivewright.cams.pressure import (
     roller_pressure,
 )
 from drivewright.cams.profile import FlatFollower, Follower, Overtravel, RoundFollower, family, overtravel, path, spans
+from drivewright.cams.refusals import first_refused, nan_unless
 from drivewright.cams.sizing import face_ends, min_base_radius, min_flat_radius, min_pitch_radius
 from drivewright.cams.track import CamTrack
 from drivewright.cams.vibration import (
@@ -108,6 +109,7 @@ __all__ = [
     "face_ends",
     "family",
     "finished_profile",
+    "first_refused",
     "flat_radius",
     "follower_force",
     "free_amplitude",
@@ -118,6 +120,7 @@ __all__ = [
     "min_flat_radius",
     "min_hollow_radius",
     "min_pitch_radius",
+    "nan_unless",
     "needed_preload",
     "needed_stiffness",
     "opposite_contact",

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from drivewright._typing import Floats, Ints, Numbers
+from drivewright.cams.refusals import nan_unless
 from drivewright.numerics.jets import Jet, variable
 from drivewright.numerics.roots import roots_in_brackets
 
@@ -40,6 +41,10 @@ class Extreme(NamedTuple):
     value: float
     angle: float
     piece: int
+
+    def where(self, good: Any) -> "Extreme":
+        """The same for the designs for which it is `good`; nan for the others."""
+        return self._replace(value=nan_unless(good, self.value), angle=nan_unless(good, self.angle))
 
 
 @dataclass(frozen=True, eq=False)

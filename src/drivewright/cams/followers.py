@@ -395,10 +395,10 @@ class OscillatingFlat:
         """asin((R - d)/C): angle between the face and the line from pivot to cam centre at zero lift [rad]."""
         height = self.base_radius - self.face_offset
         within = np.less(np.abs(height), self.pivot_distance)
-        if refused := first_refused(within, self.base_radius, self.face_offset):
+        if refused := first_refused(within, self.base_radius, self.face_offset, self.pivot_distance):
             raise DoesNotAssemble(
                 f"oscillating flat follower: base radius {1e3 * refused[0]:.6g} mm less face_offset {1e3 * refused[1]:.6g} mm "
-                f"must be smaller than pivot_distance {1e3 * self.pivot_distance:.6g} mm. Move the pivot away or change the base radius."
+                f"must be smaller than pivot_distance {1e3 * refused[2]:.6g} mm. Move the pivot away or change the base radius."
             )
         return np.arcsin(height / self.pivot_distance)
 

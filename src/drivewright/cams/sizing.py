@@ -19,8 +19,9 @@ def min_flat_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -
 def min_pitch_radius(cycle: Cycle, contact_at: ContactAt, sign: int) -> Extreme:
     """Least radius of curvature [m] of the pitch curve where it is convex (sign +1) or concave (-1), and where; nan if nowhere."""
     sharpest = cycle.maximum(lambda angle, lift: sign * contact_at(angle, lift).pitch_curvature)
-    radius = np.divide(1.0, sharpest.value, where=np.greater(sharpest.value, 0), out=np.full(np.shape(sharpest.value), np.nan))
-    return Extreme(radius[()], np.where(np.isnan(radius), np.nan, sharpest.angle)[()], sharpest.piece)
+    with np.errstate(divide="ignore"):
+        radius = np.divide(1.0, sharpest.value)
+    return sharpest._replace(value=radius).where(np.greater(sharpest.value, 0))
 
 
 def min_base_radius(cycle: Cycle, follower: TranslatingFlat | OscillatingFlat) -> Any:

@@ -74,5 +74,4 @@ def _ends(bounds: tuple[float, float] | None) -> dict[str, float]:
 
 
 def _margin(check: Check) -> Output:
-    margin = max(check.margin, 0.0) if check.ok else check.margin
-    return Output(margin, check.unit, f"{MARGIN_OF}{check.message}", label=f"{check.display_label}, margin")
+    return Output(float(check.counted_margin), check.unit, f"{MARGIN_OF}{check.message}", label=f"{check.display_label}, margin")

@@ -134,6 +134,16 @@ class Piecewise:
 
     def relative_jump(self, order: int) -> float:
         """Largest jump of the derivative of an order over the largest magnitude of that derivative; 0 where it vanishes."""
+        if order not in self._relative_jumps:
+            self._relative_jumps[order] = self._relative_jump(order)
+        return self._relative_jumps[order]
+
+    @cached_property
+    def _relative_jumps(self) -> dict[int, float]:
+        """{order: jump} of those that were asked for."""
+        return {}
+
+    def _relative_jump(self, order):
         slope = self.derivative(order)
         peak = max(map(abs, slope.extremes(lambda k, x: slope.on_piece(k, x)[:2])))
         return float(np.max(np.abs(self.jumps(order)))) / peak if peak else 0.0
@@ -155,6 +165,10 @@ class Piecewise:
 
     def peaks(self) -> Peaks:
         """`Peaks`, exact to rounding; j and the others one-sided at jumps."""
+        return self._peaks
+
+    @cached_property
+    def _peaks(self) -> Peaks:
         slope = self.derivative()
         v, a = (self.extremes(lambda k, x, n=n: self.on_piece(k, x)[n : n + 2]) for n in (1, 2))
         j = self.extremes(lambda k, x: slope.on_piece(k, x)[2:4])

@@ -1,17 +1,18 @@
 """Many designs in one spec: arrays in the place of its numbers, for formulas that take arrays; nothing is validated again."""
 
 import operator
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
 
-from drivewright._typing import Bools, Floats
-from drivewright.errors import InputError
+from drivewright._typing import Bools, Floats, Ints, Numbers
+from drivewright.errors import DrivewrightError, InputError
 from drivewright.spec.fields import field_at, type_of, value_at
 from drivewright.spec.mechanism_spec import MechanismSpec
 
 SpecT = TypeVar("SpecT", bound=MechanismSpec)
+ResultT = TypeVar("ResultT")
 BLOCK = 8192  # designs at a time: their arrays stay in the processor's cache
 LIMITS = {"gt": operator.gt, "ge": operator.ge, "lt": operator.lt, "le": operator.le}
 
@@ -52,24 +53,44 @@ def evaluator(
     return evaluate
 
 
+def accepted_blocks(rows: Ints, evaluate: Callable[[Ints], ResultT], size: int) -> Iterator[tuple[Ints, ResultT]]:
+    """(rows, evaluate(rows)) of designs by their numbers, at most `size` at a time.
+
+    A block in which one of our errors is raised is halved, until the designs that it is about are alone; these are left out.
+    """
+    for start in range(0, len(rows), size):
+        yield from _accepted(rows[start : start + size], evaluate)
+
+
+def _accepted(rows, evaluate):
+    try:
+        yield rows, evaluate(rows)
+    except DrivewrightError:
+        if len(rows) > 1:
+            for half in np.array_split(rows, 2):
+                yield from _accepted(half, evaluate)
+
+
 def sample_of(spec: MechanismSpec, key: str) -> float:
     """A number that the key can have: the spec's own where it has one."""
     own = value_at(spec, key)
     return float(own) if isinstance(own, (int, float)) else 1.0
 
 
-def with_columns(spec: SpecT, columns: Mapping[str, Floats]) -> SpecT:
-    """The spec with arrays (n,) in the place of the numbers at dotted keys."""
+def with_columns(spec: SpecT, columns: Mapping[str, Numbers]) -> SpecT:
+    """The spec with arrays, or other numbers, in the place of the numbers at dotted keys."""
     for key, column in columns.items():
         spec = _replaced(spec, key.split("."), column)
     return spec
 
 
-def _replaced(table: Any, steps: Sequence[str], column: Floats) -> Any:
+def _replaced(table: Any, steps: Sequence[str], column: Numbers) -> Any:
     """A table, or a list, with the column at the end of the steps."""
     first, *rest = steps
     if isinstance(table, tuple):
-        return tuple(column if number == int(first) else entry for number, entry in enumerate(table))
+        return tuple(
+            (_replaced(entry, rest, column) if rest else column) if number == int(first) else entry for number, entry in enumerate(table)
+        )
     return table.model_copy(update={first: _replaced(getattr(table, first), rest, column) if rest else column})
 
 

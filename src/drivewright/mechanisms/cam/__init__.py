@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from drivewright.mechanisms.cam import geometry, loads, profiles
+from drivewright.mechanisms.cam.batch import batch
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.claims import claims
 from drivewright.mechanisms.cam.energy import energy
@@ -26,6 +27,7 @@ mechanism = Mechanism(
     summary="disc cam with a translating or oscillating follower",
     spec=CamSpec,
     build=build,
+    batch=batch,
     claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from drivewright import cams, materials, motion
+from drivewright._typing import Bools
 from drivewright.cams import CamTrack, FollowerShapes
 from drivewright.errors import DoesNotAssemble, InputError, SpecError
 from drivewright.mechanisms.cam.spec import CamSpec, Groove
@@ -107,15 +108,33 @@ class CamModel:
 
 def build(spec: CamSpec) -> CamModel:
     """The `CamModel` of a spec."""
-    programme = motion.Programme(tuple(_segment(spec, number) for number in range(len(spec.programme))))
+    model = assembled(spec, programme_of(spec))
+    for number in np.flatnonzero(~clear_of_axis(model)):  # of a cam that is cut away altogether nothing is left to analyse
+        profile(model, int(number))
+    return model
+
+
+def programme_of(spec: CamSpec) -> motion.Programme:
+    """The motion over one turn."""
+    return motion.Programme(tuple(_segment(spec, number) for number in range(len(spec.programme))))
+
+
+def clear_of_axis(model: CamModel) -> Bools:
+    """Whether the face of each track keeps clear of the cam's axis (tracks,), so that a cam is left; of n designs (tracks, n)."""
+    clear = [np.ravel(track.clear_of_axis(model.cycle)) if track.cut else np.array([True]) for track in model.tracks]
+    return np.squeeze(np.stack(np.broadcast_arrays(*clear)))
+
+
+def assembled(spec: CamSpec, programme: motion.Programme) -> CamModel:
+    """The `CamModel` of a spec and its programme, for which nobody asked whether anything is left of the cam.
+
+    The spec's numbers, those of the programme left aside, may be columns (n, 1) of n designs.
+    """
     follower = _follower(spec)
     tracks = (CamTrack("cam", "", follower, follower.contact), *_closing_tracks(spec, follower, programme))
     model = CamModel(spec, programme, tracks, _material(spec), tuple(_findings(spec, programme)))
     for track in tracks:  # lever past its dead point, lift through the cam's centre: said here, not in the middle of an analysis
         track.contact(*model.cycle.sampled())
-    for number, track in enumerate(tracks):  # of a cam that is cut away altogether nothing is left to analyse
-        if track.cut and not track.clear_of_axis(model.cycle):
-            profile(model, number)
     return model
 
 
@@ -153,7 +172,7 @@ def _findings(spec, programme):
     used = {"motion", "face", "prime_radius", "base_radius", *USED[spec.follower.motion], *USED[spec.follower.face]}
     used -= {"face_angle"} if spec.follower.motion == "oscillating" else set()
     kind = f"{spec.follower.motion} follower with a {spec.follower.face} face"
-    for name in sorted(name for name in spec.follower.model_fields_set - used if getattr(spec.follower, name)):
+    for name in sorted(name for name in spec.follower.model_fields_set - used if np.any(getattr(spec.follower, name))):
         yield f"follower.{name} has no meaning for a {kind}; it is not used"
     for segment in programme.segments:
         message = segment.law.ripple.message if isinstance(segment.law, motion.TableLaw) else ""
@@ -189,7 +208,7 @@ def _follower(spec):
     pivot, arm = (_needed(given, name) for name in ("pivot_distance", "arm_length"))
     if given.face == "flat":
         return cams.OscillatingFlat(prime, pivot, arm, given.face_offset, sense)
-    return cams.OscillatingRound(prime, radius, pivot, float(np.hypot(arm, aside)), sense)
+    return cams.OscillatingRound(prime, radius, pivot, np.hypot(arm, aside), sense)
 
 
 def _prime_radius(given, radius):
@@ -197,13 +216,15 @@ def _prime_radius(given, radius):
     if (given.prime_radius is None) == (given.base_radius is None):
         reason = "is missing" if given.prime_radius is None else "and follower.base_radius are both given; leave one out"
         raise SpecError(reason, key="follower.prime_radius")
-    prime = given.prime_radius or given.base_radius + radius
-    if prime <= radius:
-        raise SpecError(
-            f"{1e3 * prime:.6g} mm leaves no cam under a {given.face} of radius {1e3 * radius:.6g} mm; make it larger",
-            key="follower.prime_radius",
-        )
+    prime = given.base_radius + radius if given.prime_radius is None else given.prime_radius
+    _refuse_small(prime, radius, given.face, "follower.prime_radius")
     return prime
+
+
+def _refuse_small(prime, radius, face, key):
+    """A face must not reach over the cam's axis at zero lift."""
+    if refused := cams.first_refused(np.greater(prime, radius), prime, radius):
+        raise SpecError(f"{1e3 * refused[0]:.6g} mm leaves no cam under a {face} of radius {1e3 * refused[1]:.6g} mm; make it larger", key)
 
 
 def _needed(given, name):
@@ -224,7 +245,7 @@ def _closing_tracks(spec, follower, programme):
         if spec.follower.face != "roller":
             raise SpecError(f'"groove" wants a roller, not a {spec.follower.face} face', key="closure")
         return (CamTrack("outer wall", "outer.", follower, partial(follower.contact, flank=-1), flank=-1),)
-    if spec.follower.motion != "translating" or spec.follower.face not in ("flat", "roller") or spec.follower.offset:
+    if spec.follower.motion != "translating" or spec.follower.face not in ("flat", "roller") or np.any(spec.follower.offset):
         raise SpecError('"yoke" wants a translating follower without offset, with flat faces or rollers', key="closure")
     opposite = partial(cams.opposite_contact, cams.Cycle(programme.function), follower)
     return (CamTrack("second face", "opposite.", follower, opposite, cut=False),)
@@ -237,14 +258,14 @@ def _conjugate(spec, follower):
         raise SpecError('is missing: closure = "conjugate" needs the second cam', key="conjugate")
     if spec.follower.face != "roller":
         raise SpecError(f'"conjugate" wants rollers, not a {spec.follower.face} face', key="closure")
-    changes = {"prime_radius": given.prime_radius, "radius": given.roller_radius or follower.radius, "side": -1}
-    guide = {"arm_length": given.arm_length or follower.arm_length} if spec.follower.motion == "oscillating" else {"offset": given.offset}
+    radius, arm = (
+        of_first if own is None else own
+        for own, of_first in ((given.roller_radius, follower.radius), (given.arm_length, getattr(follower, "arm_length", None)))
+    )
+    changes = {"prime_radius": given.prime_radius, "radius": radius, "side": -1}
+    guide = {"arm_length": arm} if spec.follower.motion == "oscillating" else {"offset": given.offset}
     second = replace(follower, **changes, **guide)
-    if given.prime_radius <= second.radius:
-        raise SpecError(
-            f"{1e3 * given.prime_radius:.6g} mm leaves no cam under a roller of radius {1e3 * second.radius:.6g} mm; make it larger",
-            key="conjugate.prime_radius",
-        )
+    _refuse_small(given.prime_radius, second.radius, "roller", "conjugate.prime_radius")
     return second
 
 

@@ -14,48 +14,83 @@ from drivewright.result import Answer, Answers, Check, Column, Table, Value, mer
 
 def motion(model: CamModel, done: Answers) -> Answer:
     """The programme over one turn, its jumps at the joints, and with a speed its velocities."""
-    piece, angle = model.cycle.samples()
-    lift = [np.broadcast_to(part, angle.shape) for part in model.cycle.at(piece, angle)[1]]
-    unit, function = "rad" if model.oscillating else "m", model.programme.function
-    peaks = function.peaks()
+    _, angle = model.cycle.samples()
+    lift = [np.broadcast_to(part, angle.shape) for part in model.cycle.sampled()[1]]
+    unit, peaks = _unit(model), model.programme.function.peaks()
     names = ("lift", "slope", "bend", "third")
     meanings = ("lift of the follower", *(f"{n} derivative of the lift" for n in ("first", "second", "third")))
     units = (unit, f"{unit}/rad", f"{unit}/rad^2", f"{unit}/rad^3")
     columns = (Column("angle", "rad", "cam angle", angle), *map(Column, names, units, meanings, lift))
-    values = {
-        "lift": Value(float(np.ptp(lift[0])), unit, "stroke of the follower"),
-        "continuity": Value(float(model.programme.continuity), "-", "order of the highest derivative of the lift that does not jump"),
-    }
-    timed = _kinematics(model, angle, lift, peaks, unit) if model.turns else Answer()
-    tables = (Table("motion", "Motion of the follower", columns), *timed.tables)
-    return Answer({**values, **timed.values}, tables, _continuity_checks(model.spec.limits, function), _infinite(peaks))
+    tables = (Table("motion", "Motion of the follower", columns), *_kinematics(model, angle, lift))
+    return merge_answers((*(measure(model) for measure in motion_measures(model)), Answer(tables=tables, findings=_infinite(peaks))))
 
 
-def _kinematics(model, angle, lift, peaks, unit):
-    """Velocity, acceleration and jerk at the cam's speed."""
+def motion_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
+    """The functions that give the values and checks of the motion, as `geometry_measures`."""
+    yield _lift
+    if model.turns:
+        yield _peaks
+    yield _continuity
+
+
+def _unit(model):
+    return "rad" if model.oscillating else "m"
+
+
+def _lift(model):
+    return Answer(
+        {
+            "lift": Value(float(np.ptp(model.cycle.sampled()[1].d0)), _unit(model), "stroke of the follower"),
+            "continuity": Value(float(model.programme.continuity), "-", "order of the highest derivative of the lift that does not jump"),
+        }
+    )
+
+
+def _rates(model):
+    """(order, name, unit, kind) of velocity, acceleration and jerk."""
     kind = "angular " if model.oscillating else ""
-    columns, values = [Column("angle", "rad", "cam angle", angle)], {}
-    for order, (name, peak) in enumerate((("velocity", peaks.Vm), ("acceleration", peaks.Am), ("jerk", peaks.Jm)), start=1):
-        per_time = f"{unit}/s^{order}".removesuffix("^1")
-        columns.append(Column(name, per_time, f"{kind}{name} of the follower", lift[order] * model.speed**order))
-        if np.isfinite(peak):
-            values[f"max_{name}"] = Value(float(peak * model.speed**order), per_time, f"largest {kind}{name} of the follower, magnitude")
-    return Answer(values, (Table("kinematics", "Velocity, acceleration and jerk", tuple(columns)),))
+    for order, name in enumerate(("velocity", "acceleration", "jerk"), start=1):
+        yield order, name, f"{_unit(model)}/s^{order}".removesuffix("^1"), kind
 
 
-def _continuity_checks(limits, function):
+def _peaks(model):
+    """Peaks of velocity, acceleration and jerk at the cam's speed, where they are finite."""
+    peaks = model.programme.function.peaks()
+    return Answer(
+        {
+            f"max_{name}": Value(peaks[order - 1] * model.speed**order, unit, f"largest {kind}{name} of the follower, magnitude")
+            for order, name, unit, kind in _rates(model)
+            if np.isfinite(peaks[order - 1])
+        }
+    )
+
+
+def _kinematics(model, angle, lift):
+    """The table of velocity, acceleration and jerk at the cam's speed."""
+    if model.turns:
+        rates = [
+            Column(name, unit, f"{kind}{name} of the follower", lift[order] * model.speed**order)
+            for order, name, unit, kind in _rates(model)
+        ]
+        yield Table("kinematics", "Velocity, acceleration and jerk", (Column("angle", "rad", "cam angle", angle), *rates))
+
+
+def _continuity(model):
     """Jumps of velocity and acceleration over their own peaks, laws and joints alike."""
-    return tuple(
-        Check(
-            f"continuity.{name}",
-            function.relative_jump(order),
-            limit,
-            "<=",
-            "-",
-            f"largest jump of the {name} over its peak",
-            ("follower",),
+    limits, function = model.spec.limits, model.programme.function
+    return Answer(
+        checks=tuple(
+            Check(
+                f"continuity.{name}",
+                function.relative_jump(order),
+                limit,
+                "<=",
+                "-",
+                f"largest jump of the {name} over its peak",
+                ("follower",),
+            )
+            for order, name, limit in ((1, "velocity", limits.velocity_jump), (2, "acceleration", limits.acceleration_jump))
         )
-        for order, name, limit in ((1, "velocity", limits.velocity_jump), (2, "acceleration", limits.acceleration_jump))
     )
 
 
@@ -142,7 +177,9 @@ def _pressure(model, number):
 
 def _phase_pressure(model, number, phase):
     """Largest magnitude of the pressure angle in a phase."""
-    track, cycle = model.tracks[number], model.phases[phase]
+    track, cycle = model.tracks[number], model.phases.get(phase)
+    if cycle is None:
+        return Answer()
     size = np.maximum(cycle.maximum(_pressure_angle(track)).value, -cycle.minimum(_pressure_angle(track)).value)
     name, meaning = f"{track.prefix}max_pressure_angle.{phase}", f"largest pressure angle in the {phase}, magnitude"
     return Answer({name: Value(size, "rad", meaning)})
@@ -155,9 +192,7 @@ def _convex(model, number):
         least = cams.min_flat_radius(model.cycle, track.flat_face)
         message = "least radius of curvature of the profile: below 0 the face cuts it away"
         check = Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True)
-        good = np.greater(least.value, 0)
-        place = least._replace(value=np.where(good, least.value, np.nan)[()], angle=np.where(good, least.angle, np.nan)[()])
-        return Answer(_radius_values(track, "convex", place), (), (check,))
+        return Answer(_radius_values(track, "convex", least.where(np.greater(least.value, 0))), (), (check,))
     place = cams.min_pitch_radius(model.cycle, track.contact, 1)
     return Answer(_radius_values(track, "convex", place), (), _undercut(model, track, place) if track.flank > 0 else ())
 
@@ -178,7 +213,7 @@ def _radius_values(track, name, place):
         return values
     radius = place.value + (track.radius if name == "concave" else -track.radius)
     meaning = f"least radius of curvature of the profile where it is {name} seen from outside"
-    return values | {f"{track.prefix}profile.min_{name}_radius": Value(np.where(radius > 0, radius, np.nan)[()], "m", meaning)}
+    return values | {f"{track.prefix}profile.min_{name}_radius": Value(cams.nan_unless(radius > 0, radius), "m", meaning)}
 
 
 def _undercut(model, track, place):

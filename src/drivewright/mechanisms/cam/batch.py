@@ -1,0 +1,118 @@
+"""Many cams at once for the optimiser: the measures of a run, with columns in the place of the spec's numbers."""
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.errors import DrivewrightError, InputError
+from drivewright.mechanisms.cam.build import CamModel, assembled, build, clear_of_axis, programme_of
+from drivewright.mechanisms.cam.geometry import geometry_measures, motion_measures
+from drivewright.mechanisms.cam.spec import CamSpec
+from drivewright.result import Answer
+from drivewright.spec import value_at
+from drivewright.spec.designs import accepted_blocks, sample_of, with_columns, within_limits
+
+BLOCK = 32  # designs at a time: their samples over the turn stay in the processor's cache
+TABLES = ("follower", "conjugate", "groove", "drive", "load", "spring", "face", "limits")
+PROGRAMME = ("angle", "rise", "b", "c", "d")  # keys of a segment; each choice of them is a motion of its own
+
+
+def batch(spec: CamSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[[Floats], dict[str, Floats]] | None:
+    """designs (n, d) -> {name: (n,)}; None where a key or a value is beyond it, which then runs one by one.
+
+    A design that the spec or the build refuses is nan in every name; a value that does not exist for a design is nan.
+    """
+    of_motion = [key for key in keys if _is_of_motion(spec, key)]
+    rest = [key for key in keys if key not in of_motion]
+    if not all(_is_number(spec, key) for key in rest):
+        return None
+    measures = _measures(with_columns(spec, {key: sample_of(spec, key) for key in rest if value_at(spec, key) is None}), names)
+    if measures is None:
+        return None
+
+    def evaluate(designs: Floats) -> dict[str, Floats]:
+        """{name: (n,)} of designs (n, d), nan for an impossible one."""
+        columns = dict(zip(keys, np.asarray(designs, float).T, strict=True))
+        values = {name: np.full(len(designs), np.nan) for name in names}
+        accepted = np.flatnonzero(within_limits(type(spec), columns, len(designs)))
+        for motion, rows in _by_motion(columns, of_motion, accepted):
+            for own, found in _of_one_motion(with_columns(spec, motion), {key: columns[key] for key in rest}, rows, measures):
+                for name, column in values.items():
+                    column[own] = found.get(name, np.nan)
+        return values
+
+    return evaluate
+
+
+def _is_of_motion(spec, key):
+    """Whether a key changes the motion.  The rise of a swing says by its type that it is an angle, which a column does not."""
+    table, _, rest = key.partition(".")
+    number, _, name = rest.partition(".")
+    swings = spec.follower.motion == "oscillating"
+    return table == "programme" and number.isdigit() and name in PROGRAMME and not (name == "rise" and swings)
+
+
+def _is_number(spec, key):
+    """Whether a key is a number of a table that the spec has."""
+    table, _, name = key.partition(".")
+    return table in TABLES and getattr(spec, table) is not None and not isinstance(value_at(spec, key), str) and "." not in name
+
+
+def _by_motion(columns, keys, rows):
+    """({key: number}, rows) of the designs that share a motion."""
+    if not keys:
+        return [({}, rows)]
+    shared, group = np.unique(np.stack([columns[key][rows] for key in keys], axis=1), axis=0, return_inverse=True)
+    return [(dict(zip(keys, numbers, strict=True)), rows[group.ravel() == k]) for k, numbers in enumerate(shared)]
+
+
+def _of_one_motion(spec, columns, rows, measures):
+    """(rows, {name: (n,)}) of the designs with the motion of a spec that nothing refuses."""
+    try:
+        programme = programme_of(spec)
+    except InputError:
+        return
+
+    @cache
+    def is_left(row):
+        """Whether anything is left of the cam of one design, by trimming."""
+        try:
+            build(with_columns(spec, {key: float(column[row]) for key, column in columns.items()}))
+        except InputError:
+            return False
+        return True
+
+    def measured(rows):
+        model = assembled(with_columns(spec, {key: column[rows, None] for key, column in columns.items()}), programme)
+        near = ~np.broadcast_to(np.all(clear_of_axis(model).reshape(len(model.tracks), -1), axis=0), rows.shape)
+        if not all(is_left(row) for row in rows[near].tolist()):
+            raise InputError("cam: of some designs nothing is left")
+        numbers = {name: number for measure in measures for name, number in _numbers(measure(model))}
+        return {name: np.broadcast_to(np.ravel(number), rows.shape) for name, number in numbers.items()}
+
+    yield from accepted_blocks(rows, measured, BLOCK)
+
+
+def _measures(spec, names):
+    """The functions that give these names, of all that the analyses of a cam use; None where a name is not among them."""
+    try:
+        model = assembled(spec, programme_of(spec))
+        given = {measure: {name for name, _ in _numbers(measure(model))} for measure in _all_measures(model)}
+    except DrivewrightError:  # the run of one design says why
+        return None
+    if not set(names) <= set().union(*given.values()):
+        return None
+    return [measure for measure, own in given.items() if own & set(names)]
+
+
+def _all_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
+    yield from motion_measures(model)
+    yield from geometry_measures(model)
+
+
+def _numbers(answer):
+    """(name, number) of the values and the margins of the checks of an answer."""
+    yield from ((name, value.value) for name, value in answer.values.items())
+    yield from ((f"check.{check.name}", check.counted_margin) for check in answer.checks)
