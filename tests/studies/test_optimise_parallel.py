@@ -152,7 +152,7 @@ def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undi
     failed = np.array(found.table["status"].to_pylist()) == "failed"
     assert small.any() and np.array_equal(small, failed), "a roller as large as the prime circle leaves no cam"
     assert all(("leaves no cam" in text) == no for text, no in zip(found.table["message"].to_pylist(), failed, strict=True))
-    assert np.all(found.history["violation"][failed] >= 1000) and np.all(np.isnan(found.history["min_convex_radius"][failed]))
+    assert np.all(found.history["violation"][failed] >= 1000) and np.all(np.isnan(found.history["profile.perimeter"][failed]))
 
 
 def test_a_finished_search_given_again_answers_from_the_store(tmp_path, undisturbed, monkeypatch):
