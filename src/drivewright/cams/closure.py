@@ -1,7 +1,7 @@
 """What keeps a follower on its cam where no spring does: a yoke, a groove, a second cam."""
 
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -33,11 +33,19 @@ def opposite_contact(cycle: Cycle, follower: TranslatingRound | TranslatingFlat,
     return replace(later, way=-later.way)
 
 
-def crossovers(cycle: Cycle, required: Quantity) -> int:
-    """How often per turn the force that the follower asks for changes its sign, so that the other flank or cam takes over."""
-    signs = np.sign(required(*cycle.at(*cycle.samples())).d0)
+def crossovers(cycle: Cycle, required: Quantity) -> Any:
+    """How often per turn the force that the follower asks for changes its sign, so that the other flank or cam takes over.
+
+    Of many designs a column (n, 1).
+    """
+    force = required(*cycle.sampled()).d0
+    return np.apply_along_axis(_changes, -1, np.sign(force))[..., None] if np.ndim(force) > 1 else _changes(np.sign(force))
+
+
+def _changes(signs):
+    """How often the signs of a closed row change, zeros left aside."""
     signs = signs[signs != 0]
-    return int(np.sum(signs != np.roll(signs, 1)))
+    return float(np.sum(signs != np.roll(signs, 1)))
 
 
 def play(cycle: Cycle, contact: ContactAt, clearance: float) -> float:

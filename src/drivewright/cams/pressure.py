@@ -1,8 +1,10 @@
 """Hertz pressure between cam and follower: line contact of two cylinders that have the radii of the surfaces where they touch."""
 
+from typing import Any
+
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._typing import Floats, Numbers
 from drivewright.cams.cycle import Cycle, Quantity
 from drivewright.cams.followers import CamContact, ContactAt
 from drivewright.contact import hertz
@@ -29,8 +31,8 @@ def contact_pressure(force: Floats, contact: CamContact, radius: float, width: f
 
 
 def peak_contact_pressure(
-    cycle: Cycle, normal_force: Quantity, contact_at: ContactAt, radius: float, width: float, modulus: float
-) -> float:
+    cycle: Cycle, normal_force: Quantity, contact_at: ContactAt, radius: float, width: Numbers, modulus: float
+) -> Any:
     """Largest Hertz pressure [Pa] over the turn: it goes with the product of force and relative curvature.
 
     normal_force(angle, lift) [N] and contact_at(angle, lift) of the jets; radius of the face and width [m], modulus E* [Pa].
@@ -39,8 +41,8 @@ def peak_contact_pressure(
     def product(angle, lift):
         return normal_force(angle, lift) * relative_curvature(contact_at(angle, lift), radius)
 
-    worst = max(cycle.maximum(product).value, 0.0)
-    return float(hertz.line_contact(worst, width, 1.0, modulus).pressure)
+    worst = np.maximum(cycle.maximum(product).value, 0.0)
+    return hertz.line_contact(worst, width, 1.0, modulus).pressure
 
 
 def roller_pressure(force: Floats, pitch_curvature: Floats, radius: float, width: float, modulus: float) -> Floats:
@@ -55,7 +57,7 @@ def roller_pressure(force: Floats, pitch_curvature: Floats, radius: float, width
 
 def pressure_check(name: str, pressure: float, limit: float | None, material: Material, message: str, parts: tuple[str, ...]) -> Answer:
     """The check of a Hertz pressure [Pa] against a limit [Pa], the material's unless given; without either a finding says so."""
-    allowed = limit or material.hertz_limit
+    allowed = material.hertz_limit if limit is None else limit
     if allowed is None:
         unknown = f"no allowable pressure is known for {material.name}; give limits.contact_pressure"
         return Answer(findings=(f"check {name} is left out: {unknown}",))

@@ -160,9 +160,13 @@ class CamTrack:
 
     def without_pressure(self, cycle: Cycle) -> str:
         """Why a Hertz pressure has no meaning on this surface, or "": a knife edge, or a profile that cuts itself away."""
-        if self.radius == 0:
+        if not self.flat and np.all(np.equal(self.radius, 0)):
             return "a knife edge has no contact pressure"
+        return "" if self.has_pressure(cycle) else "the profile is undercut"
+
+    def has_pressure(self, cycle: Cycle) -> Bools:
+        """Whether a Hertz pressure has a meaning on this surface; of many designs a column (n, 1)."""
         if self.flat:
-            return "the profile is undercut" if min_flat_radius(cycle, self.flat_face).value <= 0 else ""
+            return np.greater(min_flat_radius(cycle, self.flat_face).value, 0)
         sharpest = cycle.maximum(lambda angle, lift: self.flank * self.contact(angle, lift).pitch_curvature).value
-        return "the profile is undercut" if sharpest * self.radius >= 1 else ""
+        return np.less(sharpest * self.radius, 1) & np.greater(self.radius, 0)

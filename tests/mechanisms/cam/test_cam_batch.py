@@ -14,7 +14,7 @@ from drivewright.spec import document, from_document, set_key
 pytestmark = pytest.mark.property
 
 CAM = registry.mechanism("cam")
-ANALYSES = ("motion", "geometry")
+ANALYSES = ("motion", "geometry", "forces", "spring")
 RANGES = {  # of the unknowns of each preset, so wide that some designs are refused
     "default": {
         "follower.prime_radius": (0.006, 0.05),
@@ -128,6 +128,7 @@ def test_a_cam_of_which_nothing_is_left_is_refused_among_others():
     [
         (("follower.face",), ("lift",)),
         (("spring.preload",), ("profile.area",)),
+        (("load.mass",), ("vibration.max_error",)),
         (("groove.clearance",), ("lift",)),
         (("programme.0.law",), ("lift",)),
         (("follower.base_radius",), ("no such value",)),
@@ -169,3 +170,33 @@ def test_who_else_is_in_the_batch_changes_no_bit(name):
     together, alone = evaluate(designs), [evaluate(design[None]) for design in designs]
     for each in names:
         np.testing.assert_array_equal(together[each], [one[each][0] for one in alone], err_msg=each)
+
+
+FORCES = {"load.mass": (0.1, 2.0), "load.force": (-20.0, 10.0), "load.damping": (0.0, 20.0), "spring.preload": (0.0, 60.0)}
+DRIVE = {"spring.stiffness": (0.0, 2e4), "drive.speed": (10.0, 160.0), "face.width": (0.004, 0.02), "limits.contact_pressure": (5e8, 2e9)}
+
+
+def test_forces_spring_and_pressure_of_many_loads():
+    """Some springs hold the follower at no stiffness, some followers leave the cam at rest, some at no speed."""
+    spec, ranges = preset("default"), FORCES | DRIVE | {"follower.roller_radius": (0.004, 0.039)}
+    assert assert_same(spec, ranges, count=40) == 0
+    designs = designs_of(ranges, 40)
+    found = CAM.batch(spec, tuple(ranges), names := ("spring.needed_stiffness", "spring.jump_speed", "max_contact_pressure"))(designs)
+    absent = {name: int(np.isnan(found[name]).sum()) for name in names}
+    assert 0 < absent["spring.needed_stiffness"] < 40 and 0 < absent["max_contact_pressure"] < 40
+    assert 0 < np.sum(found["spring.jump_speed"] == 0) < 40
+
+
+@pytest.mark.parametrize("name", ["groove", "conjugate"])
+def test_forces_that_change_the_surface(name):
+    assert_same(preset(name), {"load.mass": (0.1, 2.0), "load.force": (-40.0, 40.0), "drive.speed": (5.0, 60.0)})
+
+
+def test_a_follower_without_any_load_has_no_forces_among_others_that_have():
+    spec = preset("groove", load={"mass": "1 kg"})
+    names = ("max_torque", "max_contact_force", "max_pressure_angle")
+    found = CAM.batch(spec, ("load.mass",), names)(np.array([[1.0], [0.0], [2.0]]))
+    runs = [outputs_of(spec, ("load.mass",), (mass,)) for mass in (1.0, 0.0, 2.0)]
+    for name in names:
+        np.testing.assert_allclose(found[name], [run.get(name, np.nan) for run in runs], rtol=1e-9)
+    assert np.isnan(found["max_torque"]).tolist() == [False, True, False]

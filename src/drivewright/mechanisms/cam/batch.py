@@ -1,14 +1,17 @@
 """Many cams at once for the optimiser: the measures of a run, with columns in the place of the spec's numbers."""
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cache
+from dataclasses import replace
+from functools import cache, partial
 
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.cams import nan_unless
 from drivewright.errors import DrivewrightError, InputError
 from drivewright.mechanisms.cam.build import CamModel, assembled, build, clear_of_axis, programme_of
 from drivewright.mechanisms.cam.geometry import geometry_measures, motion_measures
+from drivewright.mechanisms.cam.loads import force_measures, is_loaded, no_forces, no_spring, spring_measures
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.result import Answer
 from drivewright.spec import value_at
@@ -110,6 +113,17 @@ def _measures(spec, names):
 def _all_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
     yield from motion_measures(model)
     yield from geometry_measures(model)
+    if no_forces(model.spec) is None:
+        yield from (partial(_where_loaded, measure) for measure in force_measures(model))
+    if no_spring(model.spec) is None:
+        yield from (partial(_where_loaded, measure) for measure in spring_measures(model))
+
+
+def _where_loaded(measure, model):
+    """The answer of a measure for the designs that have a load."""
+    answer, loaded = measure(model), is_loaded(model.spec)
+    values = {name: value._replace(value=nan_unless(loaded, value.value)) for name, value in answer.values.items()}
+    return replace(answer, values=values, checks=tuple(c._replace(value=nan_unless(loaded, c.value)) for c in answer.checks))
 
 
 def _numbers(answer):

@@ -1,11 +1,14 @@
 """Forces of the drive: contact, torque, Hertz pressure, sliding, spring, vibration."""
 
+from collections.abc import Callable, Iterator
 from functools import partial
 
 import numpy as np
 
 from drivewright import cams
+from drivewright._typing import Bools
 from drivewright.mechanisms.cam.build import CamModel
+from drivewright.mechanisms.cam.geometry import existing
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.result import Answer, Answers, Check, Column, Table, Value, merge_answers
 
@@ -16,8 +19,14 @@ def no_forces(spec: CamSpec) -> str | None:
     """Why there are no forces to compute, or None."""
     if spec.drive is None:
         return NO_SPEED
-    loaded = spec.load.mass or spec.load.force or spec.load.damping or (spec.spring and (spec.spring.stiffness or spec.spring.preload))
-    return None if loaded else "no [load] and no [spring]"
+    return None if np.all(is_loaded(spec)) else "no [load] and no [spring]"
+
+
+def is_loaded(spec: CamSpec) -> Bools:
+    """Whether a spec states anything that the follower moves; of many designs a column (n, 1)."""
+    load, spring = spec.load, spec.spring
+    parts = (load.mass, load.force, load.damping, *((spring.stiffness, spring.preload) if spring else ()))
+    return np.any(np.stack(np.broadcast_arrays(*parts)) != 0, axis=0)
 
 
 def no_spring(spec: CamSpec) -> str | None:
@@ -35,28 +44,53 @@ def no_vibration(spec: CamSpec) -> str | None:
 
 def forces(model: CamModel, done: Answers) -> Answer:
     """Force along the travel, normal force and Hertz pressure on every surface, torque, sliding and rolling speeds."""
-    piece, angle = model.cycle.samples()
-    state = model.cycle.at(piece, angle)
+    _, angle = model.cycle.samples()
+    state = model.cycle.sampled()
     required, torque = model.required(*state).d0 + 0 * angle, model.torque(*state).d0 + 0 * angle
     columns = (
         Column("angle", "rad", "cam angle", angle),
         Column("required_force", "N", "force on the follower along its travel", required),
         Column("torque", "N m", "torque on the cam shaft", torque),
     )
-    least = "least torque on the cam shaft, negative where the follower drives the cam"
-    values = {
-        "max_torque": Value(model.cycle.maximum(model.torque).value, "N m", "largest torque on the cam shaft"),
-        "min_torque": Value(model.cycle.minimum(model.torque).value, "N m", least),
-    }
-    drive = Answer(values, (Table("load", "Force and torque over the turn", columns),), findings=_flight(model, required))
-    answers = []
+    tables = [Table("load", "Force and torque over the turn", columns)]
+    findings = list(_flight(model, required))
     for track in model.tracks:
         normal_force = np.maximum(model.normal_force(track, *state).d0 + 0 * angle, 0.0)
-        answers += [_contact(model, track, normal_force), _pressure(model, track, normal_force)]
+        tables.append(track.contact_table(model.cycle, normal_force, model.speed, model.spec.follower.face == "roller"))
+        if reason := track.without_pressure(model.cycle):
+            findings.append(f"{track.prefix}max_contact_pressure is absent: {reason}")
+        else:
+            tables.append(track.pressure_table(model.cycle, normal_force, model.spec.face.width, cams.pair_modulus(model.material)))
+            findings += _no_allowable(model, track)
+    measured = existing(merge_answers(measure(model) for measure in force_measures(model)))
+    return merge_answers((measured, Answer(tables=tuple(tables), findings=tuple(findings))))
+
+
+def force_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
+    """The functions that give the values and checks of the forces, as `geometry_measures`."""
+    yield _torque
+    for number in range(len(model.tracks)):
+        yield partial(_contact_force, number=number)
+        if model.tracks[number].cut:
+            yield partial(_surface_speed, number=number)
+        yield partial(_pressure, number=number)
     if len(model.tracks) > 1:
-        changes = Value(float(cams.crossovers(model.cycle, model.required)), "-", "changes of the surface that drives, per turn")
-        answers.append(Answer({"crossovers": changes}))
-    return merge_answers((drive, *answers))
+        yield _crossovers
+
+
+def _torque(model):
+    least = "least torque on the cam shaft, negative where the follower drives the cam"
+    return Answer(
+        {
+            "max_torque": Value(model.cycle.maximum(model.torque).value, "N m", "largest torque on the cam shaft"),
+            "min_torque": Value(model.cycle.minimum(model.torque).value, "N m", least),
+        }
+    )
+
+
+def _crossovers(model):
+    count = cams.crossovers(model.cycle, model.required)
+    return Answer({"crossovers": Value(count, "-", "changes of the surface that drives, per turn")})
 
 
 def _flight(model, required):
@@ -70,57 +104,90 @@ def _flight(model, required):
     )
 
 
-def _contact(model, track, normal_force):
-    """Normal force of one surface, which pushes only and carries what falls to it, and the speeds there."""
-    greatest = model.cycle.maximum(partial(model.normal_force, track))
-    values = {f"{track.prefix}max_contact_force": Value(max(greatest.value, 0.0), "N", f"largest normal force{track.of}")}
-    rolls = model.spec.follower.face == "roller"
+def _contact_force(model, number):
+    """Normal force of one surface, which pushes only and carries what falls to it."""
+    track = model.tracks[number]
+    greatest = np.maximum(model.cycle.maximum(partial(model.normal_force, track)).value, 0.0)
+    return Answer({f"{track.prefix}max_contact_force": Value(greatest, "N", f"largest normal force{track.of}")})
+
+
+def _surface_speed(model, number):
+    """Greatest speed of the roller on its pin, or of the face over the cam."""
+    track = model.tracks[number]
     ends = [extreme(lambda a, lift: track.contact(a, lift).sliding).value for extreme in (model.cycle.maximum, model.cycle.minimum)]
-    fastest = max(map(abs, ends)) * model.speed
-    if rolls and track.cut:
-        spin = fastest / track.radius
-        values[f"{track.prefix}max_roller_speed"] = Value(spin, "rad/s", f"largest speed of the roller on its pin{track.of}")
-    if not rolls and track.cut:
-        values[f"{track.prefix}max_sliding_speed"] = Value(fastest, "m/s", f"largest sliding speed{track.of}")
-    return Answer(values, (track.contact_table(model.cycle, normal_force, model.speed, rolls),))
+    fastest = np.maximum(*map(np.abs, ends)) * model.speed
+    if model.spec.follower.face == "roller":
+        spin = Value(fastest / track.radius, "rad/s", f"largest speed of the roller on its pin{track.of}")
+        return Answer({f"{track.prefix}max_roller_speed": spin})
+    return Answer({f"{track.prefix}max_sliding_speed": Value(fastest, "m/s", f"largest sliding speed{track.of}")})
 
 
-def _pressure(model, track, normal_force):
-    """Hertz pressure of one surface, where it has a meaning."""
-    if reason := track.without_pressure(model.cycle):
-        return Answer(findings=(f"{track.prefix}max_contact_pressure is absent: {reason}",))
-    width, modulus = model.spec.face.width, cams.pair_modulus(model.material)
-    force_at = partial(model.normal_force, track)
-    peak = cams.peak_contact_pressure(model.cycle, force_at, track.contact, track.radius, width, modulus)
+def _pressure(model, number):
+    """Hertz pressure of one surface, nan where it has no meaning."""
+    track = model.tracks[number]
+    smooth = track.has_pressure(model.cycle)
+    if not np.any(smooth):
+        peak = np.nan
+    else:
+        width, modulus, force_at = model.spec.face.width, cams.pair_modulus(model.material), partial(model.normal_force, track)
+        peak = cams.peak_contact_pressure(model.cycle, force_at, track.contact, track.radius, width, modulus)
+        peak = cams.nan_unless(smooth, peak)
     values = {f"{track.prefix}max_contact_pressure": Value(peak, "Pa", f"largest Hertz pressure{track.of}, steady contact")}
-    tables = (track.pressure_table(model.cycle, normal_force, width, modulus),)
+    return Answer(values, (), _pressure_check(model, track, peak).checks)
+
+
+def _pressure_check(model, track, peak):
     name, message = f"contact_pressure{track.suffix}", "Hertz line contact of follower and cam"
-    check = cams.pressure_check(name, peak, model.spec.limits.contact_pressure, model.material, message, (track.name, "follower"))
-    return merge_answers((Answer(values, tables), check))
+    return cams.pressure_check(name, peak, model.spec.limits.contact_pressure, model.material, message, (track.name, "follower"))
+
+
+def _no_allowable(model, track):
+    """What to say where nobody states an allowable pressure."""
+    return _pressure_check(model, track, 0.0).findings
 
 
 def spring(model: CamModel, done: Answers) -> Answer:
     """Does the spring hold the follower on the cam; what preload, stiffness and speed are the limits."""
-    cycle, reach, load, speed = model.cycle, model.follower.reach, model.load, model.speed
-    least, needed, findings = cycle.minimum(model.required), cams.needed_preload(cycle, reach, load, speed), []
+    measured = merge_answers(measure(model) for measure in spring_measures(model))
+    absent = {
+        "spring.needed_stiffness": "none holds the follower at zero lift; give preload",
+        "spring.jump_speed": "the follower leaves the cam at no speed",
+    }
+    findings = tuple(f"{name} is absent: {reason}" for name, reason in absent.items() if np.isnan(measured.values[name].value))
+    return merge_answers((existing(measured), Answer(findings=findings)))
+
+
+def spring_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
+    """The functions that give the values and checks of the spring, as `geometry_measures`."""
+    yield from (_separation, _needed_preload, _needed_stiffness, _jump_speed)
+
+
+def _separation(model):
+    """Least force along the travel, which must press the follower onto the cam."""
+    least = model.cycle.minimum(model.required)
     values = {
         "min_required_force": Value(least.value, "N", "least force on the follower along its travel; below 0 it leaves the cam"),
         "min_required_force.at": Value(least.angle % (2 * np.pi), "rad", "cam angle of it, from the start of the programme"),
-        "spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness"),
     }
-    stiffness = cams.needed_stiffness(cycle, reach, load, speed)
-    if np.isfinite(stiffness):
-        values["spring.needed_stiffness"] = Value(float(stiffness), "N/m", "least stiffness at this speed and preload")
-    else:
-        findings.append("spring.needed_stiffness is absent: none holds the follower at zero lift; give preload")
-    jump = cams.jump_speed(cycle, reach, load)
-    if np.isfinite(jump):
-        values["spring.jump_speed"] = Value(float(jump), "rad/s", "cam speed at which the follower leaves the cam")
-    else:
-        findings.append("spring.jump_speed is absent: the follower leaves the cam at no speed")
     message = "the follower stays on the cam: least force along the travel"
-    check = Check("separation", least.value, model.spec.limits.contact_force, ">=", "N", message, ("follower",))
-    return Answer(values, (), (check,), tuple(findings))
+    return Answer(values, (), (Check("separation", least.value, model.spec.limits.contact_force, ">=", "N", message, ("follower",)),))
+
+
+def _needed_preload(model):
+    needed = cams.needed_preload(model.cycle, model.follower.reach, model.load, model.speed)
+    return Answer({"spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness")})
+
+
+def _needed_stiffness(model):
+    stiffness = cams.needed_stiffness(model.cycle, model.follower.reach, model.load, model.speed)
+    stiffness = cams.nan_unless(np.isfinite(stiffness), stiffness)
+    return Answer({"spring.needed_stiffness": Value(stiffness, "N/m", "least stiffness at this speed and preload")})
+
+
+def _jump_speed(model):
+    jump = cams.jump_speed(model.cycle, model.follower.reach, model.load)
+    jump = cams.nan_unless(np.isfinite(jump), jump)
+    return Answer({"spring.jump_speed": Value(jump, "rad/s", "cam speed at which the follower leaves the cam")})
 
 
 def vibration(model: CamModel, done: Answers) -> Answer:
