@@ -6,6 +6,7 @@ from places import EXAMPLES
 
 import drivewright as dw
 from drivewright.mechanisms.linkage.build import build
+from drivewright.multibody.analyses import turns
 from drivewright.multibody.analyses.energy_audit import audit
 from drivewright.multibody.analyses.joint_forces import joint_forces, observe_last_turn
 from drivewright.multibody.analyses.poincare import zero_times
@@ -66,6 +67,14 @@ def test_an_ideal_slider_crank_has_the_textbook_peaks():
     speed = 20 * np.pi
     assert result["slider.max_acceleration"] == pytest.approx(0.05 * speed**2 * (1 + 0.05 / 0.12), rel=1e-9)
     assert result["rod.swing"] == pytest.approx(2 * np.arcsin(0.05 / 0.12), rel=1e-6)
+
+
+def test_nobody_computes_impact_loads_beside_the_ideal_where_no_joint_has_play(monkeypatch, dry):
+    joint = {"name": "wrist", "connects": ["rod.B", "slider.B"]}
+    monkeypatch.setattr(turns, "ideal_record", lambda model: pytest.fail("the same motion once more"))
+    result = dw.run(slider_crank(joint), only=("motion", "energy"))
+    assert result.outcome == "complete" and result["drive.max_torque"] > 0
+    assert dry["slider.impact_load_coefficient"] > 1
 
 
 def test_the_energy_audit_closes(dry):
