@@ -1,14 +1,15 @@
 """The finished profile: what the follower's face leaves of a cam, its size, and the table to inspect it by."""
 
-from typing import NamedTuple, TypeGuard
+from typing import Any, NamedTuple, TypeGuard
 
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._typing import Floats, Numbers
 from drivewright.cams.cycle import Cycle
 from drivewright.cams.followers import ContactAt
 from drivewright.cams.profile import FlatFollower, Follower, RoundFollower, family, path, spans
-from drivewright.curves import Trimmed, outline_of_spans, simple_outline, trim
+from drivewright.cams.refusals import nan_unless
+from drivewright.curves import Trimmed, derivative, outline_of_spans, simple_outline, trim
 from drivewright.errors import SolverError
 from drivewright.motion import Programme
 from drivewright.result import Column, Table
@@ -48,8 +49,11 @@ def pitch_outline(follower: RoundFollower, programme: Programme, tolerance: floa
     return outline_of_spans(spans(path(programme, follower.pitch)), tolerance)
 
 
-def profile_radii(cycle: Cycle, contact_at: ContactAt, trimmed: Trimmed | None) -> tuple[float, float]:
-    """(least, greatest) distance of a profile from the cam's centre [m]; contact_at: as it is meant, trimmed: what is left of it."""
+def profile_radii(cycle: Cycle, contact_at: ContactAt, trimmed: Trimmed | None) -> tuple[Any, Any]:
+    """(least, greatest) distance of a profile from the cam's centre [m]; contact_at: as it is meant, trimmed: what is left of it.
+
+    Of many designs, of which nothing is trimmed away, columns (n, 1).
+    """
     if trimmed and trimmed.undercut:
         radii = np.hypot(*trimmed.outline(1e-9).points(1e-9).T)
         return float(radii.min()), float(radii.max())
@@ -57,13 +61,28 @@ def profile_radii(cycle: Cycle, contact_at: ContactAt, trimmed: Trimmed | None) 
     def square(angle, lift):
         return contact_at(angle, lift).point.abs2()
 
-    return float(np.sqrt(cycle.minimum(square).value)), float(np.sqrt(cycle.maximum(square).value))
+    return np.sqrt(cycle.minimum(square).value), np.sqrt(cycle.maximum(square).value)
 
 
-def min_hollow_radius(cycle: Cycle, contact_at: ContactAt, radius: float) -> float | None:
-    """Least radius of curvature [m] of the hollow stretches of the profile under a face of that radius [m]; None where none is hollow."""
+def is_star_shaped(cycle: Cycle, contact_at: ContactAt) -> Any:
+    """Whether the contact goes round the cam's centre without ever turning back: Im(conj(q) q') keeps its sign over the turn.
+
+    A smooth envelope of this kind does not cross itself, so that nothing of it is cut away.  Of many designs a column (n, 1).
+    """
+
+    def area_rate(angle, lift):
+        point = contact_at(angle, lift).point
+        return (point.conj() * derivative(point)).imag
+
+    least, greatest = cycle.minimum(area_rate).value, cycle.maximum(area_rate).value
+    return np.greater(least, 0) | np.less(greatest, 0)
+
+
+def min_hollow_radius(cycle: Cycle, contact_at: ContactAt, radius: Numbers) -> Any:
+    """Least radius of curvature [m] of the hollow stretches of the profile under a face of that radius [m]; nan where none is hollow."""
     sharpest = cycle.minimum(lambda angle, lift: contact_at(angle, lift).pitch_curvature).value
-    return radius - 1 / sharpest if sharpest < 0 else None
+    with np.errstate(divide="ignore"):
+        return nan_unless(np.less(sharpest, 0), radius - np.divide(1.0, sharpest))
 
 
 def polar_radii(trimmed: Trimmed, angle: Floats, points: int = 20_001) -> Floats:

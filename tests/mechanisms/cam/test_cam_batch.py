@@ -9,7 +9,7 @@ from drivewright.errors import DrivewrightError
 from drivewright.execution.keys import key_kind
 from drivewright.execution.outputs import case_outputs
 from drivewright.runner import run_analyses, select_analyses
-from drivewright.spec import document, from_document, set_key
+from drivewright.spec import document, from_document, set_key, value_at
 
 pytestmark = pytest.mark.property
 
@@ -33,6 +33,8 @@ RANGES = {  # of the unknowns of each preset, so wide that some designs are refu
     "conjugate": {"conjugate.prime_radius": (0.03, 0.09), "follower.prime_radius": (0.03, 0.06), "follower.arm_length": (0.05, 0.08)},
     "yoke": {"follower.prime_radius": (0.005, 0.08), "limits.breadth_error": (-1e-5, 1e-4)},
 }
+BEYOND = ("profile.area", "profile.perimeter", "lost_motion.at", "conjugate.profile.area", "conjugate.profile.perimeter")
+BEYOND += ("outer.profile.area", "outer.profile.perimeter", "conjugate.lost_motion.at", "outer.lost_motion.at")
 LEVER = {"motion": "oscillating", "face": "flat", "base_radius": "30 mm", "pivot_distance": "85 mm", "arm_length": "60 mm"}
 TURN = [
     {"angle": "120 deg", "law": "mcv", "c": 0.4, "rise": "12 deg"},
@@ -69,7 +71,7 @@ def assert_same(spec, ranges, analyses=ANALYSES, count=24):
     """The batch equals the runs in every name that any of them has; how many of the designs were refused."""
     keys, designs = tuple(ranges), designs_of(ranges, count)
     runs = [outputs_of(spec, keys, design, analyses) for design in designs]
-    names = tuple(dict.fromkeys(name for run in runs for name in run))
+    names = tuple(dict.fromkeys(name for run in runs for name in run if name not in BEYOND))
     evaluate = CAM.batch(spec, keys, names)
     assert evaluate is not None
     found = evaluate(designs)
@@ -200,3 +202,24 @@ def test_a_follower_without_any_load_has_no_forces_among_others_that_have():
     for name in names:
         np.testing.assert_allclose(found[name], [run.get(name, np.nan) for run in runs], rtol=1e-9)
     assert np.isnan(found["max_torque"]).tolist() == [False, True, False]
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_profiles_are_trimmed_only_where_they_may_be_undercut(name, monkeypatch):
+    """Of wide ranges some designs are undercut, and have the numbers of a run; near the preset none is trimmed at all."""
+    wide = {key: bounds for key, bounds in RANGES[name].items() if key != "follower.face_angle"}
+    assert_same(preset(name), wide, ("profile",), count=12)
+    spec, key = preset(name), next(iter(RANGES[name]))
+    names = [each for each in outputs_of(spec, (), (), ("profile",)) if each not in BEYOND]
+    monkeypatch.setattr(cams, "finished_profile", lambda *told: pytest.fail("trimmed"))
+    own = value_at(spec, key)
+    found = CAM.batch(spec, (key,), names)(np.array([[own], [1.01 * own]]))
+    assert all(np.isfinite(column).all() for column in found.values())
+
+
+def test_bore_hub_and_cutter_may_vary_and_an_undercut_cam_loses_motion():
+    spec = preset("default")
+    ranges = {"manufacture.bore": (0.005, 0.03), "manufacture.hub_diameter": (0.03, 0.07), "follower.roller_radius": (0.02, 0.0399)}
+    assert assert_same(spec, ranges, ("profile", "geometry"), count=16) == 0
+    lost = CAM.batch(spec, tuple(ranges), ("lost_motion", "profile.min_radius"))(designs_of(ranges, 16))["lost_motion"]
+    assert 0 < np.sum(lost > 0) < 16

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache, partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -12,13 +13,14 @@ from drivewright.errors import DrivewrightError, InputError
 from drivewright.mechanisms.cam.build import CamModel, assembled, build, clear_of_axis, programme_of
 from drivewright.mechanisms.cam.geometry import geometry_measures, motion_measures
 from drivewright.mechanisms.cam.loads import force_measures, is_loaded, no_forces, no_spring, spring_measures
+from drivewright.mechanisms.cam.profiles import finished_profiles, is_untrimmed, untrimmed_measures
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.result import Answer
 from drivewright.spec import value_at
 from drivewright.spec.designs import accepted_blocks, sample_of, with_columns, within_limits
 
 BLOCK = 32  # designs at a time: their samples over the turn stay in the processor's cache
-TABLES = ("follower", "conjugate", "groove", "drive", "load", "spring", "face", "limits")
+TABLES = ("follower", "conjugate", "groove", "drive", "load", "spring", "face", "manufacture", "limits")
 PROGRAMME = ("angle", "rise", "b", "c", "d")  # keys of a segment; each choice of them is a motion of its own
 
 
@@ -78,11 +80,15 @@ def _of_one_motion(spec, columns, rows, measures):
     except InputError:
         return
 
+    def alone(row):
+        """The spec of one design."""
+        return with_columns(spec, {key: float(column[row]) for key, column in columns.items()})
+
     @cache
     def is_left(row):
         """Whether anything is left of the cam of one design, by trimming."""
         try:
-            build(with_columns(spec, {key: float(column[row]) for key, column in columns.items()}))
+            build(alone(row))
         except InputError:
             return False
         return True
@@ -92,22 +98,52 @@ def _of_one_motion(spec, columns, rows, measures):
         near = ~np.broadcast_to(np.all(clear_of_axis(model).reshape(len(model.tracks), -1), axis=0), rows.shape)
         if not all(is_left(row) for row in rows[near].tolist()):
             raise InputError("cam: of some designs nothing is left")
-        numbers = {name: number for measure in measures for name, number in _numbers(measure(model))}
-        return {name: np.broadcast_to(np.ravel(number), rows.shape) for name, number in numbers.items()}
+        found = _columns((number for measure in measures.always for number in _numbers(measure(model))), rows)
+        if measures.untrimmed:
+            profiles = _columns((number for measure in measures.untrimmed for number in _numbers(measure(model))), rows)
+            for place in np.flatnonzero(~np.broadcast_to(np.ravel(is_untrimmed(model)), rows.shape)):
+                trimmed = _trimmed(alone(rows[place]))
+                for name, column in profiles.items():
+                    column[place] = trimmed.get(name, np.nan)
+            found |= profiles
+        return found
 
     yield from accepted_blocks(rows, measured, BLOCK)
 
 
+class Measures(NamedTuple):
+    """The functions that give the names asked for: those of any design, and those of a design whose profile nothing trims."""
+
+    always: list[Callable[[CamModel], Answer]]
+    untrimmed: list[Callable[[CamModel], Answer]]
+
+
+def _columns(numbers, rows):
+    """{name: (n,)} of (name, number)."""
+    return {name: np.array(np.broadcast_to(np.ravel(number), rows.shape), float) for name, number in numbers}
+
+
+def _trimmed(spec):
+    """{name: number} of the finished profiles of one design; none where they fail."""
+    try:
+        return dict(_numbers(finished_profiles(build(spec), {})))
+    except DrivewrightError:
+        return {}
+
+
 def _measures(spec, names):
-    """The functions that give these names, of all that the analyses of a cam use; None where a name is not among them."""
+    """The `Measures` of these names, of all that the analyses of a cam use; None where a name is not among them."""
     try:
         model = assembled(spec, programme_of(spec))
-        given = {measure: {name for name, _ in _numbers(measure(model))} for measure in _all_measures(model)}
+        kinds = [
+            {measure: {name for name, _ in _numbers(measure(model))} for measure in of_kind}
+            for of_kind in (_all_measures(model), untrimmed_measures(model))
+        ]
     except DrivewrightError:  # the run of one design says why
         return None
-    if not set(names) <= set().union(*given.values()):
+    if not set(names) <= set().union(*(own for given in kinds for own in given.values())):
         return None
-    return [measure for measure, own in given.items() if own & set(names)]
+    return Measures(*([measure for measure, own in given.items() if own & set(names)] for given in kinds))
 
 
 def _all_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
