@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from drivewright._typing import Bools, Floats
-from drivewright.cams.cycle import Cycle, SampledJet
+from drivewright.cams.cycle import STEP, Cycle, SampledJet
 from drivewright.cams.followers import CamContact, ContactAt
 from drivewright.cams.pressure import contact_pressure
 from drivewright.cams.profile import FlatFollower, Follower, RoundFollower
@@ -95,10 +95,17 @@ class CamTrack:
         """
         if self.flank < 0:
             return np.array(True)
-        if self.flat:
-            return np.greater(cycle.minimum(lambda angle, lift: self.flat_face.face(angle, lift)[1]).value, 0.0)
-        nearest = np.sqrt(cycle.minimum(lambda angle, lift: self.contact(angle, lift).pitch.abs2()).value)
-        return np.greater(nearest, self.radius * (1 + ROUNDING))
+
+        def distance(angle, lift):
+            """Distance of a flat face from the axis, square of that of a round one's centre."""
+            return self.flat_face.face(angle, lift)[1] if self.flat else self.contact(angle, lift).pitch.abs2()
+
+        limit = 0.0 if self.flat else (self.radius * (1 + ROUNDING)) ** 2
+        sampled = distance(*cycle.sampled())
+        steepest = np.max(np.abs(sampled.d1), axis=-1, keepdims=True)
+        if np.all(np.min(sampled.d0, axis=-1, keepdims=True) - STEP * steepest > limit):  # so far that no place between two samples matters
+            return np.array(True)
+        return np.greater(cycle.minimum(distance).value, limit)
 
     def geometry_table(self, cycle: Cycle) -> Table:
         """Pressure angle, curvature and profile of one surface over the turn, one-sided at the joints."""
