@@ -1,5 +1,6 @@
 """The disk cache over several processes: it hits, and it never answers with the numbers of an older source."""
 
+import fcntl
 import os
 import shutil
 import subprocess
@@ -300,6 +301,65 @@ def test_a_damaged_file_is_compiled_again_and_mended(tmp_path, squares):
 def test_a_disk_that_takes_nothing_costs_time_and_not_the_result(squares):
     refuse = "from drivewright import atomic\ndef refuse(*a):\n    raise OSError(28, 'no space')\natomic.replacing = refuse"
     assert [squares(more=refuse) for _ in range(2)] == ["9.0 0"] * 2
+
+
+WATCH = "from drivewright._jit import compilation\ncompilation._watchers.append(lambda kernel, what: print(what, flush=True))"
+
+
+@pytest.fixture
+def held(tmp_path, squares):
+    """(the file that a kernel has been compiled to, the same place in an empty cache, its lock, which is held)."""
+    assert squares("made") == "9.0 0"
+    (made,) = (tmp_path / "made").rglob("*.kernel")
+    file = tmp_path / "cache" / made.relative_to(tmp_path / "made")
+    file.parent.mkdir(parents=True)
+    with file.with_suffix(".lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield made, file, lock
+
+
+def test_what_another_process_compiles_is_waited_for(tmp_path, held):
+    made, file, lock = held
+    code = SHIPPING.format(cache="cache", more=WATCH)
+    with subprocess.Popen([sys.executable, "-c", code], cwd=tmp_path, stdout=subprocess.PIPE, text=True) as other:
+        assert other.stdout is not None and other.stdout.readline() == "begun\n"
+        with pytest.raises(subprocess.TimeoutExpired):
+            other.wait(0.5)
+        shutil.copyfile(made, file)
+        fcntl.flock(lock, fcntl.LOCK_UN)
+        assert other.stdout.read() == "done\n9.0 1\n"
+
+
+def test_who_does_not_come_to_an_end_is_not_waited_for_for_ever(squares, held):
+    assert squares(more="disk_cache.PATIENCE = 0.1") == "9.0 0"
+
+
+def test_a_lock_that_a_dead_process_left_holds_nobody_up(squares, held):
+    held[2].close()
+    assert squares(more="disk_cache.PATIENCE = 1e9") == "9.0 0"
+    assert squares() == "9.0 1"
+
+
+def test_a_kernel_that_cannot_be_compiled_lets_others_at_it(tmp_path, squares):
+    (tmp_path / "squares.py").write_text(SQUARES.replace("x * x", "x.nothing"))
+    with pytest.raises(subprocess.CalledProcessError):
+        squares()
+    (lock,) = (tmp_path / "cache").rglob("*.lock")
+    with lock.open() as file:
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def test_the_first_run_is_known_by_the_kernels_that_are_not_there(tmp_path, monkeypatch):
+    monkeypatch.setattr(disk_cache, "cache_folder", lambda: tmp_path)
+    monkeypatch.setattr(disk_cache, "SHIPPED", tmp_path / "shipped")
+    assert disk_cache.is_first_run()
+    digest = disk_cache.hash_of_all(frozenset({disk_cache.PACKAGE}))
+    for root in (tmp_path, tmp_path / "shipped"):
+        (root / digest).mkdir(parents=True)
+        assert disk_cache.is_first_run()
+        (root / digest / "a.kernel").touch()
+        assert not disk_cache.is_first_run()
+        (root / digest / "a.kernel").unlink()
 
 
 def test_kernels_for_the_baseline_that_are_shipped_are_taken_where_they_run(tmp_path, squares):

@@ -56,7 +56,7 @@ def turns(rows: Rows, first: int, last: int) -> None:
 
 def code_of(kernel):
     """LLVM's code of a kernel that has been called, not from the disk."""
-    kernel._cache = type("Nothing", (), {"load_overload": lambda *_: None, "save_overload": lambda *_: None})()
+    kernel._cache = type("Nothing", (), {"load_overload": lambda *_: None, "save_overload": lambda *_: None, "release": lambda *_: None})()
     kernel(rows_of(0), 1, 3)
     return next(iter(kernel.inspect_llvm().values()))
 

@@ -51,8 +51,8 @@ def helping_hand(prepare: Callable[[], object], wanted: bool = True) -> Iterator
 
 @contextmanager
 def compiling_ahead(spec: SpecLike) -> Iterator[None]:
-    """Within the block a second process compiles what a run of the spec comes to last: from the beginning where nothing has been compiled yet,
-    else as soon as something is.
+    """Within the block a second process compiles what a run of the spec comes to last: from the beginning where nothing has been compiled
+    yet, else as soon as something is.
 
     This process finds it on the disk, or waits for it there; where there is no core for a second one it compiles all by itself.
     """

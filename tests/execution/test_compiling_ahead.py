@@ -1,0 +1,91 @@
+"""Kernels that a second process compiles meanwhile: those that the run comes to, and no process where none is of use."""
+
+import subprocess
+import sys
+
+import pytest
+from places import EXAMPLES
+
+from drivewright import load
+from drivewright._jit import compilation
+from drivewright.execution import helper
+from drivewright.execution.helper import compiling_ahead
+
+pytestmark = pytest.mark.interface
+
+RUN = """
+import importlib, sys
+from drivewright import load, registry, run
+spec = load(sys.argv[1], {changes!r})
+kernels = [getattr(importlib.import_module("drivewright." + name.rpartition(".")[0]), name.rpartition(".")[2]) for name in {names!r}]
+registry.mechanism(spec.mechanism).compile_ahead(spec)
+ahead = [len(kernel.signatures) for kernel in kernels]
+run(spec, {only!r})
+print(ahead, [len(kernel.signatures) for kernel in kernels])
+"""
+
+
+@pytest.mark.parametrize(
+    ("example", "names", "only", "changes"),
+    [
+        ("four_bar", ["multibody.observe.observe_all"], "motion", ()),
+        (
+            "slider_crank_clearance",
+            ["multibody.observe.observe_all", "numerics.ode.advancing.advance"],
+            "motion",
+            ("simulate.turns=2", "simulate.discard=0", "simulate.ensemble=1"),
+        ),
+        ("hyvo_chain", ["chains.explicit.advance.run"], "dynamics", ("dynamics.ensemble=1",)),
+    ],
+)
+def test_what_is_compiled_ahead_is_what_the_run_asks_for(example, names, only, changes):
+    code = RUN.format(changes=changes, names=names, only=only)
+    run = subprocess.run(
+        [sys.executable, "-c", code, EXAMPLES / f"{example}.toml"], capture_output=True, text=True, timeout=300, check=True
+    )
+    assert run.stdout.splitlines()[-1] == f"{[1] * len(names)} {[1] * len(names)}"
+
+
+@pytest.fixture
+def begun(monkeypatch):
+    """What became of the processes that were started."""
+    seen = []
+
+    class Process:
+        def __init__(self, prepare):
+            seen.append(prepare.args[0].mechanism)
+
+        def close(self):
+            seen.append("closed")
+
+    monkeypatch.setattr("drivewright.execution.executors.ProcessExecutor", Process)
+    monkeypatch.setattr(helper, "worker_count", lambda workers: 2)
+    monkeypatch.setattr(helper, "is_first_run", lambda: False)
+    return seen
+
+
+def test_a_process_is_started_once_and_only_where_something_is_compiled(begun):
+    with compiling_ahead(load(EXAMPLES / "four_bar.toml")):
+        compilation.tell("one", compilation.FOUND)
+        assert begun == []
+        for kernel in ("two", "three"):
+            compilation.tell(kernel, compilation.BEGUN)
+        assert begun == ["linkage"]
+    assert begun == ["linkage", "closed"]
+    compilation.tell("four", compilation.BEGUN)
+    assert len(begun) == 2
+
+
+def test_in_a_first_run_it_is_started_at_once(begun, monkeypatch):
+    monkeypatch.setattr(helper, "is_first_run", lambda: True)
+    with compiling_ahead(load(EXAMPLES / "four_bar.toml")):
+        assert begun == ["linkage"]
+
+
+def test_one_core_and_kinds_that_compile_little_have_none(begun, monkeypatch):
+    with compiling_ahead(load(EXAMPLES / "disc_cam.toml")):
+        compilation.tell("one", compilation.BEGUN)
+    monkeypatch.setattr(helper, "worker_count", lambda workers: 1)
+    with compiling_ahead(load(EXAMPLES / "four_bar.toml")):
+        compilation.tell("one", compilation.BEGUN)
+    assert begun == []
