@@ -16,7 +16,11 @@ CHANGES, MANY, SECONDS = 60, 1000, 4.0
 SLIDERS = {
     "seedling_pusher": ("train.axis_ratio", "cams.roller_radius", "lever.output_arm"),
     "four_bar": ("bodies.crank.points.A.0", "bodies.coupler.points.B.0"),
+    "pin_indexer": ("eccentricity", "pin_radius"),
+    "roller_gear_indexer": ("roller_radius",),
+    "hyvo_chain": ("joint.rolling_radius", "plate.apothem"),
 }
+WANTED = {"seedling_pusher": 33}  # ms, median; 60 for the others
 
 MOVE = """async ([key, changes, pause]) => {
   const slider = document.querySelector(`[data-testid="slider-${key}"]`), stage = () => document.querySelector('[data-gen]');
@@ -105,7 +109,7 @@ def latency():
             for key in keys:
                 page.evaluate(MOVE, [key, 10, 50])
                 times = np.array(page.evaluate(MOVE, [key, CHANGES, 120])) / 1e3
-                remark = f"95 % within {1e3 * np.percentile(times, 95):.0f} ms; wanted: median 60 ms, 95 % within 100 ms"
+                remark = f"95 % within {1e3 * np.percentile(times, 95):.0f} ms; wanted: median {WANTED.get(name, 60)} ms"
                 yield f"{name}, {key}, {CHANGES} changes", (times.min(), np.median(times)), remark
 
 

@@ -330,6 +330,23 @@ def test_what_another_process_compiles_is_waited_for(tmp_path, held):
         assert other.stdout.read() == "done\n9.0 1\n"
 
 
+THREADS = """
+import threading
+import squares
+threads = [threading.Thread(target=lambda n=n: answers.append(squares.square(float(n)))) for n in range(8)]
+answers = []
+for each in threads: each.start()
+for each in threads: each.join()
+print(sorted(answers))
+"""
+
+
+def test_threads_of_one_process_do_not_let_go_of_each_others_lock(squares):
+    """Letting go takes so long here that another thread comes to it meanwhile."""
+    slowly = "import os, time\nclose = os.close\nos.close = lambda file: (time.sleep(0.05), close(file))"
+    assert squares(more=slowly + THREADS) == f"{[float(n * n) for n in range(8)]}\n9.0 0"
+
+
 def test_who_does_not_come_to_an_end_is_not_waited_for_for_ever(squares, held):
     assert squares(more="disk_cache.PATIENCE = 0.1") == "9.0 0"
 

@@ -12,6 +12,7 @@ from typing import Any
 
 from llvmlite import binding as llvm
 from numba.core import cgutils, codegen, compiler, funcdesc, lowering, types
+from numba.core.compiler_lock import global_compiler_lock
 from numba.core.compiler_machinery import LoweringPass, register_pass
 from numba.core.registry import CPUDispatcher
 from numba.core.typing.templates import AbstractTemplate, infer_global
@@ -205,20 +206,23 @@ class _Callee(CPUDispatcher):
 class Kernel(CPUDispatcher):
     """A kernel as Python calls it; kernels call its `callee`."""
 
+    _cache: Any  # a `disk_cache.KernelCache`
+
     def __init__(self, py_func: Callable[..., Any], locals: Any = None, targetoptions: dict[str, Any] = OPTIONS) -> None:  # noqa: A002
         self.callee = _Callee(py_func, targetoptions)
         super().__init__(py_func, targetoptions=targetoptions, pipeline_class=_ForPython)
 
     def compile(self, sig: Any) -> Any:
-        """Compile it for a signature, or take it from the disk."""
-        collects = gc.isenabled()
-        gc.disable()  # a tenth of the time went into looking through millions of objects that are all needed until the kernel is done
-        try:
-            return super().compile(sig)
-        finally:
-            self._cache.release()
-            if collects:
-                gc.enable()
+        """Compile it for a signature, or take it from the disk: one thread at a time."""
+        with global_compiler_lock:
+            collects = gc.isenabled()
+            gc.disable()  # a tenth of the time went into looking through millions of objects that are all needed until the kernel is done
+            try:
+                return super().compile(sig)
+            finally:
+                self._cache.release()
+                if collects:
+                    gc.enable()
 
     def compile_for(self, *arguments: Any) -> None:
         """Compile it for the types of these arguments, without a call."""
