@@ -146,6 +146,7 @@ def _remove_unheld(file: Path) -> None:
     handle = os.open(file, os.O_RDONLY)
     try:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        file.unlink()
+        if os.path.samestat(os.fstat(handle), file.stat()):  # else its writer has made it again since another process removed it
+            file.unlink()
     finally:
         os.close(handle)

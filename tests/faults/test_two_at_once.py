@@ -145,6 +145,36 @@ def test_little_memory_is_told(tmp_path, megabytes):
     assert process.returncode in (0, 2) and "Traceback" not in said, (process.returncode, said[-2000:])
 
 
+STARVED = """
+import sys, threading
+from drivewright import cli
+from drivewright.cli import app
+cli.GRACE = 0.1
+
+def starve():
+    raise {error}
+
+def wait(*args, **options):
+    threading.Thread(target=starve).start()
+    threading.Event().wait(60)
+
+app.app = wait
+cli.main([])
+"""
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "words"),
+    [
+        ('RuntimeError("can\'t start new thread")', 2, "drivewright: there is no memory left"),
+        ("MemoryError()", 2, "drivewright: there is no memory left"),
+    ],
+)
+def test_a_thread_that_memory_did_not_suffice_for_ends_the_command(error, code, words):
+    run = subprocess.run([sys.executable, "-c", STARVED.format(error=error)], capture_output=True, text=True, timeout=30, check=False)
+    assert run.returncode == code and run.stderr.startswith(words) and len(run.stderr.splitlines()) == 1
+
+
 def _bytes(folder):
     """All files of a run or a study but those that keep times."""
     files = {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from sample_designs import four_bar_result, four_bar_scene
 
+from drivewright import atomic
 from drivewright.atomic import hold, is_held, replacing, write_text
 from drivewright.report import moving, renames
 from drivewright.report.content import Views
@@ -197,6 +198,24 @@ def test_threads_at_one_file(tmp_path):
     for thread in threads:
         thread.join()
     assert (tmp_path / "f").read_text() in texts and [path.name for path in Path(tmp_path).iterdir()] == ["f"]
+
+
+def test_a_file_that_its_writer_has_made_again_is_no_remnant(tmp_path, monkeypatch):
+    """Another process removed the first one, between the moments in which this one opens it and locks it."""
+    file, lock = tmp_path / f".f.{16 * '0'}.tmp", atomic.fcntl.flock
+    file.write_text("a dead writer's")
+
+    def late(handle, how):
+        file.unlink()
+        file.write_text("a living writer's")
+        lock(handle, how)
+
+    monkeypatch.setattr(atomic.fcntl, "flock", late)
+    atomic._remove_unheld(file)
+    assert file.read_text() == "a living writer's"
+    monkeypatch.setattr(atomic.fcntl, "flock", lock)
+    atomic._remove_unheld(file)
+    assert not file.exists()
 
 
 def test_a_full_disk_names_the_file_and_the_folder(tmp_path):

@@ -9,20 +9,30 @@ show             what the command line prints: results to stdout, everything els
 """
 
 import errno
+import os
+import signal
 import sys
+import threading
 from typing import NoReturn
 
 from drivewright.cli.interruption import ending_signals, exit_code
 from drivewright.errors import DrivewrightError, InputError
 
 INTERRUPTED = 130
+GRACE = 2.0  # seconds in which a command may find out by itself that memory is used up
+
+_ended, _starved = threading.Event(), threading.Event()  # the command; a thread of it, for want of memory
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; exits with 0 done, 1 failed check, 2 bad input, 3 strict, 4 solver gave up, 130 interrupted, 128 and its number
     after another signal that ends a process."""
+    threading.excepthook = _end_of_a_thread
     with ending_signals() as received:
-        _run(arguments, received)
+        try:
+            _run(arguments, received)
+        finally:
+            _ended.set()
 
 
 def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
@@ -40,6 +50,8 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
     except DrivewrightError as error:
         sys.exit(_complain(error))
     except (KeyboardInterrupt, *_aborts()):
+        if _starved.is_set():
+            sys.exit(_no_memory())
         print("interrupted; what was finished before is kept, and the same command goes on", file=sys.stderr)
         sys.exit(exit_code(received))
     except BrokenPipeError:
@@ -48,8 +60,7 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
     except (MemoryError, ImportError, OSError) as error:
         if not _wants_memory(error):
             raise
-        print("drivewright: there is no memory left for this; take fewer points, cases or workers, or allow more memory", file=sys.stderr)
-        sys.exit(InputError.exit_code)
+        sys.exit(_no_memory())
 
 
 def _aborts() -> tuple[type[BaseException], ...]:
@@ -64,8 +75,23 @@ def _wants_memory(error: BaseException) -> bool:
     return (
         isinstance(error, MemoryError)
         or getattr(error, "errno", None) == errno.ENOMEM
+        or str(error) == "can't start new thread"
         or (isinstance(error, ImportError) and any(text in str(error).lower() for text in words))
     )
+
+
+def _no_memory() -> int:
+    print("drivewright: there is no memory left for this; take fewer points, cases or workers, or allow more memory", file=sys.stderr)
+    return InputError.exit_code
+
+
+def _end_of_a_thread(end: threading.ExceptHookArgs) -> None:
+    """A thread that memory did not suffice for takes the command with it, lest that waits for it for ever."""
+    if end.exc_value is None or not _wants_memory(end.exc_value):
+        threading.__excepthook__(end)
+    elif not _ended.wait(GRACE):
+        _starved.set()
+        os.kill(os.getpid(), signal.SIGINT)
 
 
 def _complain(error: DrivewrightError) -> int:
