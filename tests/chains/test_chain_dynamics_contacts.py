@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from drivewright._jit import plain
+from drivewright.chains.explicit.advance import near
 from drivewright.chains.explicit.bodies import follow, load_guide, load_rollers, turn_acceleration
 from drivewright.chains.explicit.state import FRICTION, compile_model
 from drivewright.chains.explicit.step import (
@@ -357,3 +358,15 @@ def test_a_ramp_is_smooth_and_its_angle_the_integral():
     assert w[500] == pytest.approx(-20 - 180 * (0.25 - 1 / (2 * np.pi)), rel=1e-9)
     np.testing.assert_allclose(np.gradient(psi, time)[1:-1], w[1:-1], atol=0.02)
     np.testing.assert_allclose(psi[-1] - 0.3, -110 * 0.01 - 200 * 0.01, rtol=1e-12)
+
+
+@pytest.mark.parametrize("direction", [0.0, 1.0, 2.5, 4.0])
+def test_only_plates_within_reach_of_the_nearest_sprocket_are_looked_at(direction):
+    drive = lowered()
+    b, reach = drive.bodies, drive.teeth.reach[0]
+    for share, found in ((0.99, True), (1.01, False)):
+        x, y = b.x[0] + share * reach * np.cos(direction), b.y[0] + share * reach * np.sin(direction)
+        b.x[1:], b.y[1:] = b.x[0] - 50 * reach * np.cos(direction), b.y[0] - 50 * reach * np.sin(direction)
+        assert plain(near)(drive.chain, x, y, b, drive.teeth, drive.arcs, 0) == found
+    b.x[1], b.y[1], drive.teeth.reach[1] = x, y, reach
+    assert not plain(near)(drive.chain, x, y, b, drive.teeth, drive.arcs, 0)

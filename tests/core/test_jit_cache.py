@@ -366,6 +366,14 @@ def test_a_kernel_that_cannot_be_compiled_lets_others_at_it(tmp_path, squares):
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
+def test_the_lock_ends_with_the_compilation_not_with_the_process(tmp_path, squares):
+    compiled = (
+        "import squares, fcntl, pathlib\nsquares.square(3.0)\n"
+        "(lock,) = pathlib.Path('cache').rglob('*.lock')\nfcntl.flock(lock.open(), fcntl.LOCK_EX | fcntl.LOCK_NB)"
+    )
+    assert squares(more=compiled) == "9.0 0"
+
+
 def test_the_first_run_is_known_by_the_kernels_that_are_not_there(tmp_path, monkeypatch):
     monkeypatch.setattr(disk_cache, "cache_folder", lambda: tmp_path)
     monkeypatch.setattr(disk_cache, "SHIPPED", tmp_path / "shipped")

@@ -88,10 +88,7 @@ class KernelCache:
                     break
                 except BlockingIOError:
                     time.sleep(WAIT)
-        code = _read(file)
-        if code is not None:
-            self.release()
-        return code
+        return _read(file)
 
     def release(self) -> None:
         """Let others at the kernel that this process has compiled, or could not."""

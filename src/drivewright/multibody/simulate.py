@@ -254,9 +254,7 @@ def compile_run(model: MultibodyModel, settings: Settings | None = None) -> None
     expanded = expand(model)
     system = compile_model(expanded, build_tree(expanded))
     if settings:
-        memories = [contact[name] for contact in system.contacts for name in ("memory", "bristle")]
-        states = max([len(system.stored) + len(system.independent), *(memory + 1 for memory in memories)])
-        loop.compile_ahead(motion(system), states, _watched(system), settings.method)
+        loop.compile_ahead(motion(system), _watched(system), settings.method)
     compile_observation(system)
 
 

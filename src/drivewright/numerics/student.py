@@ -43,7 +43,7 @@ def _gamma_ratio(x):
     """Gamma(x + 1/2)/Gamma(x); of large x by its series, where the difference of two logarithms has no digits left."""
     if x < LARGE:
         return math.exp(math.lgamma(x + 0.5) - math.lgamma(x))
-    return math.sqrt(x) * (1 - 1 / (8 * x) + 1 / (128 * x**2) + 5 / (1024 * x**3) - 21 / (32768 * x**4))
+    return math.sqrt(x) * (1 - 1 / (8 * x) + 1 / (128 * x**2) + 5 / (1024 * x**3))
 
 
 @functools.lru_cache(maxsize=1)

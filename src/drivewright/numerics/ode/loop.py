@@ -160,15 +160,15 @@ def integrate(
     return _trajectory(t0, np.array(y0, dtype=float), parts, times, clock[TIME], y, crossings, code, control, steps, rejected, chosen)
 
 
-def compile_ahead(system: tuple[object, ...], states: int, watch: Sequence[Event] = (), method: str | Method = "dopri5") -> None:
-    """Compile what `integrate` takes its steps with, for a system of so many states, without a step."""
-    chosen, y = method_by_name(method), np.zeros(states)
+def compile_ahead(system: tuple[object, ...], watch: Sequence[Event] = (), method: str | Method = "dopri5") -> None:
+    """Compile what `integrate` takes its steps with, without a step; how many states there are does not matter for that."""
+    chosen, y = method_by_name(method), np.zeros(1)
     control = _control(0.0, 1.0, y, 1e-6, 1e-6, np.inf, 0.0)
     system, event_system, switch_system = _parts(system, watch, chosen, control)
-    batch = _batch(1, states, len(watch), (np.empty(states), *np.empty((3, len(watch)))))
+    batch = _batch(1, y.size, len(watch), (np.empty(y.size), *np.empty((3, len(watch)))))
     clock, values = np.empty(3), np.empty(len(watch))
     advance: Any = advancing.advance
-    advance.compile_for(chosen.workspace(states), system, event_system, switch_system, control, _rules(watch), clock, y, values, batch)
+    advance.compile_for(chosen.workspace(y.size), system, event_system, switch_system, control, _rules(watch), clock, y, values, batch)
 
 
 def _parts(system, watch, method, control):
