@@ -274,9 +274,9 @@ def main():
     for title, section in SECTIONS:
         lines += [f"## {title}", "", "| what | shortest | median | remark |", "|---|---|---|---|"]
         for name, seconds, remark in section():
-            shown = ("", "") if seconds is None else tuple(f"{1e3 * s:.3g} ms" for s in seconds)
+            shown = ("", "") if seconds is None else tuple(f"{s:.3g} s" if s >= 1 else f"{1e3 * s:.3g} ms" for s in seconds)
             lines.append(f"| {name} | {shown[0]} | {shown[1]} | {remark} |")
-            print(lines[-1], flush=True)
+            print(f"{title} {lines[-1]}", flush=True)
         lines.append("")
     (ROOT / "docs" / "benchmarks.md").write_text("\n".join(lines), encoding="utf-8")
 

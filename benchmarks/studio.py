@@ -17,7 +17,7 @@ SLIDERS = {
     "seedling_pusher": ("train.axis_ratio", "cams.roller_radius", "lever.output_arm"),
     "four_bar": ("bodies.crank.points.A.0", "bodies.coupler.points.B.0"),
     "pin_indexer": ("eccentricity", "pin_radius"),
-    "roller_gear_indexer": ("roller_radius",),
+    "roller_gear_indexer": ("pin_radius",),
     "hyvo_chain": ("joint.rolling_radius", "plate.apothem"),
 }
 WANTED = {"seedling_pusher": 33}  # ms, median; 60 for the others

@@ -15,7 +15,7 @@ from collections import defaultdict
 from drivewright import registry
 from drivewright._jit.compilation import USUAL
 
-REFERENCE = 0.45
+REFERENCE = 0.2
 MEASURE = """
 import json, sys, time
 from drivewright import load, registry, run
