@@ -158,6 +158,9 @@ def test_where_the_users_folder_is_not_writable_a_private_one_is_taken(tmp_path,
     folder = disk_cache.cache_folder.__wrapped__()
     assert folder.is_dir() and tmp_path not in folder.parents
     assert os.name == "nt" or folder.stat().st_mode & 0o077 == 0
+    for place, kept in ((folder, False), (tmp_path / "kernels", True)):
+        monkeypatch.setattr(disk_cache, "cache_folder", lambda place=place: place)
+        assert disk_cache.is_kept() == kept
 
 
 def test_using_a_folder_stamps_it(tmp_path):

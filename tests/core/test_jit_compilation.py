@@ -105,6 +105,13 @@ def test_without_a_terminal_it_is_a_line_now_and_then(clock, capsys):
     ]
 
 
+def test_where_kernels_cannot_be_kept_it_says_that_every_run_compiles(clock, capsys, monkeypatch):
+    monkeypatch.setattr("drivewright._jit.disk_cache.is_kept", lambda: False)
+    assert lines_of(clock, capsys, "file.toml", "press", ("a", BEGUN, 0), ("a", DONE, 2))[0].startswith(
+        "compiling kernels for 'press' (in every run: the user's cache folder cannot be written to) 1/3"
+    )
+
+
 def test_two_quick_kernels_are_not_worth_a_line(clock, capsys):
     assert lines_of(clock, capsys, "file.toml", "stranger", ("a", BEGUN, 0), ("a", DONE, 1), ("b", BEGUN, 0), ("b", DONE, 0.9)) == []
 
@@ -180,17 +187,8 @@ def test_a_kernel_is_begun_and_done_once_and_found_after_that(tmp_path):
 
 
 def test_a_first_run_says_so_and_a_second_one_does_not(tmp_path):
-    command = [
-        sys.executable,
-        "-m",
-        "drivewright",
-        "run",
-        str(EXAMPLES / "pressure_roller_shaft.toml"),
-        "--no-figures",
-        "--out",
-        str(tmp_path / "out"),
-    ]
+    command = [sys.executable, "-m", "drivewright", "run", str(EXAMPLES / "four_bar.toml"), "--no-figures", "--out", str(tmp_path / "out")]
     env = os.environ | {"XDG_CACHE_HOME": str(tmp_path / "cache")}
     said = [subprocess.run(command, capture_output=True, text=True, timeout=300, env=env, check=True).stderr for _ in range(2)]
-    assert "compiling kernels for 'shaft' (first run only) 1/" in said[0]
+    assert "compiling kernels for 'linkage' (first run only) 1/" in said[0]
     assert "compiling" not in said[1]

@@ -89,3 +89,24 @@ def test_one_core_and_kinds_that_compile_little_have_none(begun, monkeypatch):
     with compiling_ahead(load(EXAMPLES / "four_bar.toml")):
         compilation.tell("one", compilation.BEGUN)
     assert begun == []
+
+
+def test_a_process_that_cannot_start_is_done_without(begun, monkeypatch):
+    def refuse(prepare):
+        begun.append("refused")
+        raise BrokenPipeError("as where the system's own helper has died")
+
+    monkeypatch.setattr("drivewright.execution.executors.ProcessExecutor", refuse)
+    with compiling_ahead(load(EXAMPLES / "four_bar.toml")):
+        compilation.tell("one", compilation.BEGUN)
+        compilation.tell("two", compilation.BEGUN)
+    with helper.helping_hand(print) as compute:
+        assert compute is map
+    assert begun == ["refused", "refused"]
+
+
+def test_kernels_that_are_not_kept_are_compiled_by_nobody_else(begun, monkeypatch):
+    monkeypatch.setattr(helper, "is_kept", lambda: False)
+    with compiling_ahead(load(EXAMPLES / "four_bar.toml")):
+        compilation.tell("one", compilation.BEGUN)
+    assert begun == []

@@ -83,4 +83,10 @@ class Compilation:
         if not self.kernel:
             return ""
         about = f", about {max(self.left, 1.0):.0f} s left" if self.usual or self.to_come else ""
-        return f"compiling kernels for '{self.kind}' (first run only) {self.done + 1}/{self.done + 1 + len(self.to_come)}{about}"
+        return f"compiling kernels for '{self.kind}' ({_how_often()}) {self.done + 1}/{self.done + 1 + len(self.to_come)}{about}"
+
+
+def _how_often():
+    from drivewright._jit import disk_cache  # which tells this module what it does
+
+    return "first run only" if disk_cache.is_kept() else "in every run: the user's cache folder cannot be written to"

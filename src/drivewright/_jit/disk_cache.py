@@ -39,6 +39,7 @@ WAIT, PATIENCE = 0.02, 120.0  # seconds between two looks at what another proces
 ABOVE = tuple(
     f"{PACKAGE}.{name}" for name in ("mechanisms", "oracles", "validation", "studies", "execution", "report", "view", "cli", "studio")
 )
+PRIVATE = "drivewright-"  # how the name of a folder begins that goes with the process
 SHIPPED = Path(__file__).parent / "shipped"
 BASELINE = "x86-64-v3"  # processors since about 2013; LLVM's name for what these features make
 FEATURES = ("avx", "avx2", "bmi", "bmi2", "f16c", "fma", "lzcnt", "movbe", "popcnt", "sse4.2", "xsave")
@@ -180,10 +181,15 @@ def cache_folder() -> Path:
         tempfile.TemporaryFile(dir=folder).close()
     except OSError:
         # Fresh and private: what lies in a folder that others may write to must never be loaded as code.
-        folder = Path(tempfile.mkdtemp(prefix="drivewright-"))
+        folder = Path(tempfile.mkdtemp(prefix=PRIVATE))
         atexit.register(shutil.rmtree, folder, ignore_errors=True)
     remove_unused(folder)
     return folder
+
+
+def is_kept() -> bool:
+    """Whether what is compiled outlives this process: not where the user's cache folder cannot be written to."""
+    return not cache_folder().name.startswith(PRIVATE)
 
 
 def is_first_run() -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from drivewright import registry
 from drivewright._jit.compilation import BEGUN, watched_by
-from drivewright._jit.disk_cache import is_first_run
+from drivewright._jit.disk_cache import is_first_run, is_kept
 from drivewright.cases import worker_count
 from drivewright.result import SpecLike
 
@@ -40,13 +40,24 @@ def helping_hand(prepare: Callable[[], object], wanted: bool = True) -> Iterator
     if not wanted or worker_count(None) < 2:
         yield map
         return
-    from drivewright.execution.executors import ProcessExecutor
-
-    executor = ProcessExecutor(prepare)
+    executor = _process(prepare)
+    if executor is None:
+        yield map
+        return
     try:
         yield lambda function, items: _shared(executor, function, list(items))
     finally:
         executor.close()
+
+
+def _process(prepare: Callable[[], object]) -> "ProcessExecutor | None":
+    """A process that calls `prepare`; None where the system does not let it start, for then this process does all by itself."""
+    from drivewright.execution.executors import ProcessExecutor
+
+    try:
+        return ProcessExecutor(prepare)
+    except OSError:
+        return None
 
 
 @contextmanager
@@ -56,18 +67,16 @@ def compiling_ahead(spec: SpecLike) -> Iterator[None]:
 
     This process finds it on the disk, or waits for it there; where there is no core for a second one it compiles all by itself.
     """
-    if worker_count(None) < 2 or registry.mechanism(spec.mechanism).compile_ahead is None:
+    if worker_count(None) < 2 or registry.mechanism(spec.mechanism).compile_ahead is None or not is_kept():
         yield
         return
     with ExitStack() as at_the_end:
-        begun: list[ProcessExecutor] = []
+        begun: list[ProcessExecutor | None] = []
 
         def begin(_: str = "", what: str = BEGUN) -> None:
             if what == BEGUN and not begun:
-                from drivewright.execution.executors import ProcessExecutor
-
-                begun.append(ProcessExecutor(partial(_compile_ahead, spec)))
-                at_the_end.callback(begun[0].close)
+                begun.append(_process(partial(_compile_ahead, spec)))
+                at_the_end.callback(begun[0].close if begun[0] else lambda: None)
 
         at_the_end.enter_context(watched_by(begin))
         if is_first_run():
