@@ -28,6 +28,8 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; exits with 0 done, 1 failed check, 2 bad input, 3 strict, 4 solver gave up, 130 interrupted, 128 and its number
     after another signal that ends a process."""
     threading.excepthook = _end_of_a_thread
+    _ended.clear()
+    _starved.clear()
     with ending_signals() as received:
         try:
             _run(arguments, received)

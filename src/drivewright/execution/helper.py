@@ -75,8 +75,9 @@ def compiling_ahead(spec: SpecLike) -> Iterator[None]:
 
         def begin(_: str = "", what: str = BEGUN) -> None:
             if what == BEGUN and not begun:
-                begun.append(_process(partial(_compile_ahead, spec)))
-                at_the_end.callback(begun[0].close if begun[0] else lambda: None)
+                begun.append(process := _process(partial(_compile_ahead, spec)))
+                if process:
+                    at_the_end.callback(process.close)
 
         at_the_end.enter_context(watched_by(begin))
         if is_first_run():

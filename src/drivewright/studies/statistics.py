@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import ArrayLike, Floats
+from drivewright.numerics.student import student_quantile
 from drivewright.result import Value
 
 LEVEL = 0.95
@@ -93,11 +94,9 @@ def moments(ordered: Floats) -> tuple[float, float, float]:
 
 def _mean(mean, sigma, n):
     """mean -+ t s / sqrt(n), t being Student's quantile of n - 1 degrees of freedom."""
-    from scipy.special import stdtrit
-
     if n < 2:
         return Sampled(mean)
-    reach = float(stdtrit(n - 1, (1 + LEVEL) / 2) * sigma / np.sqrt(n))
+    reach = float(student_quantile(n - 1, (1 + LEVEL) / 2) * sigma / np.sqrt(n))
     return Sampled(mean, mean - reach, mean + reach)
 
 

@@ -15,6 +15,7 @@ from drivewright.spec import load
 pytestmark = pytest.mark.property
 
 EXAMPLE = EXAMPLES / "slider_crank_clearance.toml"
+EIGHT = "simulate.ensemble=8"
 STATISTICS = (
     "slider.impact_load_coefficient",
     "slider.peak_acceleration_ratio",
@@ -36,7 +37,8 @@ def check(found, name):
 
 @pytest.fixture(scope="module")
 def chaotic():
-    return slider('joints.wrist.clearance="0.1 mm"')
+    """Of eight members: the interval of four is more of a draw."""
+    return slider('joints.wrist.clearance="0.1 mm"', EIGHT)
 
 
 def test_a_motion_that_repeats_itself_needs_no_ensemble():
@@ -55,13 +57,13 @@ def test_a_chaotic_motion_carries_intervals(chaotic):
         value = chaotic.values[name]
         assert value.interval == "ensemble" and value.low < value.value < value.high
     value = chaotic.values["slider.turn_peak_mean"]
-    assert value.high - value.low < value.value  # of four members: their spread is a draw
+    assert value.high - value.low < 0.5 * value.value
     assert chaotic.values["slider.ideal_peak"].interval == ""
 
 
 def test_the_same_seed_gives_the_same_numbers_and_another_overlapping_ones(chaotic):
-    again, other = slider('joints.wrist.clearance="0.1 mm"'), slider('joints.wrist.clearance="0.1 mm"', "simulate.seed=7")
-    near = slider('joints.wrist.clearance="0.10000000001 mm"')
+    again, other = (slider('joints.wrist.clearance="0.1 mm"', EIGHT, *more) for more in ((), ("simulate.seed=7",)))
+    near = slider('joints.wrist.clearance="0.10000000001 mm"', EIGHT)
     for name in STATISTICS:
         one = chaotic.values[name]
         assert again.values[name] == one

@@ -94,6 +94,7 @@ def _of_one_motion(spec, columns, rows, measures):
         return True
 
     def measured(rows):
+        """{name: (n,)} of the designs in these rows."""
         model = assembled(with_columns(spec, {key: column[rows, None] for key, column in columns.items()}), programme)
         near = ~np.broadcast_to(np.all(clear_of_axis(model).reshape(len(model.tracks), -1), axis=0), rows.shape)
         if not all(is_left(row) for row in rows[near].tolist()):
