@@ -157,6 +157,7 @@ def table():
     from drivewright import cases, load
     from drivewright.mechanisms.linkage.build import build
     from drivewright.multibody.analyses.impact_load import ideal_acceleration_peak, impact_load_of_run
+    from drivewright.numerics.ode.together import together
     from drivewright.units import SI
 
     spec = load(Path(__file__).parent.parent / "examples" / "knife_folder.toml")
@@ -168,14 +169,16 @@ def table():
             changes |= {f"joints.{name}.clearance": clearance, f"joints.{name}.link_damping": CALIBRATED[clearance] * speed / 28_800}
         return build(spec.replace({key: SI(value) for key, value in changes.items()}))
 
-    impact_load_of_run(model(28_800, 0.2e-3, 1e-4), output)
+    points = [(speed, clearance) for speed in SPEEDS for clearance in CALIBRATED]
+    with together(len(points), 1) as workers:
+        cases.run(lambda case: impact_load_of_run(model(*case, 1e-4), output), points, workers)
     for rtol in (1e-5, 1e-6, 1e-8):
         began = time.perf_counter()
         peaks = {speed: ideal_acceleration_peak(model(speed, 0.2e-3, rtol), output) for speed in SPEEDS}
-        points = [(speed, clearance) for speed in SPEEDS for clearance in CALIBRATED]
-        found = cases.run(
-            lambda case, rtol=rtol, peaks=peaks: impact_load_of_run(model(*case, rtol), output, peaks[case[0]])[0], points, workers=None
-        )
+        with together(len(points), cases.worker_count(None)) as workers:
+            found = cases.run(
+                lambda case, rtol=rtol, peaks=peaks: impact_load_of_run(model(*case, rtol), output, peaks[case[0]])[0], points, workers
+            )
         seconds = time.perf_counter() - began
         middle = [f"{row.value:.3f}" for row in found.rows if row.case[0] == 28_800]
         yield (
@@ -189,15 +192,18 @@ def bifurcation(clearances=200, turns=300):
     """Points once a turn for many clearances, on all cores."""
     from drivewright import cases
     from drivewright import multibody as mb
+    from drivewright.numerics.ode.together import together
 
     def one(clearance):
         assembly, state = started(slider_crank(clearance))
         times = PERIOD * np.arange(turns // 2, turns + 1)
         return mb.simulate(assembly, turns * PERIOD, mb.Settings(1e-6), samples=times, state=state).steps
 
-    one(0.3e-3) if turns <= 10 else bifurcation(2, 10).__next__()
+    if turns > 10:
+        next(bifurcation(32, 10))  # compiles
     began = time.perf_counter()
-    found = cases.run(one, np.linspace(0.1e-3, 0.6e-3, clearances).tolist(), workers=None)
+    with together(clearances, cases.worker_count(None)) as workers:
+        found = cases.run(one, np.linspace(0.1e-3, 0.6e-3, clearances).tolist(), workers)
     seconds = time.perf_counter() - began
     steps = sum(row.value for row in found.rows)
     yield (

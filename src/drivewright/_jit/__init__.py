@@ -56,6 +56,18 @@ def elementwise(function: FunctionT) -> FunctionT:
     return inner(function)
 
 
+def per_lane(function: FunctionT) -> FunctionT:
+    """An inner kernel full of branches: where its arguments are many cases in lanes (see `_jit.lanes`), it is called lane by lane."""
+    vars(function)["in_lanes"] = True
+    return inner(function)
+
+
+def branch_free(function: FunctionT) -> FunctionT:
+    """An inner kernel that has a form of its own in `_jit.lanes`."""
+    vars(function)["in_lanes"] = f"{function.__name__}_in_lanes"
+    return inner(function)
+
+
 def _compiled(function: FunctionT, **options: Any) -> FunctionT:
     import numba
 

@@ -209,7 +209,7 @@ class Kernel(CPUDispatcher):
     _cache: Any  # a `disk_cache.KernelCache`
 
     def __init__(self, py_func: Callable[..., Any], locals: Any = None, targetoptions: dict[str, Any] = OPTIONS) -> None:  # noqa: A002
-        self.callee = _Callee(py_func, targetoptions)
+        self.callee, self.laned = _Callee(py_func, targetoptions), {}
         super().__init__(py_func, targetoptions=targetoptions, pipeline_class=_ForPython)
 
     def compile(self, sig: Any) -> Any:
@@ -230,11 +230,25 @@ class Kernel(CPUDispatcher):
 
     def get_call_template(self, args: Any, kws: Any) -> Any:
         """How kernels call it."""
-        return self.callee.get_call_template(args, kws)
+        return self._callee_for(args).get_call_template(args, kws)
 
     def get_overload(self, sig: Any) -> Any:
         """What kernels call."""
-        return self.callee.get_overload(sig)
+        return self._callee_for(getattr(sig, "args", sig)).get_overload(sig)
+
+    def _callee_for(self, args):
+        """The kernel itself, or what stands for it where its arguments have lanes."""
+        in_lanes = getattr(self.py_func, "in_lanes", None)
+        if in_lanes is None:
+            return self.callee
+        from drivewright._jit import lanes
+
+        if not any(lanes.is_laned(each) for each in args):
+            return self.callee
+        if args not in self.laned:
+            function = lanes.lane_by_lane(self.callee, self.py_func.__name__, args) if in_lanes is True else getattr(lanes, in_lanes)
+            self.laned[args] = _Callee(function, OPTIONS | {"_nrt": False})
+        return self.laned[args]
 
 
 def choose_by_type(dispatch: Callable[..., Any], formula_for: Callable[[Any], Any]) -> None:

@@ -8,7 +8,7 @@ which the loops are closed exactly; what the rest of the program sees is the smo
 
 import numpy as np
 
-from drivewright._jit import inner
+from drivewright._jit import inner, per_lane
 from drivewright._typing import Bools, Floats
 from drivewright.multibody.kinematics import (
     close_loops,
@@ -99,14 +99,14 @@ def lagrange_weight(offsets: Floats, k: int, x: float) -> float:
     return product
 
 
-@inner
+@per_lane
 def update_interpolated(system: System, work: Work, t: float, y: Floats) -> bool:
     """`update_kinematics` between the nodes of the chart.
 
     y (states,) as in `loads.apply_forces`.
     """
     x, closed = chart_offset(system, t, y), True
-    work.node_sums[:] = 0.0
+    _clear(work.node_sums)
     for k in range(system.chart.offsets.size):
         shift = system.chart.offsets[k] - x
         _node(system, work, k, shift, y)
@@ -114,6 +114,14 @@ def update_interpolated(system: System, work: Work, t: float, y: Floats) -> bool
         _add(system, work, lagrange_weight(system.chart.offsets, k, x))
     _assign(system, work, t, y)
     return closed
+
+
+@inner
+def _clear(sums):
+    """Zeros into `sums` (rows, columns)."""
+    for r in range(sums.shape[0]):
+        for column in range(sums.shape[1]):
+            sums[r, column] = 0.0
 
 
 @inner

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright._jit import inner
+from drivewright._jit import inner, per_lane
 from drivewright._typing import Floats, Numbers
 from drivewright.multibody.records import Records
+from drivewright.numerics.lanes import all_lanes
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +40,15 @@ def curve_slope(curve: Curve, x: Numbers) -> Floats:
 def curve_at(curves: Records, pieces: Records, index: int, x: float) -> tuple[float, float, float]:
     """(f, f', f'') of the curve number `index` at x.  curves (n,) of CURVE, pieces (k,) of PIECE."""
     curve = curves[index]
+    if curve.count == 1 and all_lanes(curve.period == 0.0):
+        return _piece_at(pieces[curve.first], x)
+    return _pieces_at(curves, pieces, index, x)
+
+
+@per_lane
+def _pieces_at(curves, pieces, index, x):
+    """`curve_at` of several pieces, or of one that is repeated. curves (n,) of CURVE, pieces (k,) of PIECE."""
+    curve = curves[index]
     low, high = curve.first, curve.first + curve.count - 1
     start = pieces[low].start
     if curve.period > 0.0:
@@ -49,7 +59,12 @@ def curve_at(curves: Records, pieces: Records, index: int, x: float) -> tuple[fl
             low = middle
         else:
             high = middle - 1
-    p = pieces[low]
+    return _piece_at(pieces[low], x)
+
+
+@inner
+def _piece_at(p, x):
+    """`curve_at` of one piece."""
     u = x - p.start
     value = p.c0 + u * (p.c1 + u * (p.c2 + u * (p.c3 + u * (p.c4 + u * p.c5))))
     slope = p.c1 + u * (2 * p.c2 + u * (3 * p.c3 + u * (4 * p.c4 + u * 5 * p.c5)))

@@ -6,7 +6,7 @@ the state only start Newton's method: the loops are closed anew, exactly, at eve
 
 import numpy as np
 
-from drivewright._jit import implements, inner
+from drivewright._jit import implements, inner, per_lane
 from drivewright._typing import Floats
 from drivewright.multibody.chart import chart_offset, update_interpolated, update_kinematics, update_positions
 from drivewright.multibody.curves import curve_at
@@ -15,6 +15,7 @@ from drivewright.multibody.forces.pin_contact import LASTING, SLOWEST, contact_s
 from drivewright.multibody.kinematics import jacobian_determinant, update_velocities
 from drivewright.multibody.loads import apply_forces
 from drivewright.multibody.system import BIAS, Motion, System, Work
+from drivewright.numerics.lanes import all_lanes, any_lane, where
 from drivewright.numerics.ode import events, rate, switch
 from drivewright.numerics.small import ldl_factor, ldl_substitute
 
@@ -50,7 +51,7 @@ def accelerations(system: System, work: Work, t: float, y: Floats, dy: Floats) -
     for k in range(system.stored.size):
         dy[k] = work.coordinates[system.stored[k]].v
     for m in range(system.independent.size):
-        dy[system.stored.size + m] = work.force[m] if closed else np.nan
+        dy[system.stored.size + m] = where(closed, work.force[m], np.nan)
 
 
 @inner
@@ -68,9 +69,9 @@ def event_values(system: System, work: Work, t: float, y: Floats, values: Floats
         values[1] = chart_offset(system, t, y)
         values[0] = 1.0 - (values[1] / system.chart.reach) ** 2
     else:
-        if not is_current(system, work, t, y):  # at the end of a step the last rates were those of this very state
+        if not all_lanes(is_current(system, work, t, y)):  # at the end of a step the last rates were those of this very state
             update_positions(system, work, t, y)
-            if has_contact(system, y):
+            if any_lane(has_contact(system, y)):
                 update_velocities(system, work)
                 update_mass_matrix(system, work)
         values[0], values[1] = validity_of_split(system, work), 1.0
@@ -85,13 +86,13 @@ def has_contact(system: System, y: Floats) -> bool:
 
     y (states,) as in `loads.apply_forces`.
     """
-    touches = False
+    touches = 0.0
     for n in range(system.contacts.size):
-        touches |= y[system.contacts[n].memory] != 0.0
-    return touches
+        touches += abs(y[system.contacts[n].memory])
+    return touches != 0.0
 
 
-@inner
+@per_lane
 def is_current(system: System, work: Work, t: float, y: Floats) -> bool:
     """Whether the bodies are placed for this state already: driven and independent coordinates are the same, and these have their rates.
 
@@ -118,10 +119,10 @@ def validity_of_split(system: System, work: Work) -> float:
     It changes its sign in the singular position of a single loop, and stays small about that of several, so that no step of the
     integrator is so long that it misses one.
     """
-    if system.reference_determinant == 0.0:
-        return 1.0
+    if all_lanes(system.reference_determinant == 0.0):
+        return where(system.reference_determinant == 0.0, 1.0, 1.0)
     share = jacobian_determinant(system, work) / system.reference_determinant
-    return min(share - DECADE, 1.0 - DECADE * share)
+    return where(system.reference_determinant == 0.0, 1.0, min(share - DECADE, 1.0 - DECADE * share))
 
 
 @inner
@@ -157,7 +158,7 @@ def update_mass_matrix(system: System, work: Work) -> None:
         if body.driven:  # its partials stay zero
             continue
         reduce_partial_velocities(system, work, i)
-        if body.mass == 0.0 and body.inertia == 0.0:
+        if all_lanes((body.mass == 0.0) & (body.inertia == 0.0)):
             continue
         for m in range(free):
             one = work.reduced_partial_velocities[i, m]
@@ -176,9 +177,10 @@ def solve_accelerations(system: System, work: Work) -> None:
     for i in range(1, system.bodies.size):
         body, forces = system.bodies[i], work.poses[i]
         fx, fy, ft = forces.fx, forces.fy, forces.ft
-        if body.driven or (body.mass == 0.0 and body.inertia == 0.0 and fx == 0.0 and fy == 0.0 and ft == 0.0):
+        massless = all_lanes((body.mass == 0.0) & (body.inertia == 0.0))
+        if body.driven or (massless and all_lanes((fx == 0.0) & (fy == 0.0) & (ft == 0.0))):
             continue
-        if body.mass != 0.0 or body.inertia != 0.0:
+        if not massless:
             bx, by, bt = bias_acceleration(system, work, i)
             fx += body.mass * (system.gravity_x - bx)
             fy += body.mass * (system.gravity_y - by)

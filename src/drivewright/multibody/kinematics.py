@@ -1,14 +1,14 @@
 """Kernels: where the bodies are, how fast they move, and how the dependent coordinates follow the independent ones."""
 
-import numpy as np
-
 from drivewright._jit import inner
 from drivewright.multibody.curves import curve_at
 from drivewright.multibody.frames import rotated
 from drivewright.multibody.joints.rows import terms_of_row, velocity_product_of_row
 from drivewright.multibody.records import OneRecord
 from drivewright.multibody.system import BIAS, RESIDUAL, SCRATCH, System, Work
+from drivewright.numerics.lanes import all_lanes, any_lane, opposite, where
 from drivewright.numerics.small import lu_factor, lu_solve
+from drivewright.numerics.trigonometry import cos_sin
 
 CLOSED = 1e-7  # Newton's correction [rad], [lengths of the mechanism] below which one more evaluation is exact to rounding
 TRIES = 12
@@ -34,8 +34,9 @@ def update_poses(system: System, work: Work) -> None:
         angle = body.inherits * base.angle + body.offset
         if body.turn >= 0:
             angle += work.coordinates[body.turn].q
-        if angle != here.angle:  # Newton's corrections leave most angles as they are
-            here.angle, here.c, here.s = angle, np.cos(angle), np.sin(angle)
+        if any_lane(angle != here.angle):  # Newton's corrections leave most angles as they are
+            here.angle = angle
+            here.c, here.s = cos_sin(angle)
         if body.free >= 0:
             here.x, here.y = work.coordinates[body.free].q, work.coordinates[body.free + 1].q
             work.partial_velocities[i, body.free].x = work.partial_velocities[i, body.free + 1].y = 1.0
@@ -83,22 +84,32 @@ def update_constraint_rows(system: System, work: Work) -> None:
 @inner
 def close_loops(system: System, work: Work) -> bool:
     """Move the dependent coordinates, by Newton's method, until every loop is closed; False where they cannot be."""
-    settled = system.rows.size == 0
+    if system.rows.size == 0:
+        update_poses(system, work)
+        return True
+    return iterate_on_loops(system, work)
+
+
+@inner
+def iterate_on_loops(system: System, work: Work) -> bool:
+    """`close_loops` where there are loops."""
+    settled = closed = system.length < 0.0  # nowhere yet
+    regular = system.length > 0.0
     for _ in range(TRIES):
         update_poses(system, work)
         update_constraint_rows(system, work)
-        if not factor_jacobian(system, work):
-            return False
-        if settled:
-            return True
+        regular = regular & factor_jacobian(system, work)
+        closed = regular & settled
+        if all_lanes(closed | opposite(regular)):
+            return closed
         lu_solve(work.lu, work.pivots, work.row_columns[RESIDUAL])
         largest = 0.0
         for r in range(system.rows.size):
-            step = work.row_columns[RESIDUAL, r]
+            step = where(settled, 0.0, work.row_columns[RESIDUAL, r])
             work.coordinates[system.dependent[r]].q -= step
             largest = max(largest, abs(step) / system.sizes[system.dependent[r]])
-        settled = largest < CLOSED
-    return False
+        settled = settled | (largest < CLOSED)
+    return closed
 
 
 @inner
@@ -110,7 +121,7 @@ def jacobian_determinant(system: System, work: Work) -> float:
     volume = 1.0
     for r in range(work.pivots.size):
         pivot = work.lu[r, r] * system.sizes[system.dependent[r]] / system.rows[r].extent
-        volume *= pivot if work.pivots[r] == r else -pivot
+        volume *= where(work.pivots[r] == r, pivot, -pivot)
     return volume
 
 

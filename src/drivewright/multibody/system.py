@@ -93,7 +93,7 @@ class Work(NamedTuple):
     partial_velocities: Records  # (bodies, coordinates)
     constraint_jacobian: Floats  # (rows, coordinates)
     lu: Floats  # (rows, rows): decomposition of the Jacobian by the dependent coordinates
-    pivots: Ints
+    pivots: Floats  # (rows,): numbers of rows, as real numbers, for cases in lanes have different ones
     row_columns: Floats  # (3, rows)
     dependency_matrix: Floats  # (rows, independent + driven): d(dependent)/d(independent and, in a chart, driven)
     reduced_partial_velocities: Records  # (bodies, independent): the dependent coordinates following
@@ -135,7 +135,7 @@ def scratch(system: System) -> Work:
         partial_velocities,
         np.zeros((rows, n)),
         np.zeros((rows, rows)),
-        np.zeros(rows, np.int64),
+        np.zeros(rows),
         np.zeros((3, rows)),
         np.zeros((rows, free + given)),
         np.zeros((bodies, free), PARTIAL_VELOCITY).view(np.recarray),

@@ -4,6 +4,7 @@ import numpy as np
 
 from drivewright._jit import inner
 from drivewright._typing import Floats, Ints
+from drivewright.numerics.lanes import any_lane, where
 
 SINGULAR = 1e-13  # a pivot below this part of the matrix' largest entry
 
@@ -11,27 +12,30 @@ SINGULAR = 1e-13  # a pivot below this part of the matrix' largest entry
 @inner
 def lu_factor(a: Floats, pivots: Ints) -> bool:
     """Overwrite the square matrix a (n, n) with L and U, rows exchanged as `pivots` (n,) says; False where it is singular."""
-    n = a.shape[0]
-    largest = 0.0
+    n, largest = a.shape[0], 0.0
     for i in range(n):
         for j in range(n):
             largest = max(largest, abs(a[i, j]))
+    regular = largest >= 0.0
     for k in range(n):
-        best = k
+        best, size = 1.0 * k, abs(a[k, k])
         for i in range(k + 1, n):
-            if abs(a[i, k]) > abs(a[best, k]):
-                best = i
+            best, size = where(abs(a[i, k]) > size, 1.0 * i, best), max(size, abs(a[i, k]))
         pivots[k] = best
-        if not abs(a[best, k]) > SINGULAR * largest:
-            return False
-        if best != k:
-            for j in range(n):
-                a[k, j], a[best, j] = a[best, j], a[k, j]
+        regular = regular & (size > SINGULAR * largest)
+        if not any_lane(regular):
+            return regular
+        for i in range(k + 1, n):
+            is_best = best == i
+            if any_lane(is_best):
+                for j in range(n):
+                    upper, lower = a[k, j], a[i, j]
+                    a[k, j], a[i, j] = where(is_best, lower, upper), where(is_best, upper, lower)
         for i in range(k + 1, n):
             a[i, k] /= a[k, k]
             for j in range(k + 1, n):
                 a[i, j] -= a[i, k] * a[k, j]
-    return True
+    return regular
 
 
 @inner
@@ -39,9 +43,10 @@ def lu_solve(lu: Floats, pivots: Ints, b: Floats) -> None:
     """Overwrite b (n,) with the solution x of a x = b, from the factors (n, n) and `pivots` (n,) of `lu_factor`."""
     n = lu.shape[0]
     for k in range(n):
-        best = pivots[k]
-        if best != k:
-            b[k], b[best] = b[best], b[k]
+        for i in range(k + 1, n):
+            is_best = pivots[k] == i
+            if any_lane(is_best):
+                b[k], b[i] = where(is_best, b[i], b[k]), where(is_best, b[k], b[i])
     for i in range(n):
         for j in range(i):
             b[i] -= lu[i, j] * b[j]
@@ -68,7 +73,7 @@ def ldl_factor(a: Floats) -> None:
     """
     n = a.shape[0]
     for j in range(n):
-        reciprocal = 1.0 / a[j, j] if a[j, j] > 0.0 else np.nan
+        reciprocal = 1.0 / where(a[j, j] > 0.0, a[j, j], np.nan)
         for i in range(j + 1, n):
             factor = a[i, j] * reciprocal
             for k in range(j + 1, i + 1):

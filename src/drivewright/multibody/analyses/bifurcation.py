@@ -6,6 +6,7 @@ import numpy as np
 
 from drivewright import cases
 from drivewright._typing import Floats
+from drivewright.numerics.ode.together import together
 from drivewright.result import Answer, Column, Table
 
 
@@ -16,7 +17,8 @@ def bifurcation(
 
     visits(value): (positions (m,), velocities (m,)) of the section, in `units`; a value at which it raises is left out with the reason.
     """
-    rows = cases.run(visits, values.tolist(), workers=None)
+    with together(len(values), cases.worker_count(None)) as workers:
+        rows = cases.run(visits, values.tolist(), workers=workers)
     visited = [(row.case, *row.value) for row in rows.rows if row.ok]
     failed = tuple(f"bifurcation: {over} = {row.case:.6g} is left out: {row.reason}" for row in rows.failed)
     words = f"of {name!r} at crank angle zero"

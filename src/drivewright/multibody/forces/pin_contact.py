@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright._jit import inner
+from drivewright._jit import inner, per_lane
 from drivewright._typing import Floats, Numbers
 from drivewright.contact.film import long_bearing, short_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
@@ -18,6 +18,7 @@ from drivewright.multibody.forces.contact import AMBROSIO, COULOMB, LONG_FILM, L
 from drivewright.multibody.frames import apply_force, relative_motion, rotated
 from drivewright.multibody.records import OneRecord, Records
 from drivewright.multibody.system import System, Work
+from drivewright.numerics.lanes import any_lane, where
 from drivewright.numerics.small import ldl_energy
 
 SLOWEST = 1e-4  # approach speed that counts at least, where a law divides by it [m/s]
@@ -46,7 +47,15 @@ def wear_depth(wear: Floats, turned_by: float, dx: float, dy: float, distance: f
     The journal is taken to touch where its centre points, so that depth = |e| - clearance - h(angle); the force is that law's gradient,
     which keeps the energy.  It holds while the profile is flat: its slope by the angle well below the clearance.
     """
-    if wear.size == 0 or distance == 0.0:  # in the middle there is no side
+    if wear.size == 0:
+        return 0.0, 0.0
+    return _worn_wall(wear, turned_by, dx, dy, distance)
+
+
+@per_lane
+def _worn_wall(wear, turned_by, dx, dy, distance):
+    """`wear_depth` of a bearing that is worn. wear (bins,)."""
+    if distance == 0.0:  # in the middle there is no side
         return 0.0, 0.0
     depth, slope = wear_at(wear, np.arctan2(-dy, -dx) - turned_by)
     return depth, slope / distance
@@ -120,15 +129,23 @@ def contact_signs(system: System, n: int, work: Work, y: Floats) -> tuple[float,
     y (states,) as in `loads.apply_forces`.
     """
     contact, memory = system.contacts[n], y[system.contacts[n].memory]
-    if memory == 0.0 or (contact.hysteresis == 0.0 and contact.damping == 0.0):
-        return penetration(system, work, n), 1.0, 1.0
+    remembers = (memory != 0.0) & ((contact.hysteresis != 0.0) | (contact.damping != 0.0))
+    if not any_lane(remembers):
+        return penetration(system, work, n), where(remembers, 1.0, 1.0), where(remembers, 1.0, 1.0)
     depth, rate, mobility, _, _, _, _ = gap_motion(system, n, work, memory)
+    reversal, hold = _signs_of_rate(contact, depth, rate, mobility, memory)
+    return depth, where(remembers, reversal, 1.0), where(remembers, hold, 1.0)
+
+
+@per_lane
+def _signs_of_rate(contact, depth, rate, mobility, memory):
+    """The second and the third of `contact_signs` of a contact whose law has a loss."""
     reversal = rate if memory > 0.0 and contact.hysteresis > 0.0 else 1.0
     elastic = elastic_of(contact, max(depth, 0.0))
     if contact.damping > 0.0:
-        return depth, reversal, elastic + contact.damping * rate
+        return reversal, elastic + contact.damping * rate
     speed = loading_speed(contact, max(depth, 0.0), elastic, mobility) if memory < 0.0 else memory
-    return depth, reversal, speed + _loss(contact, rate, speed, memory)
+    return reversal, speed + _loss(contact, rate, speed, memory)
 
 
 @inner
@@ -157,20 +174,21 @@ def gap_motion(system: System, n: int, work: Work, memory: Numbers) -> tuple[flo
     distance = np.sqrt(dx * dx + dy * dy)  # np.hypot takes twice as long, for lengths that no gap has
     worn, wear_slope = wear_depth(system.wear[n], work.poses[contact.i].angle, dx, dy, distance)
     depth = distance - contact.clearance - worn
-    if distance == 0.0:
-        return depth, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0
-    nx, ny = dx / distance, dy / distance
+    is_centred = distance == 0.0  # where any direction is as good
+    length = where(is_centred, 1.0, distance)
+    nx, ny = where(is_centred, 1.0, dx / length), where(is_centred, 0.0, dy / length)
     # The wall's point is at -R n from the bearing's centre, and at d - R n = -(R - |d|) n from the journal's.
     radius, spin = contact.bearing_radius, work.poses[contact.i].w
     slip = nx * vy - ny * vx - radius * spin + (radius - distance) * work.poses[contact.j].w
-    rate = nx * vx + ny * vy - wear_slope * (nx * vy - ny * vx - distance * spin)
-    mobility = 0.0
-    if memory < 0.0 and depth > 0.0:
+    slip = where(is_centred, 0.0, slip)
+    rate = where(is_centred, 0.0, nx * vx + ny * vy - wear_slope * (nx * vy - ny * vx - distance * spin))
+    mobility, lasts = where(is_centred, 0.0, 0.0), (memory < 0.0) & (depth > 0.0)
+    if any_lane(lasts):
         for m in range(work.unit_load.size):
             one, two = work.reduced_partial_velocities[contact.i, m], work.reduced_partial_velocities[contact.j, m]
             ux, uy = one.x - one.t * py - two.x + two.t * qy, one.y + one.t * px - two.y - two.t * qx
             work.unit_load[m] = nx * ux + ny * uy - wear_slope * (nx * uy - ny * ux - distance * one.t)
-        mobility = ldl_energy(work.mass, work.unit_load)
+        mobility = where(lasts, ldl_energy(work.mass, work.unit_load), 0.0)
     return depth, rate, mobility, slip, nx, ny, wear_slope
 
 
@@ -183,17 +201,28 @@ def contact_state(system: System, n: int, work: Work, y: Floats) -> tuple[float,
     """
     contact, memory = system.contacts[n], y[system.contacts[n].memory]
     depth, rate, mobility, slip, nx, ny, wear_slope = gap_motion(system, n, work, memory)
+    normal = rubbing = bristle_rate = where(depth > 0.0, 0.0, 0.0)
+    if any_lane((memory != 0.0) & (depth > 0.0)):
+        normal, rubbing, bristle_rate = contact_force(system, contact, depth, rate, slip, memory, mobility, y[contact.bristle])
+    return depth, normal, rubbing, slip, bristle_rate, nx, ny, wear_slope
+
+
+@per_lane
+def contact_force(
+    system: System, contact: OneRecord, depth: float, rate: float, slip: float, memory: Numbers, mobility: float, bristle: Any
+) -> tuple[float, float, float]:
+    """(normal force [N], friction force [N] against the slip, rate of the bristle [m/s]) at a depth [m] that changes at a rate [m/s]."""
     if memory == 0.0 or depth <= 0.0:
-        return depth, 0.0, 0.0, slip, 0.0, nx, ny, wear_slope
+        return 0.0, 0.0, 0.0
     if contact.further > 0:
         normal = max(further_force(system.laws, contact.further, -depth, -rate), 0.0)
     else:
         normal = normal_of(contact, depth, rate, memory, mobility)
-    rubbing, bristle_rate = friction_force(contact, normal, slip, y[contact.bristle])
-    return depth, normal, rubbing, slip, bristle_rate, nx, ny, wear_slope
+    rubbing, bristle_rate = friction_force(contact, normal, slip, bristle)
+    return normal, rubbing, bristle_rate
 
 
-@inner
+@per_lane
 def film_force(contact: OneRecord, poses: Records) -> tuple[float, float]:
     """Force (x, y) of the oil on the bearing, and the torque-free arm is its centre; it fades where the walls touch."""
     dx, dy, vx, vy, _, _, _, _ = relative_motion(poses, contact)
@@ -225,14 +254,14 @@ def apply_pin_contact(system: System, n: int, work: Work, y: Floats, dy: Floats)
     dy[contact.memory] = 0.0
     if contact.law == LUGRE:
         dy[contact.bristle] = bristle_rate
-    if normal > 0.0:
+    if any_lane(normal > 0.0):
         # On the bearing: -N n - T t, t = (-ny, nx), at -R n from its centre.
         fx, fy = -normal * nx + rubbing * ny, -normal * ny - rubbing * nx
         px, py = rotated(one, contact.ax, contact.ay)
         px, py = px - contact.bearing_radius * nx, py - contact.bearing_radius * ny
         apply_force(one, px, py, fx, fy)
         apply_force(two, px + one.x - two.x, py + one.y - two.y, -fx, -fy)
-        if wear_slope != 0.0:
+        if any_lane(wear_slope != 0.0):
             fx, fy = -normal * wear_slope * ny, normal * wear_slope * nx
             qx, qy = rotated(two, contact.bx, contact.by)
             apply_force(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)

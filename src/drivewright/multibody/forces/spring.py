@@ -12,6 +12,7 @@ from drivewright.multibody.forces.element import ForceElement
 from drivewright.multibody.frames import apply_force, relative_motion
 from drivewright.multibody.index import ModelIndex
 from drivewright.multibody.records import OneRecord, Records, record_type
+from drivewright.numerics.lanes import where
 
 SPRING = record_type("i j", "ax ay bx by stiffness free_length damping")
 
@@ -41,10 +42,9 @@ class PointSpring(ForceElement):
 def apply_spring(poses: Records, spring: OneRecord) -> None:
     """Tension k (L - L0) + c L' along the line between the points.  poses (bodies,) of POSE."""
     dx, dy, vx, vy, px, py, qx, qy = relative_motion(poses, spring)
-    length = np.hypot(dx, dy)
-    if length == 0.0:  # no direction
-        return
-    ux, uy = dx / length, dy / length
+    length = np.sqrt(dx * dx + dy * dy)
+    divisor = where(length == 0.0, 1.0, length)  # then there is no direction and no force
+    ux, uy = dx / divisor, dy / divisor
     tension = spring.stiffness * (length - spring.free_length) + spring.damping * (ux * vx + uy * vy)
     apply_force(poses[spring.i], px, py, -tension * ux, -tension * uy)
     apply_force(poses[spring.j], qx, qy, tension * ux, tension * uy)

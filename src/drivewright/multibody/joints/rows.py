@@ -98,7 +98,7 @@ def terms_of_row(system: Any, work: Any, row: OneRecord, dx: float, dy: float) -
     elif row.kind >= FURTHER:
         return row_terms(system.equations, row, third, dx, dy, first.angle, second.angle, work.poses[row.l].angle)
     else:
-        distance = np.hypot(dx, dy)
+        distance = np.sqrt(dx * dx + dy * dy)
         ux, uy = dx / distance, dy / distance
         if row.kind == DISTANCE:
             residual = distance - row.constant
@@ -134,7 +134,7 @@ def velocity_product_of_row(system: Any, work: Any, row: OneRecord) -> float:
         cam = work.poses[row.l]
         _, ux, uy, _, _, _, _ = row_terms(system.equations, row, third, dx, dy, first.angle, second.angle, cam.angle)
         return ux * ax + uy * ay + row_velocity_product(system.equations, row, third, dx, dy, vx, vy, wi, wj, cam.w)
-    distance = np.hypot(dx, dy)
+    distance = np.sqrt(dx * dx + dy * dy)
     ux, uy = dx / distance, dy / distance
     along, across = ux * vx + uy * vy, ux * vy - uy * vx
     if row.kind == DISTANCE:

@@ -9,6 +9,7 @@ from drivewright.numerics.ode.method import STEP, TIME
 from drivewright.numerics.ode.system import copy, events_at, switch_at
 
 NOTE, STOP, SWITCH = range(3)
+CONTINUES, SWITCHED, STOPPED = range(3)  # a run after a step
 VERTEX_NEAR = 0.25  # a parabola whose vertex comes so near to 0, against its ends, is examined there
 LOCATED = 2.0**-40  # of a step: how narrow the place of an event is; rounding of the event functions hides more
 STEP_AFTER_EVENT = 0.1  # of the step before: what begins at a switch is often faster than what went before
@@ -43,13 +44,11 @@ def record_events(
 ) -> tuple[int, int]:
     """Record the events within step `row`, up to the first that ends it: (number of hits, which of them ends it or -1).
 
-    before, after (m,): event functions at both ends of the step; y (n,) is scratch.
+    before, after (m,): event functions at both ends of the step, those in its middle being in the batch; y (n,) is scratch.
     """
     if after.size == 0:
         return hits, -1
     total, first = hits, 2.0
-    if rules.search_inside:
-        values_at(event_system, 0.5, batch, row, y, batch.values_middle)
     for index in range(after.size):
         inside = 1.0
         if rules.search_inside:
@@ -85,18 +84,17 @@ def _excursion(event_system, index, before, middle, after, batch, row, y):
         extreme = before - 0.25 * slope * slope / curvature
         if extreme * before < VERTEX_NEAR * before * before or extreme * before < VERTEX_NEAR * after * before:
             vertex = -0.5 * slope / curvature
-            values_at(event_system, vertex, batch, row, y, batch.values_between)
-            if batch.values_between[index] * before < 0.0:
+            if value_at(event_system, index, vertex, batch, row, y) * before < 0.0:
                 return vertex
     return 1.0
 
 
 @inner
-def values_at(event_system: object, theta: float, batch: StepBatch, row: int, y: Floats, values: Floats) -> None:
-    """Event functions (m,) at a fraction of step `row` into `values`; y (n,) is scratch."""
+def values_at(event_system: object, t: float, h: float, dense: Floats, theta: float, y: Floats, values: Floats) -> None:
+    """Event functions (m,) at the fraction theta of the step h from t into `values`; dense (5, n), y (n,) is scratch."""
     for i in range(y.size):
-        y[i] = component(batch.dense[row], i, theta)
-    events_at(event_system, batch.steps[row, 0] + theta * batch.steps[row, 1], y, values)
+        y[i] = component(dense, i, theta)
+    events_at(event_system, t + theta * h, y, values)
 
 
 @inner
@@ -116,6 +114,32 @@ def _keep_until(rules, first, total, y, row, batch, hits):
                 batch.hit_states[hits, i] = component(batch.dense[row], i, batch.hits[hits, 2])
             hits += 1
     return hits, ender
+
+
+@inner
+def end_step(
+    event_system: object,
+    switch_system: object,
+    rules: EventRules,
+    clock: Floats,
+    y: Floats,
+    values: Floats,
+    batch: StepBatch,
+    row: int,
+    hits: int,
+) -> tuple[int, int]:
+    """Events within the step `row` that is done, and what they do: (number of hits, CONTINUES, SWITCHED or STOPPED).
+
+    clock (3,), y (n,) and values (m,) are those at its end, or at the event that ends it.
+    """
+    known = hits
+    hits, ender = record_events(event_system, rules, values, batch.values_after, batch.trial, row, batch, hits)
+    copy(batch.values_after, values)
+    if ender < 0:
+        return hits, CONTINUES
+    return_to_event(clock, y, batch, ender)
+    stops = apply_switches(switch_system, rules, clock[TIME], y, batch, known, hits, ender)
+    return hits, STOPPED if stops else SWITCHED
 
 
 @inner
@@ -183,5 +207,5 @@ def _locate(event_system, index, before, low, high, batch, row, y):
 @inner
 def value_at(event_system: object, index: int, theta: float, batch: StepBatch, row: int, y: Floats) -> float:
     """One event function at a fraction of step `row`; y (n,) is scratch."""
-    values_at(event_system, theta, batch, row, y, batch.values_between)
+    values_at(event_system, batch.steps[row, 0], batch.steps[row, 1], batch.dense[row], theta, y, batch.values_between)
     return batch.values_between[index]

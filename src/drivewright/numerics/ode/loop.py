@@ -16,7 +16,8 @@ It runs compiled; a new system touches nothing here.  `Functions` wraps ordinary
 The kernels run in batches of steps, between which Ctrl-C and other threads get their turn.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from contextvars import ContextVar, Token
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -134,30 +135,95 @@ def integrate(
     show in the step's middle or at the vertex of the parabola through it; else limit max_step.
     Without `first_step` a careful one is chosen.
     """
-    y = np.array(y0, dtype=float)
     times = None if samples is None else np.asarray(samples, dtype=float)
-    chosen = method_by_name(method)
-    _check(system, t0, t1, y, times, watch, rtol, atol, chosen, max_step)
-    start, advance = advancing.start, advancing.advance
-    if isinstance(system, Functions):
-        start, advance = plain(start), plain(advance)
-    control = _control(t0, t1, y, rtol, atol, max_step, min_step)
-    system, event_system, switch_system = _parts(system, watch, chosen, control)
-    work, rules, scratch = chosen.workspace(y.size), _rules(watch), (np.empty(y.size), *np.empty((3, len(watch))))
-    clock, values = np.empty(3), np.empty(len(watch))
-    clock[TIME], clock[STEP], clock[ERROR] = t0, 0.0, 1e-4
-    code = start(work, system, event_system, control, clock, y, values)
-    clock[STEP] = first_step or clock[STEP]
-    parts: list[tuple[Floats, Floats]] = []
-    crossings: list[EventCrossings] = []
-    steps = rejected = 0
-    while code == GOES_ON and steps < max_steps:
-        batch = _batch(min(_BATCH, max_steps - steps), y.size, len(watch), scratch)
-        code, done, refused, hits = advance(work, system, event_system, switch_system, control, rules, clock, y, values, batch)
-        crossings.append(_crossings(batch, hits))
-        parts.append(_points(batch, done, clock[TIME], per_step) if times is None else _sampled(batch, done, times, clock[TIME]))
-        steps, rejected = steps + done, rejected + refused
-    return _trajectory(t0, np.array(y0, dtype=float), parts, times, clock[TIME], y, crossings, code, control, steps, rejected, chosen)
+    chosen, start = method_by_name(method), np.array(y0, dtype=float)
+    _check(system, t0, t1, start, times, watch, rtol, atol, chosen, max_step)
+    control = _control(t0, t1, start, rtol, atol, max_step, min_step)
+    problem = Problem(system, t0, start, control, chosen, times, tuple(watch), per_step, max_steps, first_step)
+    solver = _solver.get()
+    return solver(problem) if solver else solve(problem)
+
+
+class Problem(NamedTuple):
+    """An initial value problem and how it is to be solved, see `integrate`."""
+
+    system: tuple[object, ...]
+    t0: float
+    y0: Floats  # (n,)
+    control: StepControl
+    method: Method
+    samples: Floats | None
+    watch: tuple[Event, ...]
+    per_step: int
+    max_steps: int
+    first_step: float | None
+
+
+_solver: ContextVar[Callable[[Problem], Trajectory] | None] = ContextVar("solver of initial value problems", default=None)
+
+
+def solving_with(solver: Callable[[Problem], Trajectory] | None) -> Token[Any]:
+    """Let `integrate` hand its problems to a solver, in this context, until the token is given back."""
+    return _solver.set(solver)
+
+
+def solve(problem: Problem) -> Trajectory:
+    """The Trajectory of a problem, step by step in this thread."""
+    return finish(RunUnderWay(problem))
+
+
+def finish(run: "RunUnderWay") -> Trajectory:
+    """The Trajectory of a run, whose remaining steps are taken in this thread."""
+    problem = run.problem
+    advance = plain(advancing.advance) if isinstance(problem.system, Functions) else advancing.advance
+    while run.goes_on:
+        batch = run.batch(min(_BATCH, run.steps_left))
+        run.take(batch, *advance(run.work, *run.systems, problem.control, run.rules, run.clock, run.y, run.values, batch))
+    return run.trajectory()
+
+
+class RunUnderWay:
+    """A run between two batches of steps: where it is, and what was kept of its steps."""
+
+    def __init__(self, problem: Problem):
+        self.problem, self.y, self.work = problem, problem.y0.copy(), problem.method.workspace(problem.y0.size)
+        self.systems = _parts(problem.system, problem.watch, problem.method, problem.control)
+        self.rules, watched = _rules(problem.watch), len(problem.watch)
+        self.clock, self.values, self.scratch = np.empty(3), np.empty(watched), (np.empty(self.y.size), *np.empty((3, watched)))
+        self.clock[TIME], self.clock[STEP], self.clock[ERROR] = problem.t0, 0.0, 1e-4
+        start = plain(advancing.start) if isinstance(problem.system, Functions) else advancing.start
+        self.code = start(self.work, *self.systems[:2], problem.control, self.clock, self.y, self.values)
+        self.clock[STEP] = problem.first_step or self.clock[STEP]
+        self.parts: list[tuple[Floats, Floats]] = []
+        self.crossings: list[EventCrossings] = []
+        self.steps = self.rejected = 0
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether there are steps to take."""
+        return self.code == GOES_ON and self.steps_left > 0
+
+    @property
+    def steps_left(self) -> int:
+        """How many steps may still be taken."""
+        return self.problem.max_steps - self.steps
+
+    def batch(self, size: int) -> StepBatch:
+        """Room for so many steps."""
+        return _batch(size, self.y.size, len(self.values), self.scratch)
+
+    def take(self, batch: StepBatch, code: int, done: int, refused: int, hits: int) -> None:
+        """Keep what is wanted of a batch of steps."""
+        times, end = self.problem.samples, self.clock[TIME]
+        self.code, self.steps, self.rejected = code, self.steps + done, self.rejected + refused
+        self.crossings.append(_crossings(batch, hits))
+        self.parts.append(_points(batch, done, end, self.problem.per_step) if times is None else _sampled(batch, done, times, end))
+
+    def trajectory(self) -> Trajectory:
+        """What the run came to."""
+        t0, y0, control, method, times = (getattr(self.problem, name) for name in ("t0", "y0", "control", "method", "samples"))
+        end = self.clock[TIME], self.y
+        return _trajectory(t0, y0, self.parts, times, *end, self.crossings, self.code, control, self.steps, self.rejected, method)
 
 
 def compile_ahead(system: tuple[object, ...], watch: Sequence[Event] = (), method: str | Method = "dopri5") -> None:

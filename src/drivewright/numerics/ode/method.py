@@ -76,8 +76,8 @@ def interpolate(work: object, h: float, y: Floats, trial: Floats, dense: Floats)
 
 
 @generic
-def carry_over(work: object, system: object, t: float, y: Floats) -> None:
-    """Make ready for the next step from (t, y), the end of a good one."""
+def carry_over(work: object, system: object, t: float, y: Floats, is_good: bool) -> None:
+    """Make ready for the next step from (t, y), the end of a good one; where many cases step at once, of those whose step is good."""
 
 
 @generic

@@ -10,6 +10,7 @@ import numpy as np
 
 from drivewright._jit import by_reference, formulas_of, generic, implements, inner
 from drivewright._typing import ArrayLike, Floats
+from drivewright.numerics.lanes import where
 
 
 @generic
@@ -141,3 +142,10 @@ def copy(source: Floats, target: Floats) -> None:
     # Written as the slice it would cost three seconds of compiling, for the message on unequal shapes.
     for i in range(source.size):
         target[i] = source[i]
+
+
+@inner
+def copy_where(condition: bool, source: Floats, target: Floats) -> None:
+    """`copy` where a condition holds."""
+    for i in range(source.size):
+        target[i] = where(condition, source[i], target[i])

@@ -8,10 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import by_reference, implements, inner
+from drivewright._jit import by_reference, implements, inner, per_lane
 from drivewright._typing import Floats
+from drivewright.numerics.lanes import where
 from drivewright.numerics.ode.method import ERROR, STEP, TIME, Method, Tableau, begin, carry_over, first_step, interpolate, restart, step
-from drivewright.numerics.ode.system import copy, rate, rate_at
+from drivewright.numerics.ode.system import copy, copy_where, rate, rate_at
 
 _C = np.array([0, 1 / 5, 3 / 10, 4 / 5, 8 / 9, 1, 1])
 _A = np.array(
@@ -75,7 +76,7 @@ def _(work, system, control, clock, y):
 def _(work, system, control, clock, t, h, again, y, trial):
     _stages(system, t, h, y, work.k, trial)
     error = _error(h, y, trial, work.k, control)
-    clock[STEP] = h * _growth(error, clock, 1.0 if again else 5.0)
+    clock[STEP] = h * _growth(error, clock, where(again, 1.0, 5.0))
     return error <= 1.0  # nan is no success either
 
 
@@ -85,8 +86,8 @@ def _(work, h, y, trial, dense):
 
 
 @implements(carry_over, DormandPrince)
-def _(work, system, t, y):
-    copy(work.k[6], work.k[0])
+def _(work, system, t, y, is_good):
+    copy_where(is_good, work.k[6], work.k[0])
 
 
 @inner
@@ -113,7 +114,7 @@ def _error(h, y, trial, k, control):
     return np.sqrt(total / y.size)
 
 
-@inner
+@per_lane
 def _growth(error, clock, limit):
     """Factor on the step: proportional-integral control, which settles where pure error control would hunt."""
     if not np.isfinite(error):

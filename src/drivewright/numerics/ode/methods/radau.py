@@ -122,7 +122,7 @@ def _(work, h, y, trial, dense):
 
 
 @implements(carry_over, RadauIIA)
-def _(work, system, t, y):
+def _(work, system, t, y, is_good):
     rate_at(system, t, y, work.f)
 
 

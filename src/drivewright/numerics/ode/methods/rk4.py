@@ -16,7 +16,7 @@ from drivewright._jit import by_reference, implements, inner
 from drivewright._typing import Floats
 from drivewright.numerics.ode.dense_output import hermite
 from drivewright.numerics.ode.method import ERROR, STEP, TIME, Method, Tableau, begin, carry_over, interpolate, restart, step
-from drivewright.numerics.ode.system import copy, rate, rate_at
+from drivewright.numerics.ode.system import copy_where, rate, rate_at
 
 _C = np.array([0, 1 / 2, 1 / 2, 1])
 _A = np.array([[0, 0, 0, 0], [1 / 2, 0, 0, 0], [0, 1 / 2, 0, 0], [0, 0, 1, 0]])
@@ -87,5 +87,5 @@ def _(work, h, y, trial, dense):
 
 
 @implements(carry_over, RungeKutta4)
-def _(work, system, t, y):
-    copy(work.k[4], work.k[0])
+def _(work, system, t, y, is_good):
+    copy_where(is_good, work.k[4], work.k[0])
