@@ -21,7 +21,7 @@ PINNED = {
         "cam.max_pressure_angle": 0.5415328447258717,
         "contact.peak_force": 602.777,
     },
-    "four_bar": {"rocker.max_angular_acceleration": 799.6856085336536, "drive.max_torque": 0.6753569458094927},
+    "four_bar": {"rocker.max_angular_acceleration": 799.6856085336536, "drive.max_torque": 0.675338618892054},
     "jansen_leg": {"foot.max_acceleration": 9.374857905206746, "drive.max_torque": 0.03531556050871491},
     "knife_folder": {"knife.impact_load_coefficient": 1.6599560257699812, "knife_tip.peak_acceleration_ratio": 1.508782965780165},
     "pressure_roller_shaft": {"stations.m2.deflection": 0.000357575392, "modes.1.frequency": 63.9497231},

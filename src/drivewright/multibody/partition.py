@@ -15,9 +15,9 @@ from drivewright.numerics.small import lu_factor
 def evaluate_at(system: System, q: Floats, t: float = 0.0, v: Floats | None = None) -> Work:
     """`Work` with driven coordinates set, bodies placed and rows measured at the coordinates q."""
     work = scratch(system)
-    work.coordinates.q = q
+    work.coordinates["q"] = q
     if v is not None:
-        work.coordinates.v = v
+        work.coordinates["v"] = v
     evaluate_at_time(system, work, t)
     return work
 

@@ -30,6 +30,7 @@ STRETCHED = 1e-4  # smallest singular value of loops in which a drive is stuck
 MOST_STATES = 1_500_000  # that are kept of kinematics: about a kilobyte each with all that is observed of them
 MOST_KEPT = 750_000  # that are kept of a run with freedom, whose ensemble is observed side by side: about three kilobytes
 FULL = f"{MOST_KEPT / 1e6:g} million states of it fill the memory that a run may have; ask for fewer turns, or loosen its tolerances"
+ROUNDING = 1e-12  # of the number of turns
 GRID = 720  # samples of a turn where the drives leave no freedom and so no steps to report
 
 
@@ -105,7 +106,7 @@ def simulate(
     """
     if assembly.freedom == 0:
         turns = max(duration * fastest_drive_speed(assembly) / (2 * np.pi), 1.0)
-        count = counted(np.ceil(GRID * turns), MOST_STATES, "states of the run", "ask for fewer turns, or a shorter run")
+        count = counted(np.ceil(GRID * turns * (1 - ROUNDING)), MOST_STATES, "states of the run", "ask for fewer turns, or a shorter run")
         grid = np.linspace(start, start + duration, 1 + count)
         times = grid if samples is None else np.asarray(samples, float)
         return _driven(assembly, times, start + duration, settings, samples is None)

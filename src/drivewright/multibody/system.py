@@ -115,10 +115,12 @@ class Motion(NamedTuple):
 def rotation_velocities(bodies: Records, size: int) -> Floats:
     """(bodies, coordinates): d(angle)/d(coordinate), which never changes."""
     turns = np.zeros((len(bodies), size))
-    for i, body in enumerate(bodies[1:], start=1):
-        turns[i] = body.inherits * turns[body.parent]
-        if body.turn >= 0:
-            turns[i, body.turn] = 1.0
+    parents, inherits, turning = (bodies[name].tolist() for name in ("parent", "inherits", "turn"))
+    for i in range(1, len(bodies)):
+        if inherits[i]:
+            turns[i] = inherits[i] * turns[parents[i]]
+        if turning[i] >= 0:
+            turns[i, turning[i]] = 1.0
     return turns
 
 
@@ -126,13 +128,13 @@ def scratch(system: System) -> Work:
     """Fresh `Work` for a system; every thread needs its own."""
     bodies, given, rows, free = len(system.bodies), len(system.driven), len(system.rows), len(system.independent)
     n = len(system.stored) + given
-    poses, partial_velocities = np.zeros(bodies, POSE).view(np.recarray), np.zeros((bodies, n), PARTIAL_VELOCITY).view(np.recarray)
-    poses.c = 1.0  # of the angle 0
-    partial_velocities.t = rotation_velocities(system.bodies, n)
+    poses, partial_velocities = np.zeros(bodies, POSE), np.zeros((bodies, n), PARTIAL_VELOCITY)
+    poses["c"] = 1.0  # of the angle 0
+    partial_velocities["t"] = rotation_velocities(system.bodies, n)
     return Work(
         np.zeros(n, COORDINATE).view(np.recarray),
-        poses,
-        partial_velocities,
+        poses.view(np.recarray),
+        partial_velocities.view(np.recarray),
         np.zeros((rows, n)),
         np.zeros((rows, rows)),
         np.zeros(rows),

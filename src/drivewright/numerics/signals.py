@@ -28,7 +28,8 @@ def local_maxima(t: ArrayLike, x: ArrayLike) -> tuple[Floats, Floats]:
     level = x[first]
     top = 1 + np.flatnonzero((level[1:-1] > level[:-2]) & (level[1:-1] > level[2:]))
     first, last = first[top], last[top]
-    before, after = (_vertex(t, x, first - 1, first, first + 1), _vertex(t, x, last - 1, last, last + 1))
+    before = _vertex(t, x, first - 1, first, first + 1)
+    after = before if np.array_equal(first, last) else _vertex(t, x, last - 1, last, last + 1)
     flat = last - first > 1
     plateau = 0.5 * (t[first] + t[last]), x[first]
     times, tops = (np.where(flat, level, 0.5 * (a + b)) for a, b, level in zip(before, after, plateau, strict=True))

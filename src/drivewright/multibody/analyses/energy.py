@@ -17,7 +17,14 @@ MEANING = {
 
 def energy(model: SimulationModel) -> Answer:
     """Work of every kind of element against the change of energy; torque of the drive."""
-    audit, numbers = audit_of_run(model, run_of(model)), statistics(model, energy_numbers)
+    works, torque = work_audit(model), drive_torque(model)
+    tables = (audit_table(audit_of_run(model, run_of(model)), MEANING, ROWS), *_torque_tables(model))
+    return Answer({**works.values, **torque.values}, tables, (*works.checks, *torque.checks))
+
+
+def work_audit(model: SimulationModel) -> Answer:
+    """Work of every kind of element over the run, and what the audits leave over."""
+    numbers = statistics(model, energy_numbers)
     values = {f"energy.{name}": Value.of(numbers.of_run(name), "J", f"work of {MEANING[name]} over the run") for name in POWER_FIELDS}
     values["energy.gap"] = Value(numbers.worst("gap"), "J", "largest gap of the energy audit")
     values["energy.error"] = Value(numbers.worst("error"), "-", "largest gap over the energy exchanged")
@@ -26,22 +33,27 @@ def energy(model: SimulationModel) -> Answer:
     if model.assembly.model.drives:
         words = "largest gap between work of the drives and change of energy with losses, over the work of the drives"
         checks.append(Check("power_audit", numbers.worst("power_error"), limit, "<=", "-", words))
-    torque = _torque(model)
-    return Answer({**values, **torque.values}, (audit_table(audit, MEANING, ROWS), *torque.tables), (*checks, *torque.checks))
+    return Answer(values, (), tuple(checks))
 
 
-def _torque(model):
-    """Torque (force) of the drives over the last turn, and the largest in the window."""
+def drive_torque(model: SimulationModel) -> Answer:
+    """Largest torque (force) of the drives in the window; nothing without a drive."""
     if not model.assembly.model.drives:
         return Answer()
-    turn = last_turn(model)
-    names = [drive.joint for drive in model.assembly.model.drives]
     torque = Value.of(statistics(model).of_run("drive.torque"), "N m", "largest torque of the drive, either way")
-    values = {"drive.max_torque": torque}
+    limit = model.limits.drive_torque
+    checks = (Check.of(torque, "drive_torque", limit, "<=", "largest torque of the drive"),) if limit else ()
+    return Answer({"drive.max_torque": torque}, (), checks)
+
+
+def _torque_tables(model):
+    """Torque (force) of the drives over the last turn."""
+    names = [drive.joint for drive in model.assembly.model.drives]
+    if not names:
+        return ()
+    turn = last_turn(model)
     columns = (
         *cycle_columns(model, turn.t),
         *(Column(f"torque_{name}", "N m", f"torque of the drive at joint {name!r}", turn.drives[:, k]) for k, name in enumerate(names)),
     )
-    limit = model.limits.drive_torque
-    checks = (Check.of(torque, "drive_torque", limit, "<=", "largest torque of the drive"),) if limit else ()
-    return Answer(values, (Table("drive", "Torque of the drive over the last turn", columns),), checks)
+    return (Table("drive", "Torque of the drive over the last turn", columns),)

@@ -23,14 +23,11 @@ def joint_forces(model: SimulationModel) -> Answer:
     """Largest force of every joint in the window, the forces over the last turn, and what Newton's and Euler's equations leave over."""
     observed, numbers = observe_last_turn(model), statistics(model, joint_force_numbers)
     t, forces = observed.t, reactions(model.assembly, run_of(model).end[0], observed)
-    unbounded = _unbounded(model, start_of_window(model, run_of(model).end[1]))
-    values, checks, columns = {}, [], list(cycle_columns(model, t))
+    values, checks, columns = largest_joint_forces(model), [], list(cycle_columns(model, t))
     for name, joint in forces.joints.items():
-        size = np.hypot(*joint.force.T)
-        if name.endswith(" (link)"):  # the other end of a link without mass: the same force
+        if name.endswith(" (link)"):
             continue
-        if name not in model.pins and name not in unbounded:  # pins with play have it from `pins`
-            values[f"joints.{name}.max_force"] = Value.of(numbers.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}")
+        size = np.hypot(*joint.force.T)
         columns += [
             Column(f"{name}.force", "N", f"force in joint {name!r}", size),
             Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
@@ -56,13 +53,24 @@ def joint_forces(model: SimulationModel) -> Answer:
         values,
         (Table("forces", "Forces in the joints over the last turn", tuple(columns)),),
         tuple(checks),
-        tuple(_fold_findings(model, unbounded)),
+        tuple(_fold_findings(model, _unbounded(model))),
     )
 
 
-def _unbounded(model, start):
-    """{joint: time of the singular position towards which its force grows without bound}, from a time on."""
-    times = {}
+def largest_joint_forces(model: SimulationModel) -> dict[str, Value]:
+    """Largest force of every joint in the window; pins with play have it from `pins`."""
+    numbers, hidden = statistics(model, joint_force_numbers), {*model.pins, *_unbounded(model)}
+    names = [key.removesuffix(".force") for key in numbers.members[0].whole if key.endswith(".force")]
+    return {
+        f"joints.{name}.max_force": Value.of(numbers.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}")
+        for name in names
+        if name not in hidden and not name.endswith(" (link)")  # the other end of a link without mass: the same force
+    }
+
+
+def _unbounded(model):
+    """{joint: time of the singular position towards which its force grows without bound}, in the window."""
+    times, start = {}, start_of_window(model, run_of(model).end[1])
     for passed in run_of(model).passages:
         if passed.time >= start:
             observed = observe(passed.system, np.array([passed.time]), passed.state[None])

@@ -34,6 +34,12 @@ def window(model: SimulationModel) -> Record:
 
 def motion(model: SimulationModel) -> Answer:
     """Swing and peaks of the outputs, and the last turn as a table."""
+    tables = (_motion_table(model),) if model.outputs else ()
+    return Answer(output_values(model), tables)
+
+
+def output_values(model: SimulationModel) -> dict[str, Value]:
+    """Swing and peaks of the outputs."""
     window(model)  # refuses a run that holds no numbers
     values, run_statistics = {}, statistics(model)
     for output in model.outputs:
@@ -48,8 +54,7 @@ def motion(model: SimulationModel) -> Answer:
             values[f"{name}.max_acceleration"] = Value.of(
                 run_statistics.of_run(f"{name}.acceleration"), "m/s^2", f"largest acceleration of point {output.point!r}, magnitude"
             )
-    tables = (_motion_table(model),) if model.outputs else ()
-    return Answer(values, tables)
+    return values
 
 
 def end(model: SimulationModel) -> Answer:

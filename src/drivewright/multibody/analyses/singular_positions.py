@@ -14,10 +14,14 @@ SHOWN = 6  # bodies whose rates are shown
 def singular_positions(model: SimulationModel) -> Answer:
     """Number of singular positions passed, each in a table, and what is done there."""
     passages = run_of(model).passages
-    values = {"singular.count": Value(float(len(passages)), "-", "singular positions passed in the run")}
     if not passages:
-        return Answer(values)
-    return Answer(values, (_table(model, passages),), (), (_finding(model, passages),))
+        return passage_count(model)
+    return Answer(passage_count(model).values, (_table(model, passages),), (), (_finding(model, passages),))
+
+
+def passage_count(model: SimulationModel) -> Answer:
+    """Number of singular positions passed."""
+    return Answer({"singular.count": Value(float(len(run_of(model).passages)), "-", "singular positions passed in the run")})
 
 
 def _table(model, passages):
