@@ -8,7 +8,8 @@ import numpy as np
 
 from drivewright._typing import Bools, Floats, Ints, Numbers
 from drivewright.errors import DrivewrightError, InputError
-from drivewright.spec.fields import field_at, type_of, value_at
+from drivewright.result import Answer
+from drivewright.spec.fields import Frozen, field_at, type_of, value_at
 from drivewright.spec.mechanism_spec import MechanismSpec
 
 SpecT = TypeVar("SpecT", bound=MechanismSpec)
@@ -71,6 +72,12 @@ def _accepted(rows, evaluate):
                 yield from _accepted(half, evaluate)
 
 
+def numbers_of(answer: Answer) -> Iterator[tuple[str, Any]]:
+    """(name, number) of the values, and `check.NAME` with the margin of the checks, of an answer."""
+    yield from ((name, value.value) for name, value in answer.values.items())
+    yield from ((f"check.{check.name}", check.counted_margin) for check in answer.checks)
+
+
 def sample_of(spec: MechanismSpec, key: str) -> float:
     """A number that the key can have: the spec's own where it has one."""
     own = value_at(spec, key)
@@ -85,12 +92,14 @@ def with_columns(spec: SpecT, columns: Mapping[str, Numbers]) -> SpecT:
 
 
 def _replaced(table: Any, steps: Sequence[str], column: Numbers) -> Any:
-    """A table, or a list, with the column at the end of the steps."""
+    """A table, a list or a table of the user's keys with the column at the end of the steps."""
     first, *rest = steps
     if isinstance(table, tuple):
-        return tuple(
-            (_replaced(entry, rest, column) if rest else column) if number == int(first) else entry for number, entry in enumerate(table)
-        )
+        names = [getattr(entry, "name", None) for entry in table]
+        own = names.index(first) if first in names else int(first)
+        return tuple((_replaced(entry, rest, column) if rest else column) if number == own else entry for number, entry in enumerate(table))
+    if isinstance(table, dict):
+        return Frozen({**table, first: _replaced(table[first], rest, column) if rest else column})
     return table.model_copy(update={first: _replaced(getattr(table, first), rest, column) if rest else column})
 
 

@@ -17,7 +17,7 @@ from drivewright.mechanisms.cam.profiles import finished_profiles, is_untrimmed,
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.result import Answer
 from drivewright.spec import value_at
-from drivewright.spec.designs import accepted_blocks, sample_of, with_columns, within_limits
+from drivewright.spec.designs import accepted_blocks, numbers_of, sample_of, with_columns, within_limits
 
 BLOCK = 32  # designs at a time: their samples over the turn stay in the processor's cache
 TABLES = ("follower", "conjugate", "groove", "drive", "load", "spring", "face", "manufacture", "limits")
@@ -99,9 +99,9 @@ def _of_one_motion(spec, columns, rows, measures):
         near = ~np.broadcast_to(np.all(clear_of_axis(model).reshape(len(model.tracks), -1), axis=0), rows.shape)
         if not all(is_left(row) for row in rows[near].tolist()):
             raise InputError("cam: of some designs nothing is left")
-        found = _columns((number for measure in measures.always for number in _numbers(measure(model))), rows)
+        found = _columns((number for measure in measures.always for number in numbers_of(measure(model))), rows)
         if measures.untrimmed:
-            profiles = _columns((number for measure in measures.untrimmed for number in _numbers(measure(model))), rows)
+            profiles = _columns((number for measure in measures.untrimmed for number in numbers_of(measure(model))), rows)
             for place in np.flatnonzero(~np.broadcast_to(np.ravel(is_untrimmed(model)), rows.shape)):
                 trimmed = _trimmed(alone(rows[place]))
                 for name, column in profiles.items():
@@ -127,7 +127,7 @@ def _columns(numbers, rows):
 def _trimmed(spec):
     """{name: number} of the finished profiles of one design; none where they fail."""
     try:
-        return dict(_numbers(finished_profiles(build(spec), {})))
+        return dict(numbers_of(finished_profiles(build(spec), {})))
     except DrivewrightError:
         return {}
 
@@ -137,7 +137,7 @@ def _measures(spec, names):
     try:
         model = assembled(spec, programme_of(spec))
         kinds = [
-            {measure: {name for name, _ in _numbers(measure(model))} for measure in of_kind}
+            {measure: {name for name, _ in numbers_of(measure(model))} for measure in of_kind}
             for of_kind in (_all_measures(model), untrimmed_measures(model))
         ]
     except DrivewrightError:  # the run of one design says why
@@ -161,9 +161,3 @@ def _where_loaded(measure, model):
     answer, loaded = measure(model), is_loaded(model.spec)
     values = {name: value._replace(value=nan_unless(loaded, value.value)) for name, value in answer.values.items()}
     return replace(answer, values=values, checks=tuple(c._replace(value=nan_unless(loaded, c.value)) for c in answer.checks))
-
-
-def _numbers(answer):
-    """(name, number) of the values and the margins of the checks of an answer."""
-    yield from ((name, value.value) for name, value in answer.values.items())
-    yield from ((f"check.{check.name}", check.counted_margin) for check in answer.checks)

@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from drivewright.mechanisms.linkage.analyses import ANALYSES
+from drivewright.mechanisms.linkage.batch import batch
 from drivewright.mechanisms.linkage.build import build, compile_ahead
 from drivewright.mechanisms.linkage.claims import claims
 from drivewright.mechanisms.linkage.plates import drawings, parts
@@ -60,4 +61,5 @@ mechanism = Mechanism(
     drawings=drawings,
     parts=parts,
     verify=oracle("linkage"),
+    batch=batch,
 )
