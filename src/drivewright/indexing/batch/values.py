@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright._jit import inner, kernel
 from drivewright._typing import Floats
-from drivewright.curves.touching import nearest
+from drivewright.curves.touching import Nodes, nearest
 from drivewright.indexing.batch.envelope import (
     LawTable,
     PinWheelSizes,
@@ -32,6 +32,25 @@ def evaluate_pin_wheel(
     theta (n,) [rad]: samples over one turn; the first `index_count` of every `index_stride`-th are the places of the contacts, every
     `play_stride`-th those of the play.
     """
+    path, exposed, nodes = _sampled_cam(wheel, table, theta)
+    if not len(nodes.a):
+        return
+    foot_points, curvatures = np.empty(CAPACITY, np.complex128), np.empty(CAPACITY)
+    _evaluate_contacts(wheel, path, nodes, exposed, index_stride, index_count, values, foot_points, curvatures)
+    _evaluate_play(wheel, path, nodes, exposed, play_stride, values, foot_points, curvatures, np.empty(wheel.pins, np.complex128))
+    values[7] = _convex_radius(path, exposed)
+
+
+@kernel
+def find_cam_nodes(wheel: PinWheelSizes, table: LawTable, theta: Floats) -> Nodes:
+    """The profile of the cam of one design; no nodes where none is left.  theta (n,) [rad]: samples over one turn."""
+    _, _, nodes = _sampled_cam(wheel, table, theta)
+    return nodes
+
+
+@kernel
+def _sampled_cam(wheel, table, theta):
+    """(path, exposed (2, samples), `Nodes`) of the envelope; no nodes where it leaves no cam."""
     path = sample_pin_path(wheel, table, theta)
     margin = _spacing(path) ** 2 / (2 * wheel.pin_radius)
     cells = sort_into_cells(path, wheel.circle_radius + wheel.eccentricity + margin, _CELL_WIDTH * wheel.pin_radius)
@@ -39,13 +58,10 @@ def evaluate_pin_wheel(
     segments = trace_exposed_segments(wheel, table, path, cells, margin, exposed)
     loop = find_cam_loop(segments, wheel.sense > 0)
     if not len(loop):
-        return
+        none = np.empty(0, np.complex128)
+        return path, exposed, Nodes(none, none, none, none, none, np.empty(0))
     restrict_to_loop(exposed, segments, loop)
-    nodes = loop_nodes(segments, loop)
-    foot_points, curvatures = np.empty(CAPACITY, np.complex128), np.empty(CAPACITY)
-    _evaluate_contacts(wheel, path, nodes, exposed, index_stride, index_count, values, foot_points, curvatures)
-    _evaluate_play(wheel, path, nodes, exposed, play_stride, values, foot_points, curvatures, np.empty(wheel.pins, np.complex128))
-    values[7] = _convex_radius(path, exposed)
+    return path, exposed, loop_nodes(segments, loop)
 
 
 @inner

@@ -6,6 +6,7 @@ their seats.  Rotations are multiplied by half the spacing, so that all are leng
 """
 
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -143,12 +144,18 @@ def bending_flexibility(shaft: SplitShaft) -> Floats:
     return flexibility(solve(model, np.zeros(model.size)), station_positions(shaft), (1.0, 0.0)).delta
 
 
+@lru_cache(maxsize=16)
 def bending_stiffness(shaft: SplitShaft) -> Floats:
-    """Inverse of Phi; InputError where a station stands on a support, or two at one place."""
+    """Inverse of Phi, kept, as both shafts have it under every load.
+
+    InputError where a station stands on a support, or two at one place.
+    """
     from drivewright.shafts import stiffness
 
     names = ["gear", *(f"cam {j + 1}" for j in range(len(shaft.cams)))]
-    return stiffness(bending_flexibility(shaft), names)
+    found = stiffness(bending_flexibility(shaft), names)
+    found.setflags(write=False)
+    return found
 
 
 def torsion_flexibility(shaft: SplitShaft) -> Floats:

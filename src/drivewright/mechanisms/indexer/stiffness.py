@@ -1,6 +1,7 @@
 """Torsional stiffness over the index period: who carries, how far the wheel yields, and where nothing holds it."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
+from functools import lru_cache
 
 from drivewright.indexing.pin_pressure import largest_pin_values
 from drivewright.indexing.stiffness.loading import dwell_angles, solve_after_play, solve_at_contacts, solve_loaded
@@ -22,33 +23,63 @@ def no_stiffness(spec: IndexerSpec) -> str | None:
 
 def torsional(model: IndexerModel, done: Answers) -> Answer:
     """Secant and tangent stiffness, compliance budget, forces of pins and bearings at every position."""
-    wheel, torque, angles = model.loaded_wheel, model.torque, model.angles
-    result, contacts = solve_loaded(wheel, angles, torque)
-    loaded, touching, free = solve_after_play(wheel, angles, torque, result, contacts)
-    reverse = solve_at_contacts(wheel, angles, contacts, -torque)
-    forces = pin_force_table(angles, touching, loaded, *model.pin_measures)
-    values = stiffness_values(angles, result) | _dwell(model) | largest_pin_values(forces)
-    tables = (stiffness_table(angles, result, loaded, free, reverse), forces)
-    return Answer(values, tables, tuple(_checks(model, values)), tuple(stiffness_findings(angles, result, loaded)), data=(result, contacts))
+    angles, (result, contacts) = model.angles, _at_contacts(model)
+    loaded, _, free = _after_play(model)
+    reverse = solve_at_contacts(model.loaded_wheel, angles, contacts, -model.torque)
+    tables = (stiffness_table(angles, result, loaded, free, reverse), _pin_forces(model))
+    answers = (secant_stiffness(model), dwell_stiffness(model), pin_loads(model))
+    values = {name: value for answer in answers for name, value in answer.values.items()}
+    checks = tuple(check for answer in answers for check in answer.checks)
+    return Answer(values, tables, checks, tuple(stiffness_findings(angles, result, loaded)), data=(result, contacts))
 
 
-def _dwell(model: IndexerModel) -> dict[str, Value]:
+def secant_stiffness(model: IndexerModel) -> Answer:
+    """Mean, extremes and range of the secant stiffness over the index period, and where nothing holds the torque."""
+    values, limit = stiffness_values(model.angles, _at_contacts(model)[0]), model.spec.limits.stiffness
+    checks = []
+    if limit and "stiffness.minimum" in values:
+        least = values["stiffness.minimum"].value
+        checks.append(Check("stiffness", least, limit, ">=", "N m/rad", "least torsional stiffness", ("wheel",)))
+    return Answer(values, checks=(*checks, *_held(model, "held", values.get("stiffness.undefined_fraction"), "index period")))
+
+
+def dwell_stiffness(model: IndexerModel) -> Answer:
     """Holding, least stiffness and largest pin force in the dwell; nothing where one input angle is asked for."""
     angles = dwell_angles(model.wheel.motion, STEP)
     if model.spec.load.angle is not None or not len(angles):
-        return {}
+        return Answer()
     result, contacts = solve_loaded(model.loaded_wheel, angles, model.torque)
-    return dwell_values(angles, result, pin_force_table(angles, contacts, result, *model.pin_measures))
+    values = dwell_values(angles, result, pin_force_table(angles, contacts, result, *model.pin_measures))
+    return Answer(values, checks=tuple(_held(model, "held.dwell", values.get("dwell.undefined_fraction"), "dwell")))
 
 
-def _checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
-    limits = model.spec.limits
-    if limits.stiffness and "stiffness.minimum" in values:
-        least = values["stiffness.minimum"].value
-        yield Check("stiffness", least, limits.stiffness, ">=", "N m/rad", "least torsional stiffness", ("wheel",))
-    for name, of, words in (("held", "stiffness", "index period"), ("held.dwell", "dwell", "dwell")):
-        lost = values.get(f"{of}.undefined_fraction")
-        if lost is not None and model.spec.load.angle is None:
-            message = f"part of the {words} in which the torque is not held at once: the wheel turns freely first, or has next to no lever"
-            yield Check(name, lost.value, 0.0, "<=", "-", message, ("cam1", "wheel"))
-    yield from pressure_check(model, values)
+def pin_loads(model: IndexerModel) -> Answer:
+    """Largest force and Hertz pressure of a pin over the index period, after the play where nothing holds the torque at first."""
+    values = largest_pin_values(_pin_forces(model))
+    return Answer(values, checks=tuple(pressure_check(model, values)))
+
+
+@lru_cache(maxsize=2)
+def _at_contacts(model):
+    """(result, contacts) over the index period, the wheel in its ideal place."""
+    return solve_loaded(model.loaded_wheel, model.angles, model.torque)
+
+
+@lru_cache(maxsize=2)
+def _after_play(model):
+    """(result, contacts, play) once the wheel has turned freely."""
+    return solve_after_play(model.loaded_wheel, model.angles, model.torque, *_at_contacts(model))
+
+
+@lru_cache(maxsize=2)
+def _pin_forces(model):
+    """Table of the forces on the pins after the play."""
+    loaded, touching, _ = _after_play(model)
+    return pin_force_table(model.angles, touching, loaded, *model.pin_measures)
+
+
+def _held(model: IndexerModel, name: str, lost: Value | None, words: str) -> Iterator[Check]:
+    """Part of the input angles at which the torque is not held at once."""
+    if lost is not None and model.spec.load.angle is None:
+        message = f"part of the {words} in which the torque is not held at once: the wheel turns freely first, or has next to no lever"
+        yield Check(name, lost.value, 0.0, "<=", "-", message, ("cam1", "wheel"))
