@@ -118,6 +118,7 @@ LATE = [(0.0, 0.0), (0.25, 0.0), (0.3, 0.8), (0.4, 0.0), (1.0, 0.0)]
 IN_TURNS = [(0.0, 0.0), (0.02, 0.4), (0.1, -0.4), (0.2, 0.0)]  # of 0.2 s
 OUT_OF_STEP = [(0.0, 0.0), (0.02, 0.4), (0.15, 0.0)]
 FAR_ROUND = [(0.0, 0.0), (400.0, 0.0), (500.0, 0.8), (640.0, 0.0), (1440.0, 0.0)]  # in the second turn only
+TWICE_ROUND = [(0.0, 0.0), (400.0, 0.0), (500.0, 0.8), (600.0, 0.0), (720.0, 0.0)]
 ROUND = [(0.0, 0.0), (90.0, 0.4), (200.0, -0.4), (360.0, 0.0)]
 
 
@@ -136,6 +137,7 @@ ROUND = [(0.0, 0.0), (90.0, 0.4), (200.0, -0.4), (360.0, 0.0)]
         ({"load": (IN_TURNS, "time [s]", True)}, EVERY_TURN),
         ({"load": (OUT_OF_STEP, "time [s]", True)}, NOT_ALIKE),
         ({"load": (FAR_ROUND, "angle [deg]")}, NOT_ALIKE),
+        ({"load": (TWICE_ROUND, "angle [deg]", True)}, NOT_ALIKE),
         ({"load": (ROUND, "angle [deg]")}, EVERY_TURN),
     ],
 )

@@ -1,7 +1,7 @@
 """A pin wheel whose profile is the sampled envelope of the batch: what asks for contacts, play and stiffness goes on as with the exact one.
 
-Measured on the example: 2 ms where the exact profile takes 75 ms; the stiffness differs by less than 1e-6, forces and pressures of the pins
-by 1e-5 of their value.
+Measured on sizes around the example: a tenth of the time of the trimmed profile; the stiffness differs by up to 4e-6 of its value, forces
+of pins and bearings by 3e-5, the pressure by 2e-4.
 """
 
 from dataclasses import dataclass
