@@ -5,6 +5,8 @@ import pytest
 from scipy.optimize import brentq
 
 from drivewright import fatigue
+from drivewright._jit import kernel
+from drivewright.fatigue import curves
 from drivewright.units import SI
 
 pytestmark = pytest.mark.analytical
@@ -38,6 +40,23 @@ def test_life_against_bracketing():
     for strain in (3.1e-2, 4.2e-3, 1.1e-3):
         miss = lambda y, strain=strain: 1470e6 / 206e9 * np.exp(-0.087 * y) + 0.46 * np.exp(-0.58 * y) - strain  # noqa: E731
         assert fatigue.life_at_strain(strain, CARD) == pytest.approx(np.exp(brentq(miss, -5, 60, xtol=1e-13)) / 2, rel=1e-11)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_sum_of_two_powers_is_inverted_for_all_exponents(sense):
+    rng = np.random.default_rng(4)
+    p, q = sense * 10 ** rng.uniform(-2.5, 0.5, (2, 3000))
+    log_a, log_b, total = rng.uniform(-20, 20, (3, 3000))
+    root = roots(log_a, p, log_b, q, total)
+    assert np.logaddexp(log_a + p * root, log_b + q * root) == pytest.approx(total, abs=1e-12, rel=1e-13)
+
+
+@kernel
+def roots(log_a, p, log_b, q, total):
+    root = np.empty_like(p)
+    for k in range(len(p)):
+        root[k] = curves.log_root(log_a[k], p[k], log_b[k], q[k], total[k])
+    return root
 
 
 def test_ends_of_life():

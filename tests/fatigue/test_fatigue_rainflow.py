@@ -5,7 +5,7 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from drivewright._jit import plain
+from drivewright._jit import kernel, plain
 from drivewright.fatigue import cycles, rainflow
 
 pytestmark = pytest.mark.analytical
@@ -75,6 +75,23 @@ def test_against_the_second_route(repeating):
             found = cycles(x, repeating)
             ours, other = sorted(zip(found.range, found.mean, found.count, strict=True)), smallest_first(x, repeating)
             assert len(ours) == len(other) and np.ravel(ours) == pytest.approx(np.ravel(other), abs=1e-12)
+
+
+@pytest.mark.parametrize("sense", [1.0, -1.0])
+def test_of_equal_samples_the_first_turns(sense):
+    found = cycles(sense * np.array([0.0, 3.0, 3.0, -1.0, -1.0, 2.0, 2.0, -4.0, -4.0]), repeating=True)
+    assert sorted(zip(found.range, found.start, found.end, strict=True)) == [(3.0, 3, 5), (7.0, 7, 1)]
+
+
+@pytest.mark.parametrize(("gate", "turns"), [(0.0, [0, 1, 2, 3, 4, 6]), (0.3, [0, 1, 4, 6])])
+def test_reversals_below_the_gate_are_none(gate, turns):
+    x, turning = np.array([0.0, 4.0, 3.9, 4.1, 1.0, 1.5, 5.0]), np.empty(9, np.int64)
+    assert turning[: turns_of(x, gate, turning)].tolist() == turns
+
+
+@kernel
+def turns_of(x, gate, turning):
+    return rainflow.turning_points(x, 0, len(x) - 1, gate, turning)
 
 
 def test_kernels_run_uncompiled():

@@ -14,7 +14,7 @@ pytestmark = pytest.mark.analytical
 
 CARD = fatigue.uniform_material_law("980 MPa", "206 GPa")
 CURVE = critical.brown_miller_curve(CARD)
-GRID = bounds.search_grid()
+GRID, MIRRORED = bounds.search_grid(), bounds.mirrored_grid()
 
 
 def block(seed, harmonics, samples=30, size=150e6, mean=1.0):
@@ -47,6 +47,11 @@ def frames(seed: int, count: int) -> Iterator[tuple[planes.Vector, planes.Vector
 @kernel
 def damage_on(block, curve, normal, direction, work):
     return planes.plane_damage(block, curve, normal, direction, work)
+
+
+@kernel
+def measured(block, grid, work, search):
+    return bounds.measure_shears(block, grid, work, search)
 
 
 @kernel
@@ -102,11 +107,29 @@ def full(t):
 # ------------------------------------------------------------------------------------------------------------- bounds
 
 
-def test_no_direction_is_farther_from_the_normals_than_the_reach():
+@pytest.mark.parametrize("grid", [GRID, MIRRORED], ids=["all", "mirrored"])
+def test_no_direction_is_farther_from_the_normals_than_the_reach(grid):
     points = np.random.default_rng(1).normal(size=(40_000, 3))
     points /= np.linalg.norm(points, axis=1)[:, None]
-    farthest = np.arccos(np.max(np.abs(points @ GRID.normals.T), axis=1)).max()
-    assert 0.95 * GRID.reach < farthest <= GRID.reach
+    cosines = np.abs(points @ grid.normals.T)
+    if grid.mirrored:
+        cosines = np.maximum(cosines, np.abs(points * (1, 1, -1) @ grid.normals.T))
+    farthest = np.arccos(np.max(cosines, axis=1)).max()
+    assert 0.95 * grid.reach < farthest <= grid.reach < 0.25
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_greatest_shear_and_variation_of_a_normal_stay_below_their_bound(seed):
+    history = block(seed, 3, samples=27)
+    search, work = bounds.search_workspace(GRID), planes.plane_workspace(27)
+    best = measured(history, GRID, work, search)
+    shear = 2 * np.einsum("mi,tij,mdj->mdt", GRID.normals, full(history.strain), GRID.directions)
+    ranges, travels = np.ptp(shear, axis=2), np.abs(np.diff(shear, axis=2, append=shear[..., :1])).sum(axis=2)
+    between = 1 / np.cos(np.pi / 16)
+    assert search.shear == pytest.approx(between * ranges.max(axis=1), rel=1e-12)
+    assert search.variation == pytest.approx(between * travels.max(axis=1), rel=1e-12)
+    opening = np.ptp(np.einsum("mi,tij,mj->mt", GRID.normals, full(history.strain), GRID.normals), axis=1)
+    assert best == np.argmax(ranges + opening[:, None])
 
 
 def test_a_single_tensor_goes_to_its_bound():
@@ -207,6 +230,51 @@ def test_nothing_is_ruled_out_where_the_mean_stress_can_reach_the_strength():
     for each, some in ((history, True), (pulled, False)):
         ruled_out(each, CURVE, GRID, 1e3, work, search)
         assert np.any(np.isnan(search.shear)) == some
+
+
+# --------------------------------------------------------------------------------------------------------------- images
+
+
+def plane_stress(seed, harmonics, samples=30):
+    """Stresses (samples, 3, 3) in the plane z = 0."""
+    stress = full(block(seed, harmonics, samples, 200e6).stress).copy()
+    stress[:, 2], stress[:, :, 2] = 0.0, 0.0
+    return stress
+
+
+def worst(stress):
+    return fatigue.brown_miller(fatigue.elastic_strain(stress, CARD), stress, CARD, "max-damage")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_plane_stress_out_of_its_axes_does_the_same_damage(seed):
+    # Turned out of the plane z = 0 it has no images that the search knows of.
+    stress, turn = plane_stress(seed, 1 + seed % 2), np.linalg.qr(np.random.default_rng(seed).normal(size=(3, 3)))[0]
+    turned = turn @ stress @ turn.T
+    assert worst(stress).damage == pytest.approx(worst((turned + turned.transpose(0, 2, 1)) / 2).damage, rel=1e-8)
+
+
+def test_which_blocks_are_searched_by_images(monkeypatch):
+    stress = np.array([plane_stress(3, 2)] * 4)
+    strain, searched = fatigue.elastic_strain(stress, CARD), []
+    stress[1, 7, 0, 2] = stress[1, 7, 2, 0] = strain[2, 9, 1, 2] = strain[2, 9, 2, 1] = 1e-9
+
+    def search(strain, stress, curve, grid, *more):
+        searched.append((grid.mirrored, len(strain)))
+        return np.zeros(len(strain)), np.zeros((len(strain), 2, 3))
+
+    monkeypatch.setattr(critical, "_max_damage_planes", search)
+    critical._critical(strain, stress, CURVE, "max-damage")
+    assert sorted(searched) == [(False, 2), (True, 2)]
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_no_frame_in_the_plane_of_stress_does_more(seed):
+    stress = plane_stress(20 + seed, 2)
+    history = planes.pack_block(fatigue.elastic_strain(stress, CARD), stress)
+    angles = np.pi * np.arange(400) / 400
+    around = [damage(history, ((np.cos(a), np.sin(a), 0.0), (-np.sin(a), np.cos(a), 0.0))) for a in angles]
+    assert max(around) <= worst(stress).damage
 
 
 # ------------------------------------------------------------------------------------------------------------ tangents

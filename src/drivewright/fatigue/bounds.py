@@ -19,13 +19,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._jit import by_reference, inner
+from drivewright._jit import by_reference, elementwise, inner
 from drivewright._typing import Floats
 from drivewright.fatigue.curves import Curve, cycle_damage
 from drivewright.fatigue.planes import Block, PlaneWorkspace, Vector, contract, cross, dot, extremes, shear_weights, tensor_weights
 
-_NORMALS, _DIRECTIONS = 96, 8  # of the grid
-_MAX_STARTS = 40  # hills at most
+_NORMALS, _MIRRORED, _DIRECTIONS = 96, 56, 8  # of the grids
+_EQUATOR = 64  # frames in the plane z = 0: they are their own images, and most tops of plane stress lie among them
+_MAX_STARTS = 40  # hills at most, of which mirrored ones are two
 _ROUNDING = 1e-9  # of a bound
 
 
@@ -34,46 +35,62 @@ class SearchGrid(NamedTuple):
     """Frames evenly over the half sphere and the half turn.
 
     normals (m, 3) [-]: no other is farther than `reach` [rad]; directions (m, d, 3) [-] in their planes, at equal angles over a half turn.
+    mirrored: for blocks that are their own image in the plane z = 0, as those of plane stress are.  A frame and its image do the same
+    damage there, so that the normals stand for their images as well.
     """
 
     normals: Floats
     directions: Floats
     reach: float
+    mirrored: bool
 
 
 @by_reference
 class SearchWorkspace(NamedTuple):
     """Working arrays for a grid of m normals with d directions.
 
-    shear, variation, rest, opposite (m,) [-]: greatest range of the shear, V, B and B of the negative on each normal; directions (6, d):
-    of those on one normal two components, least, greatest and last shear, its variation; score (m d,) [-]: log damages;
-    simplex (5, 4): a corner a row, three angles [rad] and log damage [-]; tangent (2, 2, 6) [-]: those of two frames;
-    height (h,) [-] and hills (h, 6) [-]: log damage, normal and direction on each of at most h hills.
+    shear, variation, rest, opposite (m,) [-]: greatest range of the shear, V, B and B of the negative on each normal; score (m d,)
+    [-]: log damages; simplex (5, 4): a corner a row, three angles [rad] and log damage [-]; tangent (2, 2, 6) [-]: those of two frames;
+    height (h,) [-] and hills (h, 6) [-]: log damage, normal and direction on each of at most h hills; equator (e,) [-]: log damages of
+    frames in the plane z = 0, none where the grid is not mirrored.
     """
 
     shear: Floats
     variation: Floats
     rest: Floats
     opposite: Floats
-    directions: Floats
     score: Floats
     simplex: Floats
     tangent: Floats
     height: Floats
     hills: Floats
+    equator: Floats
 
 
 @cache
 def search_grid(normals: int = _NORMALS, directions: int = _DIRECTIONS) -> SearchGrid:
     """The `SearchGrid` of so many normals, along a spiral in steps of the golden angle, and directions on each."""
     k = np.arange(normals) + 0.5
-    height, around = k / normals, np.pi * (1 + 5**0.5) * k
+    normal, direction = _spiral(k / normals, np.pi * (1 + 5**0.5) * k, directions)
+    return SearchGrid(normal, direction, _reach(normal), False)
+
+
+@cache
+def mirrored_grid(normals: int = _MIRRORED, directions: int = _DIRECTIONS) -> SearchGrid:
+    """The mirrored `SearchGrid`: normals over a quarter of the sphere, in steps of sqrt(2) pi around, which leave the smallest `reach` of
+    the irrational steps that were tried."""
+    k = np.arange(normals) + 0.5
+    normal, direction = _spiral(k / normals, np.pi * (2**0.5 * k % 1), directions)
+    return SearchGrid(normal, direction, _reach(np.concatenate([normal, normal * (1, 1, -1)])), True)
+
+
+def _spiral(height, around, directions):
+    """normals (m, 3) [-] at heights (m,) [-] and angles around (m,) [rad], and directions (m, d, 3) [-] in their planes."""
     flat = np.sqrt(1 - height**2)
     normal = np.stack([flat * np.cos(around), flat * np.sin(around), height], axis=1)
-    first = np.stack([-np.sin(around), np.cos(around), 0 * k], axis=1)
+    first = np.stack([-np.sin(around), np.cos(around), 0 * height], axis=1)
     turn = np.pi * np.arange(directions) / directions
-    direction = np.cos(turn)[:, None] * first[:, None] + np.sin(turn)[:, None] * np.cross(normal, first)[:, None]
-    return SearchGrid(normal, direction, _reach(normal))
+    return normal, np.cos(turn)[:, None] * first[:, None] + np.sin(turn)[:, None] * np.cross(normal, first)[:, None]
 
 
 def _reach(normal):
@@ -89,8 +106,9 @@ def search_workspace(grid: SearchGrid) -> SearchWorkspace:
     normals, directions = grid.directions.shape[:2]
     shear, variation, rest, opposite = np.empty((4, normals))
     score, simplex, tangent = np.empty(normals * directions), np.empty((5, 4)), np.empty((2, 2, 6))
-    by_direction, height, hills = np.empty((6, directions)), np.empty(_MAX_STARTS), np.empty((_MAX_STARTS, 6))
-    return SearchWorkspace(shear, variation, rest, opposite, by_direction, score, simplex, tangent, height, hills)
+    starts = _MAX_STARTS // (1 + grid.mirrored)
+    height, hills, equator = np.empty(starts), np.empty((starts, 6)), np.empty(_EQUATOR * grid.mirrored)
+    return SearchWorkspace(shear, variation, rest, opposite, score, simplex, tangent, height, hills, equator)
 
 
 @inner
@@ -107,27 +125,24 @@ def frame_of(grid: SearchGrid, g: int) -> tuple[Vector, Vector]:
 
 
 @inner
-def _measure_directions(block, grid, i, work, search):
-    """Fills `directions` (6, d) [-] for the directions on normal i, whose shears are sums of those along two axes."""
-    normal, size = row_of(grid.normals, i), block.strain.shape[1]
-    first = row_of(grid.directions[i], 0)
-    second = cross(normal, first)
-    contract(shear_weights(normal, first), block.strain, work.shear)
-    contract(shear_weights(normal, second), block.strain, work.normal)
-    along, across, low = search.directions[0], search.directions[1], search.directions[2]
-    high, last, travel = search.directions[3], search.directions[4], search.directions[5]
-    for j in range(len(along)):
-        d = row_of(grid.directions[i], j)
-        along[j], across[j] = dot(d, first), dot(d, second)
-        low[j] = high[j] = last[j] = along[j] * work.shear[size - 1] + across[j] * work.normal[size - 1]
-        travel[j] = 0.0
+def _variation(x, size):
+    """Sum of the changes of x[:size] [-] from sample to sample, in four strands as in `extremes`; the first follows on the last."""
+    a, b, c, d = abs(x[0] - x[size - 1]), 0.0, 0.0, 0.0
+    k = 1
+    while k + 4 <= size:
+        a, b = a + abs(x[k] - x[k - 1]), b + abs(x[k + 1] - x[k])
+        c, d = c + abs(x[k + 2] - x[k + 1]), d + abs(x[k + 3] - x[k + 2])
+        k += 4
+    while k < size:
+        a, k = a + abs(x[k] - x[k - 1]), k + 1
+    return (a + b) + (c + d)
+
+
+@elementwise
+def _combine(a, x, b, y, size, total):
+    """Writes a x + b y [-] of two shears (>= size,) into total (>= size,)."""
     for k in range(size):
-        x, y = work.shear[k], work.normal[k]
-        for j in range(len(along)):
-            shear = along[j] * x + across[j] * y
-            low[j], high[j] = min(low[j], shear), max(high[j], shear)
-            travel[j] += abs(shear - last[j])
-            last[j] = shear
+        total[k] = a * x[k] + b * y[k]
 
 
 @inner
@@ -140,16 +155,21 @@ def measure_shears(block: Block, grid: SearchGrid, work: PlaneWorkspace, search:
     between = 1.0 / np.cos(0.5 * np.pi / directions)
     best, frame = -1.0, 0
     for i in range(len(grid.normals)):
-        _measure_directions(block, grid, i, work, search)
-        normal = row_of(grid.normals, i)
+        normal, first = row_of(grid.normals, i), row_of(grid.directions[i], 0)
+        second = cross(normal, first)
         contract(tensor_weights(normal, normal), block.strain, work.normal)
         low, high = extremes(work.normal, 0, size)
+        contract(shear_weights(normal, first), block.strain, work.normal)
+        contract(shear_weights(normal, second), block.strain, work.stress)
         search.shear[i] = search.variation[i] = 0.0
         for j in range(directions):
-            shear, travel = search.directions[3, j] - search.directions[2, j], search.directions[5, j]
-            search.shear[i], search.variation[i] = max(search.shear[i], between * shear), max(search.variation[i], between * travel)
-            if shear + high - low > best:
-                best, frame = shear + high - low, i * directions + j
+            d = row_of(grid.directions[i], j)
+            _combine(dot(d, first), work.normal, dot(d, second), work.stress, size, work.shear)
+            least, most = extremes(work.shear, 0, size)
+            search.shear[i] = max(search.shear[i], between * (most - least))
+            search.variation[i] = max(search.variation[i], between * _variation(work.shear, size))
+            if most - least + high - low > best:
+                best, frame = most - least + high - low, i * directions + j
     return frame
 
 

@@ -36,7 +36,7 @@ def log_root(log_a: float, p: float, log_b: float, q: float, log_total: float) -
     """ln x where a x^p + b x^q = total, with a, b, total > 0 and p, q of one sign.
 
     In y = ln x the logarithm of the left side is convex.  Either term alone would give a root on one side of the true one, by ln 2
-    of the value at most: from the nearer of the two Newton's method descends without overshoot.
+    of the value at most: from the nearer of the two Halley's method, of third order, is never more than twice Newton's step.
     """
     first, second = (log_total - log_a) / p, (log_total - log_b) / q
     y = max(first, second) if p < 0 else min(first, second)
@@ -44,9 +44,10 @@ def log_root(log_a: float, p: float, log_b: float, q: float, log_total: float) -
         u, v = log_a + p * y, log_b + q * y
         share = np.exp(-abs(u - v))  # the smaller term over the larger one
         slope = (p + q * share if u > v else q + p * share) / (1.0 + share)
-        step = (max(u, v) + np.log1p(share) - log_total) / slope
+        newton = (max(u, v) + np.log(1.0 + share) - log_total) / slope
+        step = newton / (1.0 - 0.5 * newton * share * ((p - q) / (1.0 + share)) ** 2 / slope)
         y -= step
-        if abs(step) <= 1e-9:  # what is left is about its square
+        if abs(step) <= 1e-5:  # what is left is about its cube
             break
     return y
 

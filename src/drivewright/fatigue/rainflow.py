@@ -25,27 +25,59 @@ class Cycles(NamedTuple):
 
 
 @inner
+def _bends(x: Floats, first: int, last: int, bends: Ints) -> int:
+    """Writes `first` and the samples between it and `last` where x (n,) begins or ends to rise into bends (>= n,); returns their number."""
+    bends[0] = first
+    count, rising = 1, x[first + 1] > x[first]
+    for k in range(first + 1, last):
+        ahead = x[k + 1] > x[k]
+        bends[count] = k  # always written, and kept by counting on: a branch here would be guessed wrong
+        count, rising = count + (ahead != rising), ahead
+    return count
+
+
+@inner
+def _first_equal(x, after, k, gate):
+    """The first of the samples before k, later than `after`, from which on x (n,) stays within the gate of x[k]."""
+    first = k
+    while first - 1 > after and abs(x[first - 1] - x[k]) <= gate:
+        first -= 1
+    return first
+
+
+@inner
+def _keep_reversals(x, gate, turning, points):
+    """Number of the points of turning (>= points,), samples of x (n,), that are left when none turns x by less than the gate."""
+    count, heading, extreme = 1, 0.0, turning[0]
+    level = x[extreme]
+    for p in range(1, points):
+        k = turning[p]
+        rise = heading * (x[k] - level)
+        if rise > gate:
+            extreme, level = k, x[k]
+        elif rise < -gate:
+            turning[count] = _first_equal(x, turning[count - 1], extreme, gate)
+            count, heading, extreme, level = count + 1, -heading, k, x[k]
+        elif heading == 0.0 and abs(x[k] - level) > gate:
+            heading, extreme, level = np.copysign(1.0, x[k] - level), k, x[k]
+    if heading != 0.0:
+        turning[count] = _first_equal(x, turning[count - 1], extreme, gate)
+        count += 1
+    return count
+
+
+@inner
 def turning_points(x: Floats, first: int, last: int, gate: float, turning: Ints) -> int:
     """Writes the indices of the reversals of x[first..last] larger than `gate`, both ends included; returns their number.
 
     x (n,) and gate: the signal, both in its unit; turning (>= n,): sample numbers.  Of samples equal within the gate the first is taken.
     """
-    turning[0] = first
-    count, heading, extreme = 1, 0.0, first
-    level = x[first]
-    for k in range(first + 1, last + 1):
-        rise = heading * (x[k] - level)
-        if rise > gate:
-            extreme, level = k, x[k]
-        elif rise < -gate:
-            turning[count] = extreme
-            count, heading, extreme, level = count + 1, -heading, k, x[k]
-        elif heading == 0.0 and abs(x[k] - level) > gate:
-            heading, extreme, level = np.copysign(1.0, x[k] - level), k, x[k]
-    if heading != 0.0:
-        turning[count] = extreme
-        count += 1
-    return count
+    if last == first:
+        turning[0] = first
+        return 1
+    points = _bends(x, first, last, turning)
+    turning[points] = last
+    return _keep_reversals(x, gate, turning, points + 1)
 
 
 @inner
@@ -84,11 +116,16 @@ def pair_cycles(
 @inner
 def block_cycles(x: Floats, size: int, gate: float, turning: Ints, count: Floats, start: Ints, end: Ints, stack: Ints) -> int:
     """Number of the closed cycles of a block that is repeated, x (2 size,) holding it twice; start < end < 2 size."""
-    first, bar = 0, abs(x[0]) + gate
-    for k in range(1, size):
-        if abs(x[k]) > bar:
-            first, bar = k, abs(x[k]) + gate
-    points = turning_points(x, first, first + size, gate, turning)
+    bends = _bends(x, 0, size, stack)
+    top, bar = 0, abs(x[0]) + gate
+    for b in range(1, bends):
+        if abs(x[stack[b]]) > bar:
+            top, bar = b, abs(x[stack[b]]) + gate
+    turning[0] = _first_equal(x, -1, stack[top], gate)
+    for b in range(1, bends):
+        turning[b] = stack[top + b] if top + b < bends else stack[top + b - bends] + size
+    turning[bends] = turning[0] + size
+    points = _keep_reversals(x, gate, turning, bends + 1)
     return pair_cycles(x, turning, points, gate, True, count, start, end, stack)
 
 
