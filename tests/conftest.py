@@ -4,10 +4,13 @@
 its preparation does), and skips a test at the first kernel that would have to be compiled.  `make durations` writes that file anew.
 """
 
+import contextlib
+import gc
 import importlib
 import json
 import os
 import shutil
+import sys
 from functools import cache
 from pathlib import Path
 
@@ -50,6 +53,38 @@ def pytest_collection_modifyitems(config, items):
     is_long = [item.nodeid in long or item.nodeid.partition("::")[0] in long for item in items]
     config.hook.pytest_deselected(items=[item for item, each in zip(items, is_long, strict=True) if each])
     items[:] = [item for item, each in zip(items, is_long, strict=True) if not each]
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection(session):
+    """Without the garbage collector, for all that is made here stays: looking through it again and again took half of the time."""
+    if session.config.getoption("dist", "no") == "no":  # else it is the workers that collect
+        gc.disable()
+        import_share(session.config)
+
+
+def pytest_collection_finish():
+    gc.freeze()
+    gc.enable()
+
+
+def import_share(config):
+    """In one of several workers: import every n-th test file ahead.
+
+    pytest writes the asserts of a file anew and keeps the result as bytecode.  In a fresh clone that takes some twenty seconds, and all
+    workers would do all files at the same time; so each does its share, and finds the others done when it collects.
+    """
+    worker = getattr(config, "workerinput", {"workerid": "gw0", "workercount": 1})
+    first, step = int(worker["workerid"].removeprefix("gw")), worker["workercount"]
+    for file in files_of(config.args)[first::step] if step > 1 else ():
+        sys.path.insert(0, str(file.parent))  # as pytest does
+        with contextlib.suppress(Exception, pytest.skip.Exception):  # it is met again, and told, where the file is collected
+            importlib.import_module(file.stem)
+
+
+def files_of(arguments):
+    paths = [Path(argument.partition("::")[0]) for argument in arguments]
+    return sorted(file for path in paths for file in (path.rglob("test_*.py") if path.is_dir() else [path]))
 
 
 def pytest_configure(config):
