@@ -100,8 +100,12 @@ def _run(text: str, folder: str, only: tuple[str, ...]) -> Result[Any]:
     return runner.run(from_document(tomllib.loads(text), folder=folder), only)
 
 
+_whole_run = lru_cache(maxsize=64)(_run.__wrapped__)  # of presets: many cases ask for them, and the labels after all of those
+
+
 def _result(spec: MechanismSpec, only: Iterable[str] = ()) -> Result[Any]:
-    return _run(spec.to_toml(), str(Path.cwd()), tuple(only))
+    runs = _run if only else _whole_run
+    return runs(spec.to_toml(), str(Path.cwd()), tuple(only))
 
 
 def _changed(spec: MechanismSpec, changes: Mapping[str, Any]) -> MechanismSpec:

@@ -84,7 +84,7 @@ def test_a_record_that_lacks_something_is_refused(monkeypatch, answer, complaint
     cam = registry.mechanism("cam")
     analyses = (registry.Analysis("toy", lambda model, done: answer, "toy"),)
     monkeypatch.setattr(testing.runner.registry, "mechanism", lambda kind: replace(cam, analyses=analyses))
-    testing._run.cache_clear()
+    testing._whole_run.cache_clear()
     with pytest.raises(AssertionError, match=complaint):
         CASES["record"].check()
-    testing._run.cache_clear()
+    testing._whole_run.cache_clear()

@@ -238,9 +238,11 @@ def critical_speeds(equilibrium: ShaftEquilibrium, count: int) -> CriticalSpeeds
     Round supports: K z = s^2 (M -+ P) z for z = x + iy, P the polar moments of inertia.  Others: q = phi e^(i s t) in space,
     K phi = s^2 (M - i G) phi; a whirl that is a line counts as one with the shaft.
     """
-    if is_isotropic(equilibrium):
-        return CriticalSpeeds(*(_whirl(equilibrium, way, count) for way in (1, -1)))
     stiff, inertia, gyroscopic, chosen = _lateral(equilibrium)
+    if is_isotropic(equilibrium):
+        polar = _polar_moments(equilibrium, gyroscopic)
+        x = plane_freedoms(equilibrium.model.beam, 0)
+        return CriticalSpeeds(*(np.sqrt(_lowest(stiff, inertia - way * polar, equilibrium, x, count)[0]) for way in (1, -1)))
     squares, vectors = _lowest(stiff, inertia - 1j * gyroscopic, equilibrium, chosen, 4 * count)
     whole = np.zeros((equilibrium.model.size, len(squares)), complex)
     whole[chosen] = vectors
@@ -260,13 +262,12 @@ def lowest_excited(equilibrium: ShaftEquilibrium, critical: CriticalSpeeds) -> f
     return float(speeds.min()) if len(speeds) else None
 
 
-def _whirl(equilibrium, way, count):
-    """Critical speeds of a shaft on round supports, whirling with it (way 1) or against it (-1)."""
-    stiff, inertia, gyroscopic, _ = _lateral(equilibrium)
+def _polar_moments(equilibrium, gyroscopic):
+    """P of z = x + iy among the freedoms of the plane of x: the gyroscopic moments couple it with that of y."""
     x, y = (plane_freedoms(equilibrium.model.beam, plane) for plane in (0, 1))
-    polar = np.zeros_like(inertia)
+    polar = np.zeros_like(gyroscopic)
     polar[np.ix_(x, x)] = gyroscopic[np.ix_(x, y)] * np.where(np.isin(y % FREEDOMS, 3), -1.0, 1.0)  # tilt_x is the slope in y turned round
-    return np.sqrt(_lowest(stiff, inertia - way * polar, equilibrium, x, count)[0])
+    return polar
 
 
 def torsional_modes(equilibrium: ShaftEquilibrium, count: int) -> Modes:
