@@ -5,8 +5,6 @@ BIN    := $(VENV)/bin
 JOBS   ?= 2
 export MPLBACKEND = Agg
 unexport PYTHONDONTWRITEBYTECODE  # tests start hundreds of processes; without bytecode each of them reads all sources anew
-# A worker begins with a stretch of tests and takes from the others' when it is done: tests of one file share what it has prepared.
-XDIST = -n $(JOBS) --dist worksteal
 
 .PHONY: demo quick test test-slow durations system bench growth wheel docs lint clean
 
@@ -15,17 +13,17 @@ demo: $(VENV)/core.ready
 
 # About a minute: without the tests that tests/durations.json lists as long, and without those whose kernels are not compiled yet.
 quick: $(VENV)/test.ready
-	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest $(XDIST) -m "not slow and not needs_browser" --quick $(ARGS)
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m "not slow and not needs_browser" --quick $(ARGS)
 
 # Measures all tests but the slow ones, kernels compiled (so after `make test`), and writes tests/durations.json.
 durations: $(VENV)/test.ready
-	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest $(XDIST) -m "not slow" --record-durations $(ARGS)
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m "not slow" --record-durations $(ARGS)
 
 test: $(VENV)/test.ready
-	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest $(XDIST) -m "not slow" $(ARGS)
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m "not slow" $(ARGS)
 
 test-slow: $(VENV)/test.ready
-	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest $(XDIST) -m slow $(ARGS)
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python -m pytest -n $(JOBS) -m slow $(ARGS)
 
 bench: $(VENV)/test.ready
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python benchmarks/run.py

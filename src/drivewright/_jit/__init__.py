@@ -8,10 +8,12 @@
 `implements`  states the version of one type.  The call works in plain Python and inside kernels alike, and a new type
               touches no kernel.  What a formula calls must be numpy, a kernel or a generic itself.
 `plain`       the uncompiled twin of a kernel, for tests and for arguments that numba cannot compile.
+`per_lane`    marks an inner kernel full of branches, which runs lane by lane where many cases are computed at once;
+`branch_free` one that has a form of its own there.
 `warmer`      marks a function that calls kernels once, so that `warm` can compile everything ahead of time.
 
-How a kernel is compiled: `_jit.compiling`; where it is kept: `_jit.disk_cache`; how tuples of arrays reach it: `_jit.references`; what a
-first run says meanwhile: `_jit.compilation`.
+How a kernel is compiled: `_jit.compiling`; where it is kept: `_jit.disk_cache`; how tuples of arrays reach it: `_jit.references`; how it
+computes many cases at once: `_jit.lanes`, from the arrays of `_jit.lane_arrays`; what a first run says meanwhile: `_jit.compilation`.
 """
 
 import functools

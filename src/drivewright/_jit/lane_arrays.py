@@ -35,7 +35,7 @@ class LaneArray:
         if not self.is_table:
             return ()
         members: Any = self.values.dtype.fields
-        return tuple((name, members[name][1], members[name][0].kind == "i") for name in self.values.dtype.names)
+        return tuple((name, members[name][1], members[name][0].kind == "i") for name in members)
 
 
 class LaneNumber:
@@ -48,7 +48,7 @@ class LaneNumber:
 def record_kind(kind: np.dtype) -> np.dtype:
     """The type of records whose real members have lanes."""
     members: Any = kind.fields
-    return np.dtype([(name, np.int64) if members[name][0].kind == "i" else (name, np.float64, (WIDTH,)) for name in kind.names])
+    return np.dtype([(name, np.int64) if members[name][0].kind == "i" else (name, np.float64, (WIDTH,)) for name in members])
 
 
 def in_lanes(value: Any, made: dict[int, Any] | None = None) -> Any:

@@ -15,13 +15,16 @@ from numba.core import cgutils, types
 from numba.core.datamodel import models, registry
 from numba.core.extending import NativeValue, infer_getattr, lower_builtin, lower_cast, lower_getattr_generic, typeof_impl, unbox
 from numba.core.imputils import lower_setattr_generic
-from numba.core.typeconv import Conversion
-from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, infer_global, signature
+from numba.core.typeconv.castgraph import Conversion
+from numba.core.typing import templates
+from numba.core.typing.templates import AbstractTemplate, AttributeTemplate, signature
 
 from drivewright._jit.lane_arrays import WIDTH, LaneArray, LaneNumber
 from drivewright._jit.references import Reference
 
-DOUBLE, BIT, WORD, BYTE = ir.DoubleType(), ir.IntType(1), ir.IntType(64), ir.IntType(8)
+DOUBLE, BIT, WORD = ir.DoubleType(), ir.IntType(1), ir.IntType(64)
+infer_global: Any = templates.infer_global  # whose own annotations know one of its two uses
+TupleType: Any = types.BaseTuple  # whose parts can be iterated over, which its annotations do not say
 VECTOR, MASK = ir.VectorType(DOUBLE, WIDTH), ir.VectorType(BIT, WIDTH)
 
 
@@ -31,7 +34,7 @@ class LanesType(types.Type):
     def __init__(self):
         super().__init__("lanes")
 
-    def can_convert_from(self, context, other):
+    def can_convert_from(self, typingctx: Any, other: Any) -> Any:
         """A single number is the same in all lanes."""
         return Conversion.safe if isinstance(other, types.Float | types.Integer) else None
 
@@ -42,7 +45,7 @@ class MaskType(types.Type):
     def __init__(self):
         super().__init__("lane_mask")
 
-    def can_convert_from(self, context, other):
+    def can_convert_from(self, typingctx: Any, other: Any) -> Any:
         """A single truth is the same in all lanes."""
         return Conversion.safe if isinstance(other, types.Boolean) else None
 
@@ -171,9 +174,7 @@ def _number_from_python(kind, value, c):
     native = c.unbox(array, raw)
     c.pyapi.decref(raw)
     source = c.context.make_array(array)(c.context, c.builder, native.value)
-    return NativeValue(
-        _load(c.builder, c.builder.bitcast(source.data, BYTE.as_pointer())), is_error=native.is_error, cleanup=native.cleanup
-    )
+    return NativeValue(_load(c.builder, source.data), is_error=native.is_error, cleanup=native.cleanup)
 
 
 def _load(builder, place):
@@ -183,13 +184,13 @@ def _load(builder, place):
 # ----------------------------------------------------------------------------------------------------------------- arrays and records
 
 
-def _is_index(kind):
-    return isinstance(kind, types.Integer) or (isinstance(kind, types.BaseTuple) and all(isinstance(each, types.Integer) for each in kind))
+def _is_index(kind: Any):
+    return isinstance(kind, types.Integer) or (isinstance(kind, TupleType) and all(isinstance(each, types.Integer) for each in kind))
 
 
 def _indexed(array, index):
     """Type of an element or of a part with fewer axes."""
-    axes = array.ndim - (len(index) if isinstance(index, types.BaseTuple) else 1)
+    axes = array.ndim - (len(index) if isinstance(index, TupleType) else 1)
     return array.item if axes == 0 else LaneArrayType(axes, array.fields, array.size, array.view)
 
 
@@ -209,12 +210,12 @@ class _SetItem(AbstractTemplate):
         return None
 
 
-def _place(context, builder, kind, value, index_kind, index):
+def _place(context, builder, kind, value, index_kind: Any, index):
     """(struct, address of the element or part, lengths of the axes that are left)."""
     array = cgutils.create_struct_proxy(kind)(context, builder, value=value)
     shape = cgutils.unpack_tuple(builder, array.shape, kind.ndim)
-    kinds = list(index_kind) if isinstance(index_kind, types.BaseTuple) else [index_kind]
-    parts = cgutils.unpack_tuple(builder, index, len(kinds)) if isinstance(index_kind, types.BaseTuple) else [index]
+    kinds = list(index_kind) if isinstance(index_kind, TupleType) else [index_kind]
+    parts = cgutils.unpack_tuple(builder, index, len(kinds)) if isinstance(index_kind, TupleType) else [index]
     flat = ir.Constant(WORD, 0)
     for axis in range(kind.ndim):
         step = context.cast(builder, parts[axis], kinds[axis], types.intp) if axis < len(parts) else ir.Constant(WORD, 0)
@@ -546,8 +547,8 @@ def lane_by_lane(callee: Any, name: str, args: Any) -> Any:
     """A Python function that calls a kernel for each lane, for arguments of these types; what the kernel gives comes back as lanes."""
     single = tuple(lane_of(each) for each in args)
     callee.get_call_template(single, {})
-    result = callee.overloads[single].signature.return_type
-    parts = list(result) if isinstance(result, types.BaseTuple) else [] if isinstance(result, types.NoneType) else [result]
+    result: Any = callee.overloads[single].signature.return_type
+    parts = list(result) if isinstance(result, TupleType) else [] if isinstance(result, types.NoneType) else [result]
     kinds = ["empty_mask()" if isinstance(each, types.Boolean) else "empty_lanes()" for each in parts]
     given = [f"a{n}" for n in range(len(args))]
     call = f"kernel({', '.join(f'view({each}, lane)' for each in given)})"
@@ -555,7 +556,7 @@ def lane_by_lane(callee: Any, name: str, args: Any) -> Any:
     lines += [f"    r{n} = {kind}" for n, kind in enumerate(kinds)]
     lines += [f"    for lane in range({WIDTH}):", f"        found = {call}" if parts else f"        {call}"]
     for n in range(len(parts)):
-        lines.append(f"        r{n} = with_lane(r{n}, lane, found{f'[{n}]' if isinstance(result, types.BaseTuple) else ''})")
+        lines.append(f"        r{n} = with_lane(r{n}, lane, found{f'[{n}]' if isinstance(result, TupleType) else ''})")
     if parts:
         lines.append(f"    return {', '.join(f'r{n}' for n in range(len(parts)))}")
     scope: dict[str, Any] = {"kernel": callee, "view": view, "with_lane": with_lane, "empty_lanes": empty_lanes, "empty_mask": empty_mask}

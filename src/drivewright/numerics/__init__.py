@@ -2,6 +2,8 @@
 
 `quadrature`     Gauss-Legendre on pieces.
 `roots`          bracketed roots of one variable, damped Newton steps for several, extremes.
+`lanes`          decisions of kernels that compute one case or many.
+`trigonometry`   cosine and sine for them.
 `small`          factors of small matrices in kernels.
 `linear`         null spaces and pivots of small matrices.
 `least_squares`  fits with the covariance of their parameters.

@@ -10,7 +10,7 @@ SINGULAR = 1e-13  # a pivot below this part of the matrix' largest entry
 
 
 @inner
-def lu_factor(a: Floats, pivots: Ints) -> bool:
+def lu_factor(a: Floats, pivots: Floats | Ints) -> bool:
     """Overwrite the square matrix a (n, n) with L and U, rows exchanged as `pivots` (n,) says; False where it is singular."""
     n, largest = a.shape[0], 0.0
     for i in range(n):
@@ -39,7 +39,7 @@ def lu_factor(a: Floats, pivots: Ints) -> bool:
 
 
 @inner
-def lu_solve(lu: Floats, pivots: Ints, b: Floats) -> None:
+def lu_solve(lu: Floats, pivots: Floats | Ints, b: Floats) -> None:
     """Overwrite b (n,) with the solution x of a x = b, from the factors (n, n) and `pivots` (n,) of `lu_factor`."""
     n = lu.shape[0]
     for k in range(n):

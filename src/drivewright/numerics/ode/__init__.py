@@ -3,10 +3,11 @@
 `system`    what a system states: its rate, events, switches, Jacobian.
 `loop`      `integrate`: batches of steps, samples, limits; the trajectory.
 `advancing` the compiled loop over the steps of a batch.
+`together`  many problems side by side, in the lanes of vectors.
 `locating`  events within a step.
 `method`    what a method states; `methods` holds one file each.
 
-dense_output  the polynomial over a step, from its five coefficients r0 .
+`dense_output` the polynomial over a step, from its coefficients.
 """
 
 from drivewright.numerics.ode.loop import Event, EventCrossing, Trajectory, integrate

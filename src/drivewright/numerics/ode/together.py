@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Iterator
 from concurrent.futures import Future
 from contextlib import contextmanager
+from typing import Any
 
 import numpy as np
 
@@ -135,10 +136,10 @@ class _Lanes:
         self.counts.values[[OUTCOME, AGAIN], lane] = GOES_ON, 0.0
 
     def _advance(self):
-        systems, control, *rest = self.state
-        work, clock, y, values = rest
+        systems, control, work, clock, y, values = self.state
         self.counts.values[[ACCEPTED, REJECTED, HITS]] = 0.0
-        advancing.advance_together(work, *systems, control, self.rules, clock, y, values, self.batch, self.counts, self.dense)
+        more: Any = (control, self.rules, clock, y, values, self.batch, self.counts, self.dense)  # in lanes what the types call arrays
+        advancing.advance_together(work, *systems, *more)
         for lane, request in enumerate(self.requests):
             if request is not None:
                 self._keep(lane, request)
