@@ -13,7 +13,8 @@
 `warmer`      marks a function that calls kernels once, so that `warm` can compile everything ahead of time.
 
 How a kernel is compiled: `_jit.compiling`; where it is kept: `_jit.disk_cache`; how tuples of arrays reach it: `_jit.references`; how it
-computes many cases at once: `_jit.lanes`, from the arrays of `_jit.lane_arrays`; what a first run says meanwhile: `_jit.compilation`.
+computes many cases at once: `_jit.lanes`, with `lane_types`, `lane_storage` and `lane_arithmetic`, from the arrays of `lane_arrays`;
+what a first run says meanwhile: `_jit.compilation`.
 """
 
 import functools
