@@ -57,7 +57,6 @@ for _name, _operator in {"add": "fadd", "sub": "fsub", "mul": "fmul", "truediv":
     for _function in (getattr(operator, _name), getattr(operator, f"i{_name}")):
         _operation(_function, 2, lambda builder, a, b, name=_operator: getattr(builder, name)(a, b))
 _operation(operator.neg, 1, lambda builder, a: builder.fneg(a))
-_operation(operator.pos, 1, lambda builder, a: a)
 _operation(abs, 1, _intrinsic("fabs"))
 _operation(np.sqrt, 1, _intrinsic("sqrt"))
 _operation(np.round, 1, _intrinsic("rint"))

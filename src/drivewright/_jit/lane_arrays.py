@@ -116,6 +116,13 @@ def structure(value: Any) -> tuple[object, ...]:
     return (value.shape, b"" if value.dtype.kind == "f" else value.tobytes())
 
 
+def is_of_compiler(fault: BaseException | None) -> bool:
+    """Whether a fault says that a kernel cannot be compiled for arguments in lanes."""
+    from numba.core.errors import NumbaError
+
+    return isinstance(fault, NumbaError | NotImplementedError)
+
+
 def _has_numbers(value):
     """Whether a case may differ from another one in this tuple."""
     return any(_has_numbers(each) if isinstance(each, tuple) else isinstance(each, float | np.ndarray) for each in value)

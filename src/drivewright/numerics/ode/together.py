@@ -14,11 +14,12 @@ from typing import Any
 
 import numpy as np
 
-from drivewright._jit.lane_arrays import WIDTH, in_lanes, put_in_lane, structure, take_from_lane
+from drivewright._jit.lane_arrays import WIDTH, in_lanes, is_of_compiler, put_in_lane, structure, take_from_lane
 from drivewright.numerics.ode import advancing
 from drivewright.numerics.ode.advancing import ACCEPTED, AGAIN, GOES_ON, HITS, OUTCOME, REJECTED
 from drivewright.numerics.ode.locating import StepBatch
 from drivewright.numerics.ode.loop import Problem, RunUnderWay, Trajectory, finish, solve, solving_with
+from drivewright.numerics.ode.system import Functions
 
 STEPS = 2000  # that are taken at once
 WORTHWHILE = 3 * WIDTH  # cases from which it is faster, what has to be compiled for it included
@@ -55,13 +56,15 @@ class Desk:
 
     def solve(self, problem: Problem) -> Trajectory:
         """The Trajectory of a problem; what cannot go side by side with others goes on alone."""
-        if problem.method.name not in IN_LANES or problem.max_steps < STEPS:
+        if problem.method.name not in IN_LANES or problem.max_steps < STEPS or isinstance(problem.system, Functions):
             return solve(problem)
         request = _Request(problem)
         if request.run.goes_on:
             with self.changed:
                 self.waiting.append(request)
                 self.changed.notify()
+            if is_of_compiler(request.is_back.exception()):  # a formula, of a package, say, decides by branches
+                return solve(problem)
             request.is_back.result()
         return finish(request.run)
 
