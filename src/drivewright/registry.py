@@ -9,7 +9,7 @@ A third-party package declares the same groups in its own pyproject.
 """
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from importlib import import_module
@@ -73,7 +73,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     batch: Callable[..., Any] | None = None
     sources: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
-    compile_ahead: Callable[[SpecT], object] | None = None  # compiles what a run of the spec comes to last, in a process of its own
+    compile_ahead: Callable[[SpecT], Sequence[Callable[[], object]]] | None = None  # what compiles the kernels that a run comes to last
     claims: Callable[[SpecT], Claims] | None = None  # what its results obey exactly, for `drivewright.testing`
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 

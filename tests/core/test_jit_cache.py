@@ -333,6 +333,24 @@ def test_what_another_process_compiles_is_waited_for(tmp_path, held):
         assert other.stdout.read() == "done\n9.0 1\n"
 
 
+WORK = """
+import squares
+done = []
+compilation._work.append(lambda: not done and not done.append(squares.square(3)))
+"""
+
+
+def test_meanwhile_another_one_is_compiled(tmp_path, held):
+    """The same kernel for another signature: the lock that is waited for stays the one of the first."""
+    made, file, lock = held
+    code = SHIPPING.format(cache="cache", more=WATCH + WORK)
+    with subprocess.Popen([sys.executable, "-c", code], cwd=tmp_path, stdout=subprocess.PIPE, text=True) as other:
+        assert other.stdout is not None and [other.stdout.readline() for _ in range(3)] == ["begun\n", "begun\n", "done\n"]
+        shutil.copyfile(made, file)
+        fcntl.flock(lock, fcntl.LOCK_UN)
+        assert other.stdout.read() == "done\n9.0 1\n"
+
+
 THREADS = """
 import threading
 import squares

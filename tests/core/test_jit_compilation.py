@@ -68,6 +68,17 @@ def test_it_counts_down_while_a_kernel_is_compiled(clock):
     assert compiling.seconds == 10 and compiling.left == 7.5 and not compiling.words
 
 
+def test_kernels_that_are_compiled_while_another_process_compiles_one(clock):
+    """Their time is counted once, and the kernel waited for has come nearer when they are done."""
+    steps = [("b", BEGUN, 0), ("a", BEGUN, 1), ("a", DONE, 2), ("b", DONE, 3)]
+    assert told(clock, "press", *steps) == [
+        ("compiling kernels for 'press' (first run only) 1/3, about 7 s left", 7.0),
+        ("compiling kernels for 'press' (first run only) 1/3, about 4 s left", 4.0),
+        ("compiling kernels for 'press' (first run only) 2/3, about 2 s left", 2.0),
+        ("", 1.0),
+    ]
+
+
 def test_what_is_on_the_disk_already_is_not_waited_for(clock):
     said = told(clock, "press", ("b", FOUND, 0), ("a", BEGUN, 0), ("a", DONE, 2), ("x", BEGUN, 0))
     assert said[0] == ("compiling kernels for 'press' (first run only) 1/2, about 3 s left", 3.0)
@@ -124,8 +135,8 @@ def test_slow_kernels_that_nobody_measured_are_told_after_two_seconds(clock, cap
 
 def test_one_kernel_that_takes_long_is_told_every_ten_seconds(clock, capsys):
     lines = show._Lines("stranger")
-    compilation_ = lines.compilation
-    compilation_.kernel, compilation_.began = "a", clock.now  # begun, without the thread that looks by itself
+    lines.compilation.on_news = lambda: None  # without the thread that looks by itself
+    lines.compilation("a", BEGUN)
     for _ in range(25):
         clock.now += 1
         lines.look()

@@ -2,11 +2,13 @@
 
 import subprocess
 import sys
+from dataclasses import replace
+from functools import partial
 
 import pytest
 from places import EXAMPLES
 
-from drivewright import load
+from drivewright import load, registry
 from drivewright._jit import compilation
 from drivewright.execution import helper
 from drivewright.execution.helper import compiling_ahead
@@ -18,24 +20,28 @@ import importlib, sys
 from drivewright import load, registry, run
 spec = load(sys.argv[1], {changes!r})
 kernels = [getattr(importlib.import_module("drivewright." + name.rpartition(".")[0]), name.rpartition(".")[2]) for name in {names!r}]
-registry.mechanism(spec.mechanism).compile_ahead(spec)
+for compile_kernel in registry.mechanism(spec.mechanism).compile_ahead(spec):
+    compile_kernel()
 ahead = [len(kernel.signatures) for kernel in kernels]
 run(spec, {only!r})
 print(ahead, [len(kernel.signatures) for kernel in kernels])
 """
 
 
+KINEMATICS = ["multibody.continuation.continue_through", "multibody.chart.solve_kinematics"]
+
+
 @pytest.mark.parametrize(
     ("example", "names", "only", "changes"),
     [
-        ("four_bar", ["multibody.observe.observe_all"], "motion", ()),
+        ("four_bar", ["multibody.tolerance.scatter", *KINEMATICS, "multibody.observe.observe_all"], ("motion", "tolerances"), ()),
         (
             "slider_crank_clearance",
-            ["multibody.observe.observe_all", "numerics.ode.advancing.advance"],
-            "motion",
+            [*KINEMATICS, "multibody.observe.observe_all", "multibody.observe.observe_pins", "numerics.ode.advancing.advance"],
+            ("motion", "impact"),
             ("simulate.turns=2", "simulate.discard=0", "simulate.ensemble=1"),
         ),
-        ("hyvo_chain", ["chains.explicit.advance.run"], "dynamics", ("dynamics.ensemble=1",)),
+        ("hyvo_chain", ["chains.explicit.advance.run"], ("dynamics",), ("dynamics.ensemble=1",)),
     ],
 )
 def test_what_is_compiled_ahead_is_what_the_run_asks_for(example, names, only, changes):
@@ -62,6 +68,17 @@ def begun(monkeypatch):
     monkeypatch.setattr(helper, "worker_count", lambda workers: 2)
     monkeypatch.setattr(helper, "is_first_run", lambda: False)
     return seen
+
+
+def test_meanwhile_this_process_compiles_what_comes_last(begun, monkeypatch):
+    """One kernel at each look at what another process compiles, from the end, and none twice."""
+    done, kind = [], registry.mechanism("linkage")
+    kernels = [partial(done.append, name) for name in ("first", "second", "third")]
+    monkeypatch.setattr(helper.registry, "mechanism", lambda name: replace(kind, compile_ahead=lambda spec: kernels))
+    with compiling_ahead(load(EXAMPLES / "four_bar.toml")):
+        assert compilation.work_meanwhile() and done == ["third"]
+        assert [compilation.work_meanwhile() for _ in range(3)] == [True, True, False]
+    assert done == ["third", "second", "first"] and not compilation.work_meanwhile()
 
 
 def test_a_process_is_started_once_and_only_where_something_is_compiled(begun):

@@ -82,13 +82,11 @@ class KernelCache:
         if fcntl is None:
             return None
         with contextlib.suppress(OSError):  # no locks on this disk: two may compile the same
-            self._lock, began = os.open(file.with_suffix(".lock"), os.O_RDWR | os.O_CREAT, 0o600), time.monotonic()
-            while time.monotonic() - began < PATIENCE:
-                try:
-                    fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-                    break
-                except BlockingIOError:
+            lock, began = os.open(file.with_suffix(".lock"), os.O_RDWR | os.O_CREAT, 0o600), time.monotonic()
+            while time.monotonic() - began < PATIENCE and not _takes(lock):
+                if not compilation.work_meanwhile():
                     time.sleep(WAIT)
+            self._lock = lock
         return _read(file)
 
     def release(self) -> None:
@@ -135,6 +133,15 @@ class KernelCache:
         key = hashlib.sha256(repr((str(signature), names, processor, versions)).encode())
         key.update(self.function.__code__.co_code + dumps(cells))
         return f"{self.name.replace('<locals>.', '')}-{key.hexdigest()[:24]}.kernel"
+
+
+def _takes(lock):
+    """Whether this process holds the lock now; another one may."""
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True
 
 
 def _write(file, result):

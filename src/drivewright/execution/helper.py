@@ -8,7 +8,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from drivewright import registry
-from drivewright._jit.compilation import BEGUN, watched_by
+from drivewright._jit.compilation import BEGUN, meanwhile, watched_by
 from drivewright._jit.disk_cache import is_first_run, is_kept
 from drivewright.cases import worker_count
 from drivewright.result import SpecLike
@@ -65,13 +65,21 @@ def compiling_ahead(spec: SpecLike) -> Iterator[None]:
     """Within the block a second process compiles what a run of the spec comes to last: from the beginning where nothing has been compiled
     yet, else as soon as something is.
 
-    This process finds it on the disk, or waits for it there; where there is no core for a second one it compiles all by itself.
+    This process finds it on the disk, or waits for it there, and meanwhile compiles what would come after it, from the end; where there is
+    no core for a second process it compiles all by itself.
     """
     if worker_count(None) < 2 or registry.mechanism(spec.mechanism).compile_ahead is None or not is_kept():
         yield
         return
     with ExitStack() as at_the_end:
         begun: list[ProcessExecutor | None] = []
+        from_the_end = _from_the_end(spec)
+
+        def compile_one_more() -> bool:
+            compile_kernel = next(from_the_end, None)
+            if compile_kernel:
+                compile_kernel()
+            return compile_kernel is not None
 
         def begin(_: str = "", what: str = BEGUN) -> None:
             if what == BEGUN and not begun:
@@ -80,15 +88,25 @@ def compiling_ahead(spec: SpecLike) -> Iterator[None]:
                     at_the_end.callback(process.close)
 
         at_the_end.enter_context(watched_by(begin))
+        at_the_end.enter_context(meanwhile(compile_one_more))
         if is_first_run():
             begin()
         yield
 
 
 def _compile_ahead(spec):
+    for compile_kernel in _last_kernels(spec):
+        compile_kernel()
+
+
+def _from_the_end(spec):
+    yield from reversed(_last_kernels(spec))
+
+
+def _last_kernels(spec):
     compile_ahead = registry.mechanism(spec.mechanism).compile_ahead
     assert compile_ahead is not None
-    compile_ahead(spec)
+    return compile_ahead(spec)
 
 
 def _shared(executor: "ProcessExecutor", function: Callable[[Any], Any], items: list[Any]) -> list[Any]:

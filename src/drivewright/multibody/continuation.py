@@ -5,7 +5,10 @@ the determinant of the loops does not fall by more than half.  So the steps shri
 to another branch; from near by `multibody.singular` lays a chart across.  What comes out does not depend on the times asked for.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import Any, cast
 
 import numpy as np
 
@@ -73,6 +76,15 @@ def continue_motion(system: System, times: Floats, end: float, y: Floats, stop: 
         system = outlook.charted[0] if outlook.charted else _split(system, t, y)
         if refine and not outlook.charted and np.isfinite(outlook.time):
             times = np.union1d(times, [time for time in t + outlook.time * np.linspace(0.0, 2.0, FINE + 1)[1:] if time < end])
+
+
+def kernels_of_continuation(system: System) -> list[Callable[[], object]]:
+    """What compiles the kernels of `continue_motion` for systems like this one: along a branch, and of a single state."""
+    moving, y, kernels = motion(system), np.zeros(1), cast(Any, (continue_through, solve_kinematics))
+    return [
+        partial(kernels[0].compile_for, *moving, 0.0, np.zeros(1), y, y, np.zeros((1, 1))),
+        partial(kernels[1].compile_for, *moving, 0.0, y),
+    ]
 
 
 def _split(system, t, y):

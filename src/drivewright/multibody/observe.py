@@ -1,7 +1,8 @@
 """What a moving system does at given states: poses, rates, accelerations, forces, powers, pins with play."""
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, cast
 
 import numpy as np
 
@@ -19,20 +20,27 @@ from drivewright.multibody.system import BIAS, SCRATCH, Motion, System, Work, mo
 def observe(system: System, t: ArrayLike, y: ArrayLike) -> Observed:
     """`Observed` of states y (m, n) at times t (m,)."""
     t, y = np.ascontiguousarray(t, float), np.ascontiguousarray(y, float)
-    observed = _room(system, t)
-    observe_all(motion(system), t, y, np.zeros(y.shape[1]), *observed[1:])
+    observed, loads = _room(system, t)
+    if len(system.contacts):
+        observe_pins(motion(system), t, y, np.zeros(y.shape[1]), observed.pins, loads)
+    observe_all(motion(system), t, y, loads, observed.bodies, observed.powers, observed.drives)
     return observed
 
 
-def compile_observation(system: System) -> None:
-    """Compile what `observe` calls, without a state."""
-    kernel: Any = observe_all
-    kernel.compile_for(motion(system), np.zeros(1), np.zeros((1, 1)), np.zeros(1), *_room(system, np.zeros(1))[1:])
+def kernels_of_observation(system: System) -> list[Callable[[], object]]:
+    """What compiles the kernels of `observe` for systems like this one."""
+    t, y, kernels = np.zeros(1), np.zeros((1, 1)), cast(Any, (observe_pins, observe_all))
+    observed, loads = _room(system, t)
+    pins = partial(kernels[0].compile_for, motion(system), t, y, np.zeros(1), observed.pins, loads)
+    bodies = partial(kernels[1].compile_for, motion(system), t, y, loads, observed.bodies, observed.powers, observed.drives)
+    return [pins, bodies] if len(system.contacts) else [bodies]
 
 
 def _room(system, t):
-    counts = (len(system.bodies), len(FIELDS)), (len(system.contacts), len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),)
-    return Observed(t, *(np.zeros((len(t), *count)) for count in counts))
+    """(`Observed` at the times t (m,) to be filled, loads (m, bodies, 3) of the pins with play on the bodies; (m, 0, 3) without them)."""
+    pins, bodies = len(system.contacts), len(system.bodies)
+    counts = (bodies, len(FIELDS)), (pins, len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),)
+    return Observed(t, *(np.zeros((len(t), *count)) for count in counts)), np.zeros((len(t), bodies if pins else 0, 3))
 
 
 def concatenate(parts: Sequence[Observed]) -> Observed:
@@ -41,15 +49,35 @@ def concatenate(parts: Sequence[Observed]) -> Observed:
 
 
 @inner
-def observe_all(motion: Motion, t: Floats, y: Floats, dy: Floats, bodies: Floats, pins: Floats, powers: Floats, drives: Floats) -> None:
-    """Fill the arrays of `Observed`; dy is scratch. t (m,) [s], y (m, n); the arrays as in `Observed`, one row a time; dy (n,)."""
+def observe_pins(motion: Motion, t: Floats, y: Floats, dy: Floats, pins: Floats, loads: Floats) -> None:
+    """What the pins with play do, and how they load the bodies.
+
+    t (m,) [s], y (m, n); pins as in `Observed`; loads (m, bodies, 3) [N, N, N m]; dy (n,) is scratch.
+    """
     system, work = motion.system, motion.work
     for n in range(t.size):
-        update_dynamics(system, work, t[n], y[n], dy, powers[n])
-        for i in range(system.bodies.size):
-            _body(work, i, bodies[n, i])
+        update_kinematics(system, work, t[n], y[n])
+        update_mass_matrix(system, work)
+        clear_forces(work)
+        pin_forces(system, work, y[n], dy)
+        for i in range(loads.shape[1]):
+            here = work.poses[i]
+            loads[n, i, 0], loads[n, i, 1], loads[n, i, 2] = here.fx, here.fy, here.ft
         for k in range(system.contacts.size):
             _pin(system, k, work, y[n], pins[n, k])
+
+
+@inner
+def observe_all(motion: Motion, t: Floats, y: Floats, loads: Floats, bodies: Floats, powers: Floats, drives: Floats) -> None:
+    """What the bodies and the drives do under the loads of `observe_pins`.
+
+    t (m,) [s], y (m, n), loads (m, bodies or 0, 3); the arrays as in `Observed`, one row a time.
+    """
+    system, work = motion.system, motion.work
+    for n in range(t.size):
+        update_dynamics(system, work, t[n], y[n], loads[n], powers[n])
+        for i in range(system.bodies.size):
+            _body(work, i, bodies[n, i])
         for d in range(system.driven.size):
             drives[n, d] = _drive(system, work, d)
             powers[n, 3] += drives[n, d] * work.coordinates[system.driven[d].coordinate].v
@@ -57,10 +85,10 @@ def observe_all(motion: Motion, t: Floats, y: Floats, dy: Floats, bodies: Floats
 
 
 @inner
-def update_dynamics(system: System, work: Work, t: float, y: Floats, dy: Floats, powers: Floats) -> None:
-    """Everything about the system at a state: poses, rates, loads with their powers, and the accelerations of all coordinates.
+def update_dynamics(system: System, work: Work, t: float, y: Floats, loads: Floats, powers: Floats) -> None:
+    """Everything about the system at a state: poses, rates, forces with their powers, and the accelerations of all coordinates.
 
-    y, dy (states,) as in `loads.apply_forces`.
+    y (states,) as in `loads.apply_forces`; loads (bodies or 0, 3) of the pins with play.
     """
     update_kinematics(system, work, t, y)
     update_mass_matrix(system, work)
@@ -69,7 +97,9 @@ def update_dynamics(system: System, work: Work, t: float, y: Floats, dy: Floats,
     powers[0] = _power(work)
     apply_loads(system, work, t)
     powers[1] = _power(work) - powers[0]
-    pin_forces(system, work, y, dy)
+    for i in range(loads.shape[0]):
+        here = work.poses[i]
+        here.fx, here.fy, here.ft = here.fx + loads[i, 0], here.fy + loads[i, 1], here.ft + loads[i, 2]
     powers[2] = _power(work) - powers[0] - powers[1]
     solve_accelerations(system, work)
     for m in range(system.independent.size):

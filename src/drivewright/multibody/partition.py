@@ -9,7 +9,7 @@ from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.kinematics import evaluate_at_time
 from drivewright.multibody.system import RESIDUAL, System, Work, no_chart, scratch
 from drivewright.numerics.linear import pivot_order
-from drivewright.numerics.small import lu_factor
+from drivewright.numerics.small import SINGULAR
 
 
 def evaluate_at(system: System, q: Floats, t: float = 0.0, v: Floats | None = None) -> Work:
@@ -60,8 +60,6 @@ def partition_into(system: System, dependent: Ints, work: Work) -> System:
 
 
 def _determinant(square):
-    """Determinant, with the sign that the kernels' own elimination has; 0 where that finds no pivot."""
-    lu, pivots = np.array(square), np.zeros(len(square), np.int64)
-    if not lu_factor(lu, pivots):
-        return 0.0
-    return float(np.prod(np.diag(lu)) * (-1.0) ** np.count_nonzero(pivots != np.arange(len(square))))
+    """Determinant (n, n); 0 where that is a matter of rounding."""
+    sizes = np.linalg.svd(square, compute_uv=False)
+    return 0.0 if np.any(sizes <= SINGULAR * np.max(sizes, initial=0.0)) else float(np.linalg.det(square))

@@ -1,5 +1,6 @@
 """Motion over time: kinematics of a mechanism whose drives leave it no freedom, dynamics of any other."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -11,11 +12,11 @@ from drivewright.errors import DoesNotAssemble, counted
 from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.chart import outside_fold, solve_kinematics
 from drivewright.multibody.compile_model import compile_model
-from drivewright.multibody.continuation import Stretch, continue_motion
+from drivewright.multibody.continuation import Stretch, continue_motion, kernels_of_continuation
 from drivewright.multibody.dynamics import FIRST_PIN
 from drivewright.multibody.forces.pin_contact import LASTING, penetration
 from drivewright.multibody.model import MultibodyModel
-from drivewright.multibody.observe import FIELDS, compile_observation, observe
+from drivewright.multibody.observe import FIELDS, kernels_of_observation, observe
 from drivewright.multibody.partition import evaluate_at, partition_coordinates
 from drivewright.multibody.passages import Passage, passage, smallest_singular_values
 from drivewright.multibody.singular import Outlook, distance_to_singularity, look_ahead
@@ -250,13 +251,17 @@ def _watched(system):
     return [Event(-1, terminal=True), Event(), *[switches] * pins, *[Event(1, switches=True)] * pins, *[switches] * pins]
 
 
-def compile_run(model: MultibodyModel, settings: Settings | None = None) -> None:
-    """Compile what a run comes to last, without one: the observation of its states and, with settings, the steps of a simulation."""
+def unassembled(model: MultibodyModel) -> System:
+    """The `System` of a model before it is assembled: its kernels have the same types."""
     expanded = expand(model)
-    system = compile_model(expanded, build_tree(expanded))
-    if settings:
-        loop.compile_ahead(motion(system), _watched(system), settings.method)
-    compile_observation(system)
+    return compile_model(expanded, build_tree(expanded))
+
+
+def kernels_of_run(system: System, settings: Settings | None = None) -> list[Callable[[], object]]:
+    """What compiles the kernels that a run comes to last: with settings that of the steps of a simulation, then those of the observation of
+    its states and of the kinematics."""
+    steps = [loop.kernel_of_steps(motion(system), _watched(system), settings.method)] if settings else []
+    return [*steps, *kernels_of_observation(system), *kernels_of_continuation(system)]
 
 
 def fastest_drive_speed(assembly: Assembly) -> float:

@@ -4,8 +4,9 @@ A `Source` displaces markers of joints, in the frame of their body.  `scatter` c
 linear theory beside it, from the Jacobian of the closed loops.
 """
 
-from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -185,6 +186,14 @@ def deviations(posture: Posture, moves: Floats) -> Floats:
     out = np.empty((len(everything), len(posture.marks), len(READINGS)))
     scatter(own, posture.system, scratch(own), posture.q, posture.shifts, everything, posture.marks.copy(), posture.marks, out)
     return out[1:] - out[0]
+
+
+def kernel_of_samples(system: System) -> Callable[[], object]:
+    """What compiles the kernel of `deviations` for systems like this one."""
+    kernel: Any = scatter
+    shifts, marks = (np.zeros(1, kind).view(np.recarray) for kind in (SHIFT, WATCHED))
+    moves, readings = np.zeros((1, 1, 2)), np.zeros((1, 1, len(READINGS)))
+    return partial(kernel.compile_for, system, system, scratch(system), np.zeros(1), shifts, moves, marks, marks, readings)
 
 
 @inner

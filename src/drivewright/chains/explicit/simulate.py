@@ -3,6 +3,7 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, cast
 
 import numpy as np
@@ -65,10 +66,10 @@ def simulate(
     return Motion(model, settings, step, every, log.rows, log.bodies, log.tension, log.plate)
 
 
-def compile_run(model: ChainDrive) -> None:
-    """Compile what `simulate` takes its steps with, without a step: every drive whose contacts have such a law runs on it."""
+def kernel_of_steps(model: ChainDrive) -> Callable[[], object]:
+    """What compiles the kernel with which `simulate` takes its steps: every drive whose contacts have such a law runs on it."""
     drive, kernel = compile_model(model), cast(Any, run)
-    kernel.compile_for(drive, empty_snapshots(1, len(drive.bodies), drive.chain.count), 0, 1, 1, 1.0, 1e-6)
+    return partial(kernel.compile_for, drive, empty_snapshots(1, len(drive.bodies), drive.chain.count), 0, 1, 1, 1.0, 1e-6)
 
 
 def first_start(model: ChainDrive, settings: RunSettings) -> Start:

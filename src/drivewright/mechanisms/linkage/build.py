@@ -1,5 +1,6 @@
 """Spec -> model: the mechanism as stated and its ideal twin, assembled, with what is asked of its run."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +10,8 @@ from drivewright.mechanisms.linkage.describe import describe, output_marker
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.multibody.analyses.simulation_model import Output, RunLimits, SimulationModel
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.simulate import Settings, compile_run
+from drivewright.multibody.simulate import Settings, kernels_of_run, unassembled
+from drivewright.multibody.tolerance import kernel_of_samples
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -52,10 +54,12 @@ def build(spec: LinkageSpec) -> LinkageModel:
     )
 
 
-def compile_ahead(spec: LinkageSpec) -> None:
-    """Compile what a run of this spec comes to last."""
+def compile_ahead(spec: LinkageSpec) -> list[Callable[[], object]]:
+    """What compiles the kernels that a run of this spec comes to last."""
     model = describe(spec)
-    compile_run(model, _settings(spec) if any(joint.play for joint in model.joints) else None)
+    system, has_play = unassembled(model), any(joint.play for joint in model.joints)
+    tolerances = [kernel_of_samples(system)] if spec.tolerances else []
+    return [*kernels_of_run(system, _settings(spec) if has_play else None), *tolerances]
 
 
 def _output(spec, output):

@@ -1,11 +1,12 @@
 """The drive as a moving system: masses, stiffnesses, sprockets, guides; from the spec, in SI."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from drivewright.chains import masses
-from drivewright.chains.explicit.simulate import compile_run
+from drivewright.chains.explicit.simulate import kernel_of_steps
 from drivewright.chains.explicit.warm import small_drive
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket
 from drivewright.chains.standards import pitch_diameter
@@ -24,10 +25,10 @@ def chain_drive(model: ChainModel) -> ChainDrive:
     return ChainDrive(_chain(model), (_driver(model, touch), *driven), guides, model.drive.gravity)
 
 
-def compile_ahead(spec: SilentChainSpec) -> None:
-    """Compile what a run of this spec comes to last: the steps of the running chain."""
-    if spec.drive is not None and spec.dynamics.integrator == "explicit":
-        compile_run(small_drive(spec.contact.law))
+def compile_ahead(spec: SilentChainSpec) -> list[Callable[[], object]]:
+    """What compiles the kernel that a run of this spec comes to last: that of the steps of the running chain."""
+    explicit = spec.drive is not None and spec.dynamics.integrator == "explicit"
+    return [kernel_of_steps(small_drive(spec.contact.law))] if explicit else []
 
 
 def _chain(model: ChainModel) -> Chain:

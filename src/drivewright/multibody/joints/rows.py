@@ -105,7 +105,7 @@ def terms_of_row(system: Any, work: Any, row: OneRecord, dx: float, dy: float) -
         else:
             rolled, reach = gi * first.angle + gj * second.angle + row.constant, gi + gj
             phi = np.arctan2(dy, dx)
-            phi += 2 * np.pi * np.round((rolled / reach - phi) / (2 * np.pi))  # the turn on which the wheel is
+            phi += 2 * np.pi * np.floor((rolled / reach - phi) / (2 * np.pi) + 0.5)  # the turn on which the wheel is
             residual = reach * phi - rolled
             ux, uy = -reach * uy / distance, reach * ux / distance
             gi, gj = -gi, -gj

@@ -35,10 +35,13 @@ def advance(
 ) -> tuple[int, int, int, int]:
     """Step until the batch is full or the run ends; returns (code, accepted steps, rejected steps, event hits).
 
-    The workspace, clock (3,), state y (n,) and event functions (m,) are carried from batch to batch.
+    The workspace, clock (3,), state y (n,) and event functions (m,) are carried from batch to batch; a batch without room for a step
+    sets them up at the start.
     A step ends at the first event that stops the run or switches the system; what would come after it is not seen.
     """
     trial, accepted, rejected, hits = batch.trial, 0, 0, 0
+    if len(batch.steps) == 0:
+        return start(work, system, event_system, control, clock, y, values), accepted, rejected, hits
     again = rejected > 0  # False, but not as a constant, for which numba would compile `step` once more
     while accepted < len(batch.steps):
         t, h = clock[TIME], min(clock[STEP], control.max_step)

@@ -19,11 +19,12 @@ The kernels run in batches of steps, between which Ctrl-C and other threads get 
 from collections.abc import Callable, Sequence
 from contextvars import ContextVar, Token
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from drivewright._jit import formula_of, plain
+from drivewright._jit import formula_of, formulas_of, plain
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError, SolverError
 from drivewright.numerics.ode import advancing
@@ -174,11 +175,9 @@ def solve(problem: Problem) -> Trajectory:
 
 def finish(run: "RunUnderWay") -> Trajectory:
     """The Trajectory of a run, whose remaining steps are taken in this thread."""
-    problem = run.problem
-    advance = plain(advancing.advance) if isinstance(problem.system, Functions) else advancing.advance
     while run.goes_on:
         batch = run.batch(min(_BATCH, run.steps_left))
-        run.take(batch, *advance(run.work, *run.systems, problem.control, run.rules, run.clock, run.y, run.values, batch))
+        run.take(batch, *run.advance(batch))
     return run.trajectory()
 
 
@@ -191,8 +190,7 @@ class RunUnderWay:
         self.rules, watched = _rules(problem.watch), len(problem.watch)
         self.clock, self.values, self.scratch = np.empty(3), np.empty(watched), (np.empty(self.y.size), *np.empty((3, watched)))
         self.clock[TIME], self.clock[STEP], self.clock[ERROR] = problem.t0, 0.0, 1e-4
-        start = plain(advancing.start) if isinstance(problem.system, Functions) else advancing.start
-        self.code = start(self.work, *self.systems[:2], problem.control, self.clock, self.y, self.values)
+        self.code, *_ = self.advance(self.batch(0))
         self.clock[STEP] = problem.first_step or self.clock[STEP]
         self.parts: list[tuple[Floats, Floats]] = []
         self.crossings: list[EventCrossings] = []
@@ -212,6 +210,11 @@ class RunUnderWay:
         """Room for so many steps."""
         return _batch(size, self.y.size, len(self.values), self.scratch)
 
+    def advance(self, batch: StepBatch) -> tuple[int, int, int, int]:
+        """Take the steps of a batch in this thread, see `advancing.advance`."""
+        kernel = plain(advancing.advance) if isinstance(self.problem.system, Functions) else advancing.advance
+        return kernel(self.work, *self.systems, self.problem.control, self.rules, self.clock, self.y, self.values, batch)
+
     def take(self, batch: StepBatch, code: int, done: int, refused: int, hits: int) -> None:
         """Keep what is wanted of a batch of steps."""
         times, end = self.problem.samples, self.clock[TIME]
@@ -226,21 +229,23 @@ class RunUnderWay:
         return _trajectory(t0, y0, self.parts, times, *end, self.crossings, self.code, control, self.steps, self.rejected, method)
 
 
-def compile_ahead(system: tuple[object, ...], watch: Sequence[Event] = (), method: str | Method = "dopri5") -> None:
-    """Compile what `integrate` takes its steps with, without a step; how many states there are does not matter for that."""
+def kernel_of_steps(system: tuple[object, ...], watch: Sequence[Event] = (), method: str | Method = "dopri5") -> Callable[[], object]:
+    """What compiles the kernel with which `integrate` takes its steps; how many states there are does not matter for that."""
     chosen, y = method_by_name(method), np.zeros(1)
     control = _control(0.0, 1.0, y, 1e-6, 1e-6, np.inf, 0.0)
     system, event_system, switch_system = _parts(system, watch, chosen, control)
     batch = _batch(1, y.size, len(watch), (np.empty(y.size), *np.empty((3, len(watch)))))
     clock, values = np.empty(3), np.empty(len(watch))
     advance: Any = advancing.advance
-    advance.compile_for(chosen.workspace(y.size), system, event_system, switch_system, control, _rules(watch), clock, y, values, batch)
+    systems = system, event_system, switch_system
+    return partial(advance.compile_for, chosen.workspace(y.size), *systems, control, _rules(watch), clock, y, values, batch)
 
 
 def _parts(system, watch, method, control):
-    """The system as the method needs it; what stands for it where events are watched, and where they switch."""
+    """The system as the method needs it; what stands for it where events are watched, and where they switch: one type for all runs with
+    events, whether these switch or not, so that the steps are compiled once."""
     event_system = system if watch else NoEvents(0)
-    switch_system = system if any(event.switches for event in watch) else NoEvents(0)
+    switch_system = system if watch and type(system) in formulas_of(switch) else NoEvents(0)
     return with_jacobian(system, control.rtol, control.atol) if method.needs_jacobian else system, event_system, switch_system
 
 
