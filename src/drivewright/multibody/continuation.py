@@ -129,6 +129,7 @@ def continue_through(
     times (m,) [s], states (m, n), y and rates (n,) as in `loads.apply_forces`.
     """
     t = start
+    update_kinematics(system, work, t, y)
     for n in range(times.size):
         t, code = continue_to(system, work, t, times[n], y, rates)
         if code != REACHED:
@@ -141,11 +142,10 @@ def continue_through(
 @inner
 def continue_to(system: System, work: Work, t: float, end: float, y: Floats, rates: Floats) -> tuple[float, int]:
     """Carry the dependent coordinates in y on to the time `end`, in steps small enough to stay on the same branch: (time reached, why it
-    ends).  rates is scratch, of the size of y.
+    ends).  `work` holds the state at t, and in the end that at `end` where it gets there; rates is scratch, of the size of y.
 
     y (n,) as in `loads.apply_forces`.
     """
-    update_kinematics(system, work, t, y)
     step, size = end - t, jacobian_determinant(system, work)
     while t != end:
         if validity_of_split(system, work) <= 0.0:
