@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from drivewright.multibody.measures import impact_load, largest, peaks, span
+from drivewright.multibody.measures import highest, impact_load, largest, peaks
 
 pytestmark = pytest.mark.analytical
 
@@ -46,10 +46,19 @@ def test_root_mean_square_and_percentile_of_a_sine_over_its_peak():
     assert load.percentile == pytest.approx(np.sin(0.95 * np.pi / 2), rel=1e-4)
 
 
-def test_the_span_of_a_motion_is_found_between_the_samples():
+def test_the_highest_and_the_lowest_place_of_motions_are_found_between_the_samples():
     t = np.linspace(0, 1, 73)
-    assert span(t, 0.3 + 0.7 * np.cos(TURN * t + 0.1)) == pytest.approx(1.4, rel=1e-5)
-    assert span(t, np.exp(t)) == pytest.approx(np.e - 1)
+    swing, rise = 0.3 + 0.7 * np.cos(TURN * t + 0.1), np.exp(t)
+    np.testing.assert_allclose(highest(t, np.stack([swing, -swing, rise, -rise])), [1.0, 0.4, np.e, -1.0], rtol=1e-5)
+
+
+def test_the_highest_of_many_signals_do_not_depend_on_how_many_are_looked_at_at_once(monkeypatch):
+    t = np.linspace(0, 1, 73)
+    signals = np.sin(np.outer(np.arange(1, 8), TURN * t + 0.3))
+    together = highest(t, signals)
+    monkeypatch.setattr("drivewright.multibody.measures.BLOCK", 150)
+    np.testing.assert_array_equal(highest(t, signals), together)
+    np.testing.assert_allclose(together, [largest(t, np.maximum(signal, 0.0)) for signal in signals], rtol=1e-3)
 
 
 def test_fewer_than_five_peaks_give_no_coefficient():

@@ -7,6 +7,7 @@ from drivewright.errors import InputError
 from drivewright.numerics.signals import (
     _amplitudes,
     local_maxima,
+    local_maxima_of_rows,
     mean_of_largest,
     order_spectrum,
     percentile,
@@ -70,6 +71,22 @@ def test_the_error_of_a_top_stays_within_its_bound_and_reaches_for_it():
         assert times.size == 1
         shares.append(abs(values[0] - 0.5 / np.e) / (h**3 * 12 / (9 * np.sqrt(3))))
     assert 0.005 < max(shares) < 1
+
+
+def plateaus_and_ends(t):
+    """Signals whose neighbours in the table would make tops of their ends, with plateaus, shoulders and rounding."""
+    level = np.round(3 * np.sin(2.3 * t + 0.4))
+    return np.array([np.sin(3 * t), -t, 2 * t, level, np.full(t.size, 5.0), np.repeat(t[::2], 2)[: t.size], -level])
+
+
+@pytest.mark.parametrize("times", [uneven(0.0, 7.0, 80), np.sort(np.round(uneven(0.0, 7.0, 80), 1))])
+def test_signals_side_by_side_have_the_maxima_of_each(times):
+    signals = plateaus_and_ends(times)
+    rows, tops, values = local_maxima_of_rows(times, signals)
+    for number, signal in enumerate(signals):
+        alone = local_maxima(times, signal)
+        np.testing.assert_array_equal((tops[rows == number], values[rows == number]), alone)
+    assert set(rows.tolist()) >= {0, 3, 6}
 
 
 def with_jump(rise):
@@ -268,6 +285,7 @@ T = np.linspace(0, 2, 41)
 @pytest.mark.parametrize(
     "call, words",
     [
+        (lambda: local_maxima_of_rows(T, np.stack([T, np.full(T.size, np.inf)])), r"sample 0 is not finite"),
         (lambda: local_maxima(T, T[:-1]), r"shapes \(41,\) and \(40,\)"),
         (lambda: time_mean(T[:2], T[:2]), "3 samples or more"),
         (lambda: root_mean_square(T, np.where(T[7] == T, np.nan, T)), r"sample 7 is not finite \(t = 0.35, x = nan\)"),

@@ -5,6 +5,7 @@ that a mechanism stated from its crank on starts with the crank where it was sai
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -16,9 +17,9 @@ from drivewright.multibody.compile_model import compile_model, index_of, rows_an
 from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.joints.rows import DISTANCE
 from drivewright.multibody.model import MultibodyModel
-from drivewright.multibody.partition import evaluate_at, partition_coordinates, scaled_jacobian, scaled_residuals
+from drivewright.multibody.partition import evaluate_again, evaluate_at, partition_at, scaled_jacobian, scaled_residuals
 from drivewright.multibody.singular import chart_through
-from drivewright.multibody.system import RESIDUAL, System
+from drivewright.multibody.system import RESIDUAL, System, Work, scratch
 from drivewright.multibody.tree import Tree, build_tree, expand
 from drivewright.numerics.linear import null_space
 
@@ -88,10 +89,12 @@ def assemble(model: MultibodyModel) -> Assembly:
 
 
 def _assemble(model, expanded, tree, system, q):
-    system, q = _close(expanded, tree, system, q)
-    system, findings, folded = _without_redundant_rows(expanded, tree, system, q)
-    system = partition_coordinates(system, q)
-    v, undecided = start_rates(model, expanded, tree, system, q)
+    system, work = _close(expanded, tree, system, q)
+    q, rows = work.coordinates.q.copy(), len(system.rows)
+    system, findings, folded = _without_redundant_rows(expanded, tree, system, work)
+    work = work if len(system.rows) == rows else evaluate_at(system, q)
+    system = partition_at(system, work)
+    v, undecided = start_rates(expanded, tree, system, work)
     if folded:
         system = _on_branch(system, q, v, undecided, folded)
     return Assembly(model, expanded, tree, system, Start(q, v), findings)
@@ -140,23 +143,28 @@ def _slide(body, work, i, p):
 
 
 def _close(expanded, tree, system, q):
-    """(system with the constants of gears and rolling wheels, closed coordinates)."""
+    """(system with the constants of gears and rolling wheels, `Work` at the closed coordinates)."""
     phase = np.isnan(system.rows.constant)
-    loops = system._replace(rows=system.rows[~phase])
+    loops = system._replace(rows=system.rows[~phase]) if np.any(phase) else system
     linear = [k for link in tree.links for k in _places(link)]
     links = {link.turn for link in tree.links if link.body.name.startswith("link:")}
     free = [k for k in system.stored if k not in links]
-    q = _step(loops, q, linear) if linear else q
-    for columns in (_giving_way(expanded, tree, loops, q, free), free, list(system.stored)):
-        closed, miss = _newton(loops, q, columns)
-        if miss < CLOSED:
+    work = evaluate_at(loops, q)
+    if linear:
+        q = _step(loops, work, linear)
+        evaluate_again(loops, work, q)
+    for columns in (_giving_way(expanded, tree, loops, work, free), free, list(system.stored)):
+        if _newton(loops, work, q, columns) < CLOSED:
             break
     else:
-        raise DoesNotAssemble(_does_not_close(expanded, loops, closed))
+        raise DoesNotAssemble(_does_not_close(expanded, loops, work))
+    if loops is system:
+        return system, work
     rows = system.rows.copy()
     rows.constant[phase] = 0.0
-    rows.constant[phase] = evaluate_at(system._replace(rows=rows), closed).row_columns[RESIDUAL, phase]
-    return system._replace(rows=rows), closed
+    rows.constant[phase] = evaluate_at(system._replace(rows=rows), work.coordinates.q).row_columns[RESIDUAL, phase]
+    system = system._replace(rows=rows)
+    return system, evaluate_at(system, work.coordinates.q)
 
 
 def _places(link):
@@ -164,9 +172,9 @@ def _places(link):
     return [k for k in (link.slide, link.free, link.free + 1 if link.free >= 0 else -1) if k >= 0]
 
 
-def _step(system, q, columns):
-    work = evaluate_at(system, q)
-    q = q.copy()
+def _step(system, work, columns):
+    """Coordinates a Newton step on, on some of them."""
+    q = work.coordinates.q.copy()
     if len(system.rows):
         q[columns] -= (
             system.sizes[columns] * np.linalg.lstsq(scaled_jacobian(system, work, columns), scaled_residuals(system, work), rcond=1e-10)[0]
@@ -174,35 +182,38 @@ def _step(system, q, columns):
     return q
 
 
-def _newton(system, q, columns, t=0.0):
-    """(coordinates, largest miss) by Newton's method on some coordinates: least change, damped, at most half a radian, or half the
-    mechanism's length, a step."""
-    work = evaluate_at(system, q, t)
+def _newton(system, work, q, columns, t=0.0):
+    """Largest miss of the loops closed from the coordinates q, in `work`, by Newton's method on some coordinates: least change, damped, at
+    most half a radian, or half the mechanism's length, a step."""
+    evaluate_again(system, work, q, t)
+    off, sizes = scaled_residuals(system, work), system.sizes[columns]
     for _ in range(60):
-        off = scaled_residuals(system, work)
         if np.max(np.abs(off), initial=0.0) < 0.01 * CLOSED or not columns:
             break
         step = np.linalg.lstsq(scaled_jacobian(system, work, columns), off, rcond=1e-12)[0]
         step *= min(1.0, 0.5 / np.max(np.abs(step), initial=1e-300))
+        here = work.coordinates.q.copy()
         for _ in range(10):
-            trial = work.coordinates.q.copy()
-            trial[columns] -= step * system.sizes[columns]
-            better = evaluate_at(system, trial, t)
-            if np.linalg.norm(scaled_residuals(system, better)) < np.linalg.norm(off):
+            trial = here.copy()
+            trial[columns] -= step * sizes
+            evaluate_again(system, work, trial, t)
+            left = scaled_residuals(system, work)
+            if np.linalg.norm(left) < np.linalg.norm(off):
                 break
             step *= 0.5
         else:
+            evaluate_again(system, work, here, t)
             break
-        work = better
-    return work.coordinates.q, np.max(np.abs(scaled_residuals(system, work)), initial=0.0)
+        off = left
+    return np.max(np.abs(off), initial=0.0)
 
 
-def _giving_way(expanded, tree, system, q, free):
+def _giving_way(expanded, tree, system, work, free):
     """As many coordinates as there are rows to close, those of the later bodies first, each able to move what the others cannot."""
     order = {body.name: k for k, body in enumerate(expanded.bodies)}
     links = sorted(tree.links, key=lambda link: -order[link.body.name])
     ranked = [k for link in links for k in _places(link)] + [link.turn for link in links]
-    jacobian = scaled_jacobian(system, evaluate_at(system, q), range(len(q)))
+    jacobian = scaled_jacobian(system, work, range(len(system.sizes)))
     chosen, basis = [], np.zeros((len(system.rows), 0))
     for k in (k for k in ranked if k in free):
         column = jacobian[:, k]
@@ -213,8 +224,7 @@ def _giving_way(expanded, tree, system, q, free):
     return chosen
 
 
-def _does_not_close(expanded, system, q):
-    work = evaluate_at(system, q)
+def _does_not_close(expanded, system, work):
     worst = int(np.argmax(np.abs(scaled_residuals(system, work))))
     row = system.rows[worst]
     joint = expanded.joints[row.joint]
@@ -231,19 +241,18 @@ def _does_not_close(expanded, system, q):
 # ------------------------------------------------------------------------------------------------------ redundancy and split
 
 
-def _without_redundant_rows(expanded, tree, system, q):
+def _without_redundant_rows(expanded, tree, system, work):
     """(system without rows that others imply, a finding for each joint concerned, the joint whose rows others imply only at the start)."""
-    kept = _independent_rows(scaled_jacobian(system, evaluate_at(system, q), system.stored))
+    kept = _independent_rows(scaled_jacobian(system, work, system.stored))
     if len(kept) == len(system.rows):
         return system, (), None
-    nudged, t = _nudge(system, q)
-    again = _independent_rows(scaled_jacobian(system, evaluate_at(system, nudged, t), system.stored))
+    again = _independent_rows(scaled_jacobian(system, _nudged(system, work), system.stored))
     if len(again) > len(kept):
         folded = expanded.joints[system.rows[next(k for k in again if k not in kept)].joint].name
         return system._replace(rows=system.rows[again]), (), folded
     dropped = [k for k in range(len(system.rows)) if k not in kept]
     names = list(dict.fromkeys(expanded.joints[system.rows[k].joint].name for k in dropped))
-    whole = scaled_jacobian(system, evaluate_at(system, q), range(len(q)))
+    whole = scaled_jacobian(system, work, range(len(system.sizes)))
     for k in dropped:
         if np.linalg.matrix_rank(whole[[*kept, k]], RANK) > np.linalg.matrix_rank(whole[kept], RANK):
             raise DoesNotAssemble(
@@ -283,42 +292,47 @@ def _independent_rows(jacobian):
     return kept
 
 
-def _nudge(system, q):
-    """Coordinates and time of the mechanism moved on a little: its drives, and what is free of them at the moment (in a dead point)."""
-    work, q = evaluate_at(system, q), q.copy()
+def _nudged(system, work):
+    """`Work` of the mechanism moved on a little: its drives, and what is free of them at the moment (in a dead point)."""
+    q = work.coordinates.q.copy()
     fastest = np.max(np.abs(work.coordinates.v) / system.sizes, initial=0.0)
-    t = NUDGE / fastest if fastest > 0 else 0.0
-    free = null_space(scaled_jacobian(system, work, system.stored))
+    free, moved = null_space(scaled_jacobian(system, work, system.stored)), scratch(system)
     q[system.stored] += NUDGE * system.sizes[system.stored] * np.sum(free, axis=1)
-    return _newton(system, q, list(system.stored), t)[0], t
+    _newton(system, moved, q, list(system.stored), NUDGE / fastest if fastest > 0 else 0.0)
+    return moved
 
 
 # ------------------------------------------------------------------------------------------------------------------- rates
 
 
-def start_rates(model: MultibodyModel, expanded: MultibodyModel, tree: Tree, system: System, q: Floats) -> tuple[Floats, int]:
-    """(rates of all coordinates, number of freedoms that these leave): driven ones as driven, loops closed, then as near as possible to the
-    rates given for the bodies, then pins with play and links as if they were ideal, and nothing that moves without need."""
-    work = evaluate_at(system, q)
-    size = len(q)
-    pick = np.eye(size)
-    driven = system.driven.coordinate
-    given, together = _given_rates(expanded, tree, system, work), _concentric(model, expanded, tree, system, q)
-    stages = [
-        (pick[driven], work.coordinates.v[driven]),
-        (work.constraint_jacobian / system.rows.extent[:, None], np.zeros(len(system.rows))),
-        given,
-        together,
-    ]
-    x, free = np.zeros(size), np.diag(system.sizes)  # changes of all coordinates alike
-    for matrix, wanted in stages:
-        if len(wanted) and free.shape[1]:
+def start_rates(expanded: MultibodyModel, tree: Tree, system: System, work: Work) -> tuple[Floats, int]:
+    """(rates of all coordinates, number of freedoms that these leave) where `work` stands: driven ones as driven, loops closed, then as
+    near as possible to the rates given for the bodies, then pins with play and links as if they were ideal, and nothing that moves without
+    need."""
+    x, free = np.zeros(len(system.sizes)), np.diag(system.sizes)  # changes of all coordinates alike
+    for stage in (_driven_rates, _closed_loops, partial(_given_rates, expanded, tree), partial(_concentric, expanded, tree)):
+        if not free.shape[1]:
+            break
+        matrix, wanted = stage(system, work)
+        if len(wanted):
             x = x + free @ np.linalg.lstsq(matrix @ free, wanted - matrix @ x, rcond=1e-10)[0]
             free = free @ null_space(matrix @ free, rcond=1e-10)
     return x, free.shape[1]
 
 
+def _driven_rates(system, work):
+    """Rows (matrix, right-hand side) for the rates of all coordinates: the driven ones are given."""
+    driven = system.driven.coordinate
+    return np.eye(len(system.sizes))[driven], work.coordinates.v[driven]
+
+
+def _closed_loops(system, work):
+    """Rows that keep the loops closed."""
+    return work.constraint_jacobian / system.rows.extent[:, None], np.zeros(len(system.rows))
+
+
 def _given_rates(expanded, tree, system, work):
+    """Rows for the rates given for the bodies."""
     rows, wanted = [], []
     for k, link in enumerate(tree.links, start=1):
         if link.body.velocity is not None:
@@ -330,9 +344,9 @@ def _given_rates(expanded, tree, system, work):
     return np.array(rows).reshape(-1, len(work.coordinates)), np.array(wanted)
 
 
-def _concentric(model, expanded, tree, system, q):
+def _concentric(expanded, tree, system, work):
     """Rows that hold pins with play together, and massless links still."""
-    index = index_of(expanded, tree)
+    index, q = index_of(expanded, tree), work.coordinates.q
     rows, _ = rows_and_equations([row for joint in expanded.joints if not joint.is_constraint for row in joint.constraint_rows(index)])
     links = np.eye(len(q))[[link.turn for link in tree.links if link.body.name.startswith("link:")]].reshape(-1, len(q))
     jacobian = np.concatenate([evaluate_at(system._replace(rows=rows), q).constraint_jacobian / system.length, links])

@@ -18,7 +18,7 @@ from drivewright.multibody.index import ModelIndex, unit_axis
 from drivewright.multibody.joints.joint import Joint, RowFields
 from drivewright.multibody.joints.rows import FURTHER, LINEAR, Equations, NoEquations
 from drivewright.multibody.model import JointDrive, MultibodyModel
-from drivewright.multibody.records import Records, record_of, table_of
+from drivewright.multibody.records import Records, table_of
 from drivewright.multibody.system import BODY, CURVE, DRIVEN, PIECE, ROW, System, length_of, no_chart
 from drivewright.multibody.tree import Link, Tree, far_end
 
@@ -46,7 +46,7 @@ def index_of(model: MultibodyModel, tree: Tree) -> ModelIndex:
 def compile_model(model: MultibodyModel, tree: Tree) -> System:
     """`System` of an expanded model; the split into dependent and independent coordinates is not made yet."""
     index = index_of(model, tree)
-    bodies = [record_of(BODY, {"parent": 0, "turn": -1, "slide": -1, "free": -1}), *(_body(link, index) for link in tree.links)]
+    bodies = [{"parent": 0, "turn": -1, "slide": -1, "free": -1, "driven": False}, *(_body(link, index) for link in tree.links)]
     names = [joint.name for joint in model.joints]
     rows = [{**row, "joint": names.index(joint.name)} for joint in tree.closing for row in joint.constraint_rows(index)]
     driven = [_driven(drive, model, tree, index) for drive in model.drives]
@@ -59,11 +59,11 @@ def compile_model(model: MultibodyModel, tree: Tree) -> System:
     if twice := [drive.joint for k, drive in enumerate(model.drives) if given[k] in given[:k]]:
         raise InputError(f"joint {twice[0]!r} is driven twice, or with another joint about the same axis; keep one drive")
     stored = np.array([k for k in range(tree.size) if k not in given], dtype=np.int64)
-    for number, body in enumerate(bodies[1:], start=1):  # parents come first
+    for body in bodies[1:]:  # parents come first
         own = [k for k in (body["turn"], body["slide"], body["free"]) if k >= 0]
-        bodies[number]["driven"] = bool(bodies[int(body["parent"])]["driven"] or not body["parent"]) and all(k in given for k in own)
+        body["driven"] = (bodies[body["parent"]]["driven"] or not body["parent"]) and all(k in given for k in own)
     curves, pieces = _curves(index.curves)
-    table, (row_table, equations) = np.array(bodies).view(np.recarray), rows_and_equations(rows)
+    table, (row_table, equations) = table_of(BODY, bodies), rows_and_equations(rows)
     length = length_of(table, row_table, *(each for each in records.values() if "ax" in (each.dtype.names or ())))
     row_table["extent"] = np.where(_measures_angles(row_table), 1.0, length)
     return System(
@@ -132,7 +132,7 @@ def _curves(curves: Sequence[Curve]) -> tuple[Records, Records]:
     return table_of(CURVE, records), table_of(PIECE, pieces)
 
 
-def _body(link: Link, index: ModelIndex) -> np.ndarray:
+def _body(link: Link, index: ModelIndex) -> dict[str, Any]:
     body, joint = link.body, link.joint
     known: dict[str, Any] = {
         "parent": index.numbers[link.parent],
@@ -144,7 +144,7 @@ def _body(link: Link, index: ModelIndex) -> np.ndarray:
         "inertia": body.inertia,
     }
     if joint is None:
-        return record_of(BODY, known)
+        return known
     mine, theirs = (joint.first, joint.second) if joint.first.body == body.name else (joint.second, joint.first)
     (known["ax"], known["ay"]), (known["bx"], known["by"]) = index.arm(theirs), index.arm(mine)
     if link.slide >= 0:
@@ -152,7 +152,7 @@ def _body(link: Link, index: ModelIndex) -> np.ndarray:
         known |= dict(zip(names, unit_axis(joint.slide_axis, joint.name), strict=True))
     if link.turn < 0:  # the rotation is that of the parent, but for what the start angles differ by
         known["offset"] = body.angle - index.angles[link.parent]
-    return record_of(BODY, known)
+    return known
 
 
 def _driven(drive: JointDrive, model: MultibodyModel, tree: Tree, index: ModelIndex) -> dict[str, float]:

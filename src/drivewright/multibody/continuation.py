@@ -46,36 +46,38 @@ class Stretch:
 @dataclass(frozen=True)
 class Continuation:
     """Stretches one after another, the singular positions passed, the time reached, and whether it is stuck or was asked to stop there,
-    before a singular position."""
+    before a singular position; `refined_until`: the last of the times added, which may lie beyond the end."""
 
     stretches: tuple[Stretch, ...]
     passages: tuple[Passage, ...]
     reached: float
     outcome: str  # "finished", "stuck" or "stopped"
+    refined_until: float = -np.inf
 
 
 def continue_motion(system: System, times: Floats, end: float, y: Floats, stop: bool = False, refine: bool = False) -> Continuation:
     """The `Continuation` of a driven system from its state y at time 0 through ascending times to the end; it ends in the first singular
     position with `stop`.  With `refine` times are added where two branches come near each other and the motion bends sharply."""
-    t, stretches, passages = 0.0, [], []
+    t, stretches, passages, refined_until = 0.0, [], [], -np.inf
     while True:
         ahead = times[times >= t] if not stretches else times[times > t]
         if len(system.chart.offsets) == 0:
-            stretch, code = _carried(system, t, ahead, end, y)
+            stretch, code = carry_on(system, t, ahead, end, y)
         else:
             stretch, code = _across(system, ahead, end, y), REACHED if end <= _leave(system) else WEAK
             if t < system.chart.origin_time < stretch.t_end:
                 if stop:
-                    return Continuation(tuple(stretches), (), system.chart.origin_time, "stopped")
+                    return Continuation(tuple(stretches), (), system.chart.origin_time, "stopped", refined_until)
                 passages.append(_passage(system, y))
         stretches.append(stretch)
         t, y = stretch.t_end, stretch.y_end
         if code != WEAK:
-            return Continuation(tuple(stretches), tuple(passages), t, "finished" if code == REACHED else "stuck")
+            return Continuation(tuple(stretches), tuple(passages), t, "finished" if code == REACHED else "stuck", refined_until)
         outlook = look_ahead(system, t, y) if len(system.chart.offsets) == 0 else Outlook(None, np.inf)
         system = outlook.charted[0] if outlook.charted else _split(system, t, y)
         if refine and not outlook.charted and np.isfinite(outlook.time):
-            times = np.union1d(times, [time for time in t + outlook.time * np.linspace(0.0, 2.0, FINE + 1)[1:] if time < end])
+            added = t + outlook.time * np.linspace(0.0, 2.0, FINE + 1)[1:]
+            times, refined_until = np.union1d(times, added[added < end]), max(refined_until, added[-1])
 
 
 def kernels_of_continuation(system: System) -> list[Callable[[], object]]:
@@ -94,8 +96,9 @@ def _split(system, t, y):
     return partition_into(system, system.dependent, evaluate_at(system, work.coordinates.q, t))
 
 
-def _carried(system, t, times, end, y):
-    """(`Stretch` as far as the determinant stays, why it ends)."""
+def carry_on(system: System, t: float, times: Floats, end: float, y: Floats) -> tuple[Stretch, int]:
+    """(`Stretch` of a driven system without a chart from its state y at the time t through ascending times to the end, why it ends:
+    REACHED, STUCK, or WEAK where the determinant of the loops has left the decade about its reference)."""
     moving, y = motion(system), y.copy()
     ways = np.append(times, end)
     states = np.empty((len(ways), len(y)))
@@ -141,6 +144,7 @@ def continue_through(
     times (m,) [s], states (m, n), y and rates (n,) as in `loads.apply_forces`.
     """
     t = start
+    update_kinematics(system, work, t, y)
     for n in range(times.size):
         t, code = continue_to(system, work, t, times[n], y, rates)
         if code != REACHED:
@@ -153,11 +157,10 @@ def continue_through(
 @inner
 def continue_to(system: System, work: Work, t: float, end: float, y: Floats, rates: Floats) -> tuple[float, int]:
     """Carry the dependent coordinates in y on to the time `end`, in steps small enough to stay on the same branch: (time reached, why it
-    ends).  rates is scratch, of the size of y.
+    ends).  `work` holds the state at t, and in the end that at `end` where it gets there; rates is scratch, of the size of y.
 
     y (n,) as in `loads.apply_forces`.
     """
-    update_kinematics(system, work, t, y)
     step, size = end - t, jacobian_determinant(system, work)
     while t != end:
         if validity_of_split(system, work) <= 0.0:

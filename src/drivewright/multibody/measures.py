@@ -8,6 +8,7 @@ from drivewright._typing import Floats
 from drivewright.numerics import signals
 
 LARGEST = 5  # peaks of which the coefficient is the mean
+BLOCK = 2**17  # samples at a time: what is known of each takes some ten times the space of its value
 EVEN = 3.0  # neighbouring steps whose sizes differ by more than this are no place for a parabola
 
 
@@ -28,26 +29,35 @@ def peaks(t: Floats, x: Floats) -> tuple[Floats, Floats]:
 
     In a signal with impacts the steps differ by orders of magnitude; there the sample itself counts.
     """
-    times, values = signals.local_maxima(t, x)
+    _, times, values = _peaks_of_rows(t, x[None])
+    return times, values
+
+
+def _peaks_of_rows(t, x):
+    """(rows, times, values) of the `peaks` of signals x (k, m)."""
+    rows, times, values = signals.local_maxima_of_rows(t, x)
     at = np.clip(np.searchsorted(t, times), 1, len(t) - 2)
-    at = np.where(x[at - 1] > x[at], at - 1, at)
-    at = np.clip(np.where(x[np.minimum(at + 1, len(t) - 1)] > x[at], at + 1, at), 1, len(t) - 2)
+    at = np.where(x[rows, at - 1] > x[rows, at], at - 1, at)
+    at = np.clip(np.where(x[rows, np.minimum(at + 1, len(t) - 1)] > x[rows, at], at + 1, at), 1, len(t) - 2)
     before, after = t[at] - t[at - 1], t[at + 1] - t[at]
     even = (before < EVEN * after) & (after < EVEN * before)
-    return np.where(even, times, t[at]), np.where(even, values, x[at])
+    return rows, np.where(even, times, t[at]), np.where(even, values, x[rows, at])
+
+
+def highest(t: Floats, x: Floats) -> Floats:
+    """Largest values (k,) of signals x (k, m) over the samples and the vertices between them."""
+    top = np.max(x, axis=1)
+    if len(t) > 2:
+        step = max(1, BLOCK // len(t))
+        for first in range(0, len(x), step):
+            rows, _, values = _peaks_of_rows(t, x[first : first + step])
+            np.maximum.at(top, first + rows, values)
+    return top
 
 
 def largest(t: Floats, x: Floats) -> float:
     """Largest of |x| over the samples and the vertices between them."""
-    size = np.abs(x)
-    inner = peaks(t, size)[1] if len(t) > 2 else np.empty(0)
-    return float(max(np.max(size), np.max(inner, initial=0.0)))
-
-
-def span(t: Floats, x: Floats) -> float:
-    """Largest less least value of samples (m,), vertices between them included."""
-    inner = [peaks(t, part)[1] for part in (x, -x)] if len(t) > 2 else [np.empty(0)] * 2
-    return float(max(np.max(x), np.max(inner[0], initial=-np.inf)) + max(np.max(-x), np.max(inner[1], initial=-np.inf)))
+    return float(highest(t, np.abs(x)[None])[0])
 
 
 def impact_load(t: Floats, x: Floats, ideal_peak: float, period: float | None) -> ImpactLoad:

@@ -15,11 +15,16 @@ from drivewright.numerics.small import SINGULAR
 def evaluate_at(system: System, q: Floats, t: float = 0.0, v: Floats | None = None) -> Work:
     """`Work` with driven coordinates set, bodies placed and rows measured at the coordinates q."""
     work = scratch(system)
-    work.coordinates["q"] = q
     if v is not None:
         work.coordinates["v"] = v
-    evaluate_at_time(system, work, t)
+    evaluate_again(system, work, q, t)
     return work
+
+
+def evaluate_again(system: System, work: Work, q: Floats, t: float = 0.0) -> None:
+    """The same into `work` that held other coordinates."""
+    work.coordinates["q"] = q
+    evaluate_at_time(system, work, t)
 
 
 def scaled_jacobian(system: System, work: Work, coordinates: Ints | Sequence[int] | range) -> Floats:
@@ -34,14 +39,22 @@ def scaled_residuals(system: System, work: Work) -> Floats:
 
 def partition_coordinates(system: System, q: Floats, t: float = 0.0) -> System:
     """The system with its coordinates split at q so that the dependent ones follow as firmly as possible."""
-    work = evaluate_at(system, q, t)
-    pivots = pivot_order(scaled_jacobian(system, work, system.stored)) if len(system.rows) else np.zeros(0, int)
-    return partition_into(system, np.sort(system.stored[pivots[: len(system.rows)]]), work)
+    return partition_at(system, evaluate_at(system, q, t))
+
+
+def partition_at(system: System, work: Work) -> System:
+    """The same at what `work` holds."""
+    dependent = system.stored
+    if len(system.rows) < len(dependent):
+        pivots = pivot_order(scaled_jacobian(system, work, dependent)) if len(system.rows) else np.zeros(0, int)
+        dependent = np.sort(dependent[pivots[: len(system.rows)]])
+    return partition_into(system, dependent, work)
 
 
 def partition_into(system: System, dependent: Ints, work: Work) -> System:
     """The system with the given coordinates dependent and without a chart, its determinant measured at what `work` holds."""
-    independent = np.array([k for k in system.stored if k not in dependent], dtype=np.int64)
+    following = set(dependent.tolist())
+    independent = np.array([k for k in system.stored.tolist() if k not in following], dtype=np.int64)
     contacts, place = system.contacts.copy(), len(system.stored) + len(independent)
     for contact in contacts:
         contact.memory, place = place, place + 1

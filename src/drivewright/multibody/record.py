@@ -44,7 +44,8 @@ class Record:
 
     def after(self, time: float) -> "Record":
         """The part from a time on."""
-        return self.take(self.t >= time)
+        keep = self.t >= time
+        return self if np.all(keep) else self.take(keep)
 
     def take(self, keep: Bools | Ints) -> "Record":
         """The chosen rows."""
@@ -94,18 +95,19 @@ def _parts(assembly, stretch, markers, start):
 def marker_motion(assembly: Assembly, record: Observed, marker: Marker) -> Floats:
     """POINT_FIELDS (m, 9) of a marker's motion: angle of its body with rates, place with rates."""
     number = assembly.names.index(marker.body)
-    x, y, angle, vx, vy, w, ax, ay, alpha = np.moveaxis(record.bodies[:, number, :9], 1, 0)
+    x, y, angle, vx, vy, w, ax, ay, alpha = np.ascontiguousarray(record.bodies[:, number, :9].T)
     cx, cy = next((body.centroid for body in assembly.expanded.bodies if body.name == marker.body), (0.0, 0.0))
     dx, dy = marker.x - cx, marker.y - cy
-    px, py = np.cos(angle) * dx - np.sin(angle) * dy, np.sin(angle) * dx + np.cos(angle) * dy
-    return np.stack(
-        [angle, w, alpha, x + px, y + py, vx - w * py, vy + w * px, ax - alpha * py - w * w * px, ay + alpha * px - w * w * py], axis=1
-    )
+    c, s = np.cos(angle), np.sin(angle)
+    px, py = c * dx - s * dy, s * dx + c * dy
+    return np.array(
+        [angle, w, alpha, x + px, y + py, vx - w * py, vy + w * px, ax - alpha * py - w * w * px, ay + alpha * px - w * w * py]
+    ).T
 
 
 def energy_of(system: System, record: Observed) -> tuple[Floats, Floats]:
     """(kinetic energy and energy of gravity, kinetic energy alone) [J]."""
     x, y, _, vx, vy, w = np.moveaxis(record.bodies[:, :, : FIELDS.index("ax")], 2, 0)
     mass, inertia = system.bodies.mass, system.bodies.inertia
-    kinetic = np.sum(0.5 * mass * (vx**2 + vy**2) + 0.5 * inertia * w**2, axis=1)
+    kinetic = 0.5 * ((vx**2 + vy**2) @ mass + w**2 @ inertia)
     return kinetic - (system.gravity_x * x + system.gravity_y * y) @ mass, kinetic

@@ -12,17 +12,22 @@ Values: TypeAlias = Mapping[str, float]  # field -> value of one record; what is
 
 def record_type(integers: str, reals: str) -> np.dtype:
     """The type of a record with integer and real fields, their names apart by blanks."""
-    return np.dtype([(name, np.int64) for name in integers.split()] + [(name, np.float64) for name in reals.split()])
-
-
-def record_of(kind: np.dtype, values: Values) -> np.ndarray:
-    """One record (a 0-d array)."""
-    record = np.zeros((), kind)
-    for name, value in values.items():
-        record[name] = value
-    return record
+    fields = [(name, np.int64) for name in integers.split()] + [(name, np.float64) for name in reals.split()]
+    return np.dtype((np.record, fields))
 
 
 def table_of(kind: np.dtype, rows: Iterable[Values]) -> Records:
     """Records (n,) of a kind."""
-    return np.array([record_of(kind, row) for row in rows], dtype=kind).view(np.recarray)
+    return np.array([_members(kind, row) for row in rows], kind).view(np.recarray)
+
+
+def empty_table(kind: np.dtype, *shape: int) -> Records:
+    """Records of a kind, all of them zero."""
+    return np.zeros(shape, kind).view(np.recarray)
+
+
+def _members(kind, values):
+    """The values in the order of the fields."""
+    if unknown := values.keys() - kind.fields.keys():
+        raise ValueError(f"a record has no field {', '.join(map(repr, sorted(unknown)))}; there are: {', '.join(kind.names)}")
+    return tuple(values.get(name, 0) for name in kind.names)

@@ -71,6 +71,7 @@ class Run:
     steps: int
     until: float
     passages: tuple[Passage, ...] = ()
+    refined_until: float = -np.inf
 
     def __post_init__(self):
         note_stop(self.stop)
@@ -325,7 +326,9 @@ def _driven(assembly, times, end, settings, refine):
     if continuation.outcome == "stuck":
         raise DoesNotAssemble(_stuck(assembly, continuation.reached, end))
     advice = stop_advice(continuation.reached) if continuation.outcome == "stopped" else ""
-    return Run(assembly, continuation.stretches, np.zeros((0, 3)), advice, len(times), end, continuation.passages)
+    return Run(
+        assembly, continuation.stretches, np.zeros((0, 3)), advice, len(times), end, continuation.passages, continuation.refined_until
+    )
 
 
 def _stuck(assembly, t, end):

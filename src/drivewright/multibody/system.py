@@ -14,7 +14,7 @@ from drivewright._jit import by_reference
 from drivewright._typing import Floats, Ints
 from drivewright.multibody.forces.contact import Laws, NoLaws
 from drivewright.multibody.joints.rows import Equations, NoEquations
-from drivewright.multibody.records import Records, record_type
+from drivewright.multibody.records import Records, empty_table, record_type
 
 # r = r_parent + R_parent (a + s e) - R (b + s f), s the slide: one of e and f is 0.  `free`: x, y are coordinates free, free + 1.
 # `driven`: it follows the drives alone.
@@ -128,19 +128,19 @@ def scratch(system: System) -> Work:
     """Fresh `Work` for a system; every thread needs its own."""
     bodies, given, rows, free = len(system.bodies), len(system.driven), len(system.rows), len(system.independent)
     n = len(system.stored) + given
-    poses, partial_velocities = np.zeros(bodies, POSE), np.zeros((bodies, n), PARTIAL_VELOCITY)
+    poses, partial_velocities = empty_table(POSE, bodies), empty_table(PARTIAL_VELOCITY, bodies, n)
     poses["c"] = 1.0  # of the angle 0
     partial_velocities["t"] = rotation_velocities(system.bodies, n)
     return Work(
-        np.zeros(n, COORDINATE).view(np.recarray),
-        poses.view(np.recarray),
-        partial_velocities.view(np.recarray),
+        empty_table(COORDINATE, n),
+        poses,
+        partial_velocities,
         np.zeros((rows, n)),
         np.zeros((rows, rows)),
         np.zeros(rows),
         np.zeros((3, rows)),
         np.zeros((rows, free + given)),
-        np.zeros((bodies, free), PARTIAL_VELOCITY).view(np.recarray),
+        empty_table(PARTIAL_VELOCITY, bodies, free),
         np.zeros((free, free)),
         np.zeros(free),
         np.zeros(free),
@@ -157,8 +157,8 @@ def no_chart(independent: int = 0, dependent: int = 0) -> Chart:
 
 def length_of(*tables: Records) -> float:
     """The largest arm in tables of records: how large the mechanism is [m]; 1 where all are zero."""
-    arms = [np.abs(table[name]).max(initial=0.0) for table in tables for name in ("ax", "ay", "bx", "by") if name in table.dtype.names]
-    return max(arms, default=0.0) or 1.0
+    arms = [table[name] for table in tables for name in ("ax", "ay", "bx", "by") if name in table.dtype.names]
+    return float(np.max(np.abs(np.concatenate([np.zeros(1), *arms])))) or 1.0
 
 
 def motion(system: System) -> Motion:

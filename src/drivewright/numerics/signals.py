@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from drivewright._typing import ArrayLike, Floats
+from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError
 from drivewright.numerics.splines import Cubics, cubic_spline
 
@@ -23,17 +23,37 @@ def local_maxima(t: ArrayLike, x: ArrayLike) -> tuple[Floats, Floats]:
     (rise) k^2/(4 h (h + k)) above the samples where a step k follows: sample such a rise evenly.
     """
     t, x = _signal(t, x)
-    first = np.flatnonzero(np.append(True, np.diff(x) != 0))  # where each run of equal samples begins ...
+    _, times, values = _maxima(t, x[None])
+    return times, values
+
+
+def local_maxima_of_rows(t: ArrayLike, x: ArrayLike) -> tuple[Ints, Floats, Floats]:
+    """(rows, times, values) of the `local_maxima` of many signals x (k, m) at the same times t (m,), one row after the other."""
+    t, x = np.asarray(t, dtype=float), np.asarray(x, dtype=float)
+    if x.shape[1:] == t.shape and t.size >= 3 and np.all(np.isfinite(t)) and np.all(np.isfinite(x)) and np.all(np.diff(t) > 0):
+        return _maxima(t, x)
+    found = [local_maxima(t, row) for row in x]  # of times that repeat each row keeps its own samples
+    rows = np.repeat(np.arange(len(found)), [times.size for times, _ in found])
+    return rows, np.concatenate([times for times, _ in found]), np.concatenate([values for _, values in found])
+
+
+def _maxima(t, x):
+    """(rows, times, values) of the inner maxima of signals x (k, m) over ascending times t (m,)."""
+    begins = np.ones(x.shape, bool)
+    begins[:, 1:] = x[:, 1:] != x[:, :-1]
+    length, t, x = t.size, np.broadcast_to(t, x.shape).ravel(), x.ravel()
+    first = np.flatnonzero(begins)  # where each run of equal samples begins ...
     last = np.append(first[1:], x.size) - 1  # ... and ends
     level = x[first]
     top = 1 + np.flatnonzero((level[1:-1] > level[:-2]) & (level[1:-1] > level[2:]))
+    top = top[(first[top] % length > 0) & (last[top] % length < length - 1)]
     first, last = first[top], last[top]
     before = _vertex(t, x, first - 1, first, first + 1)
     after = before if np.array_equal(first, last) else _vertex(t, x, last - 1, last, last + 1)
     flat = last - first > 1
     plateau = 0.5 * (t[first] + t[last]), x[first]
     times, tops = (np.where(flat, level, 0.5 * (a + b)) for a, b, level in zip(before, after, plateau, strict=True))
-    return times, tops
+    return first // length, times, tops
 
 
 def _vertex(t, x, i, j, k):

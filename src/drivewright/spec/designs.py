@@ -1,7 +1,7 @@
 """Many designs in one spec: arrays in the place of its numbers, for formulas that take arrays; nothing is validated again."""
 
 import operator
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -37,18 +37,36 @@ def evaluator(
     if not set(names) <= set(known):
         return None
 
+    def blocks(columns, rows):
+        for start in range(0, len(rows), BLOCK):
+            block = rows[start : start + BLOCK]
+            everything = quantities(with_columns(spec, {key: column[block] for key, column in columns.items()}))
+            wanted = {name: np.broadcast_to(everything[name], block.shape) for name in names}
+            exist = np.all([np.isfinite(column) for column in wanted.values()], axis=0)
+            yield block[exist], {name: column[exist] for name, column in wanted.items()}
+
+    return evaluator_of_blocks(keys, names, possible, blocks)
+
+
+def evaluator_of_blocks(
+    keys: Sequence[str],
+    names: Sequence[str],
+    possible: Callable[[Mapping[str, Floats], int], Bools],
+    blocks: Callable[[Mapping[str, Floats], Ints], Iterable[tuple[Ints, Mapping[str, Numbers]]]],
+) -> Callable[[Floats], dict[str, Floats]]:
+    """designs (n, keys) in SI -> {name: (n,)}; nan in every name of an impossible design, and in a name that a block does not give.
+
+    possible: columns and their length -> which designs the spec accepts; blocks: columns and the numbers of these designs -> some of the
+    designs, with their numbers by name, block by block.
+    """
+
     def evaluate(designs: Floats) -> dict[str, Floats]:
         """{name: (n,)} of designs (n, d)."""
         columns = dict(zip(keys, np.asarray(designs, float).T, strict=True))
         values = {name: np.full(len(designs), np.nan) for name in names}
-        accepted = np.flatnonzero(possible(columns, len(designs)))
-        for start in range(0, len(accepted), BLOCK):
-            rows = accepted[start : start + BLOCK]
-            everything = quantities(with_columns(spec, {key: column[rows] for key, column in columns.items()}))
-            wanted = [np.broadcast_to(everything[name], rows.shape) for name in names]
-            exist = np.all(np.isfinite(wanted), axis=0)
-            for name, column in zip(names, wanted, strict=True):
-                values[name][rows[exist]] = column[exist]
+        for rows, given in blocks(columns, np.flatnonzero(possible(columns, len(designs)))):
+            for name, column in values.items():
+                column[rows] = given.get(name, np.nan)
         return values
 
     return evaluate
@@ -82,6 +100,11 @@ def sample_of(spec: MechanismSpec, key: str) -> float:
     """A number that the key can have: the spec's own where it has one."""
     own = value_at(spec, key)
     return float(own) if isinstance(own, (int, float)) else 1.0
+
+
+def with_samples(spec: SpecT, keys: Sequence[str]) -> SpecT:
+    """The spec with a number at those of the keys where it has none."""
+    return with_columns(spec, {key: sample_of(spec, key) for key in keys if value_at(spec, key) is None})
 
 
 def with_columns(spec: SpecT, columns: Mapping[str, Numbers]) -> SpecT:

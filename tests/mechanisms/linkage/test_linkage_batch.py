@@ -10,6 +10,7 @@ from drivewright.errors import DrivewrightError
 from drivewright.execution.keys import key_kind
 from drivewright.execution.outputs import case_outputs
 from drivewright.multibody.analyses.repeated_turn import repeated_turn
+from drivewright.multibody.analyses.simulation_model import run_of
 from drivewright.runner import run_analyses, select_analyses
 from drivewright.spec import document, from_document, set_key, value_at
 from drivewright.studies.sweeps import sweep
@@ -185,21 +186,28 @@ def test_gears_repeat_where_both_wheels_come_round(ratio, alike):
     assert_same(spec, {"bodies.crank.points.C.0": (0.008, 0.010), "joints.gears.ratio": (ratio, ratio)}, count=3)
 
 
-def parallelogram(rocker):
+def parallelogram(rocker, start=50.0):
     """Cranks of 40 mm that come in line with the frame twice a turn, or nearly so."""
     spec = document(four_bar(2.0))
     spec["ground"]["points"]["O4"] = ["100 mm", "0 mm"]
-    spec["bodies"]["crank"]["angle"] = spec["bodies"]["rocker"]["angle"] = "50 deg"
+    spec["bodies"]["crank"]["angle"] = spec["bodies"]["rocker"]["angle"] = f"{start} deg"
     spec["bodies"]["rocker"] |= {"centroid": ["20 mm", "0 mm"], "points": {"O4": ["0 mm", "0 mm"], "B": [f"{rocker} mm", "0 mm"]}}
     spec["bodies"]["coupler"]["angle"] = "0 deg"
     return from_document(spec | {"outputs": [{"name": "point", "body": "coupler", "point": "C"}]})
 
 
-@pytest.mark.parametrize("rocker", [40.0, 40.01])
-def test_a_linkage_that_folds_or_nearly_so_has_the_whole_run(rocker):
-    spec = parallelogram(rocker)
+@pytest.mark.parametrize(
+    ("rocker", "start", "alike"),
+    [
+        (40.0, 50.0, NOT_ALIKE),  # it folds
+        (40.01, 50.0, NOT_ALIKE),  # the first turn splits its coordinates a sample before the others do
+        (40.05, 30.0, EVERY_TURN),
+    ],
+)
+def test_a_linkage_that_folds_or_nearly_so_has_the_whole_run_unless_all_turns_split_alike(rocker, start, alike):
+    spec = parallelogram(rocker, start)
     model = LINKAGE.build(spec)
-    assert repeated_turn(model) is model
+    assert (repeated_turn(model) is not model) == alike
     assert_same(spec, {"bodies.crank.mass": (0.1, 0.3), "drive.speed": (20.0, 30.0)}, count=2)
 
 
@@ -209,6 +217,31 @@ def test_a_run_that_stops_before_a_fold_has_no_values():
     found = LINKAGE.batch(spec, ("drive.speed",), ("point.swing",))(np.array([[20.0]]))
     assert np.isfinite(found["point.swing"]).all()
     assert LINKAGE.batch(stopping, ("drive.speed",), ("point.swing",)) is None
+
+
+def leg(angle=0.0, crank=15.0, speed=60.0):
+    """The example of ten bars, whose loops come so near to folding that their coordinates are split anew twice a turn."""
+    tables = document(dw.load(EXAMPLES / "jansen_leg.toml"))
+    tables["bodies"]["crank"] |= {"angle": f"{angle} deg", "points": {"O": ["0 mm", "0 mm"], "P": [f"{crank} mm", "0 mm"]}}
+    return from_document(tables | {"drive": {"joint": "shaft", "speed": f"{speed} rpm"}, "simulate": {"turns": 2.5}})
+
+
+@pytest.mark.parametrize(
+    ("changes", "splits", "alike"),
+    [
+        ({}, 2, EVERY_TURN),
+        ({"angle": 105.0, "crank": 15.3, "speed": -60.0}, 2, EVERY_TURN),
+        ({"angle": 45.0}, 2, NOT_ALIKE),  # samples added in the first turn go on over the second one
+        ({"angle": -60.0}, 2, NOT_ALIKE),
+    ],
+)
+def test_a_turn_in_which_coordinates_are_split_anew_stands_for_those_with_the_same_splits(changes, splits, alike):
+    spec = leg(**changes)
+    model = LINKAGE.build(spec)
+    turn = repeated_turn(model)
+    assert len([part for part in run_of(model).stretches if part.t_end < model.turn_length]) == splits
+    assert (turn is not model) == alike
+    assert_same(spec, {"bodies.foot.mass": (0.05, 0.09)}, ("motion", "energy", "forces"), 2)
 
 
 # -- what a search does with it ------------------------------------------------------------------------------------------------

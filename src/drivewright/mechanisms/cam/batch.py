@@ -17,7 +17,7 @@ from drivewright.mechanisms.cam.profiles import finished_profiles, is_untrimmed,
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.result import Answer
 from drivewright.spec import value_at
-from drivewright.spec.designs import accepted_blocks, numbers_of, sample_of, with_columns, within_limits
+from drivewright.spec.designs import accepted_blocks, evaluator_of_blocks, numbers_of, with_columns, with_samples, within_limits
 
 BLOCK = 32  # designs at a time: their samples over the turn stay in the processor's cache
 TABLES = ("follower", "conjugate", "groove", "drive", "load", "spring", "face", "manufacture", "limits")
@@ -33,22 +33,17 @@ def batch(spec: CamSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[
     rest = [key for key in keys if key not in of_motion]
     if not all(_is_number(spec, key) for key in rest):
         return None
-    measures = _measures(with_columns(spec, {key: sample_of(spec, key) for key in rest if value_at(spec, key) is None}), names)
+    measures = _measures(with_samples(spec, rest), names)
     if measures is None:
         return None
 
-    def evaluate(designs: Floats) -> dict[str, Floats]:
-        """{name: (n,)} of designs (n, d), nan for an impossible one."""
-        columns = dict(zip(keys, np.asarray(designs, float).T, strict=True))
-        values = {name: np.full(len(designs), np.nan) for name in names}
-        accepted = np.flatnonzero(within_limits(type(spec), columns, len(designs)))
-        for motion, rows in _by_motion(columns, of_motion, accepted):
-            for own, found in _of_one_motion(with_columns(spec, motion), {key: columns[key] for key in rest}, rows, measures):
-                for name, column in values.items():
-                    column[own] = found.get(name, np.nan)
-        return values
+    def by_motion(columns, rows):
+        """(rows, {name: (n,)}) of the designs that nothing refuses."""
+        varied = {key: columns[key] for key in rest}
+        for motion, own in _by_motion(columns, of_motion, rows):
+            yield from _of_one_motion(with_columns(spec, motion), varied, own, measures)
 
-    return evaluate
+    return evaluator_of_blocks(keys, names, partial(within_limits, type(spec)), by_motion)
 
 
 def _is_of_motion(spec, key):

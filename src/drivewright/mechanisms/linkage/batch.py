@@ -1,9 +1,8 @@
 """Many linkages at once: the values of a run without its tables, of one turn where every turn is like it."""
 
 from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import NamedTuple
-
-import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.errors import DrivewrightError, SolverError
@@ -20,7 +19,7 @@ from drivewright.multibody.analyses.simulation_model import run_of
 from drivewright.multibody.analyses.singular_positions import passage_count
 from drivewright.result import Answer
 from drivewright.spec import value_at
-from drivewright.spec.designs import accepted_blocks, numbers_of, sample_of, with_columns, within_limits
+from drivewright.spec.designs import accepted_blocks, evaluator_of_blocks, numbers_of, with_columns, with_samples, within_limits
 
 TABLES = ("gravity", "ground", "bodies", "joints", "springs", "rotational_springs", "torques", "forces", "drive", "simulate", "limits")
 
@@ -49,25 +48,19 @@ def batch(spec: LinkageSpec, keys: Sequence[str], names: Sequence[str]) -> Calla
     """
     if not all(_is_number(spec, key) for key in keys):
         return None
-    measures = _measures(with_columns(spec, {key: sample_of(spec, key) for key in keys if value_at(spec, key) is None}), names)
+    measures = _measures(with_samples(spec, keys), names)
     if measures is None:
         return None
 
-    def evaluate(designs: Floats) -> dict[str, Floats]:
-        """{name: (n,)} of designs (n, d), nan for an impossible one."""
-        columns = dict(zip(keys, np.asarray(designs, float).T, strict=True))
-        values = {name: np.full(len(designs), np.nan) for name in names}
+    def one_by_one(columns, rows):
+        """(rows, {name: number}) of the designs that nothing refuses."""
 
-        def measured(rows):
-            return _measured(with_columns(spec, {key: float(column[rows[0]]) for key, column in columns.items()}), measures)
+        def measured(row):
+            return _measured(with_columns(spec, {key: float(column[row[0]]) for key, column in columns.items()}), measures)
 
-        accepted = np.flatnonzero(within_limits(type(spec), columns, len(designs)))
-        for row, found in accepted_blocks(accepted, measured, 1):
-            for name, column in values.items():
-                column[row] = found.get(name, np.nan)
-        return values
+        return accepted_blocks(rows, measured, 1)
 
-    return evaluate
+    return evaluator_of_blocks(keys, names, partial(within_limits, type(spec)), one_by_one)
 
 
 def _is_number(spec, key):

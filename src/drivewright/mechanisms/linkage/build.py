@@ -24,9 +24,9 @@ class LinkageModel(SimulationModel):
 def build(spec: LinkageSpec) -> LinkageModel:
     """The `LinkageModel` of a LinkageSpec."""
     try:
-        ideal = assemble(describe(spec, ideal=True))
         whole = describe(spec)
-        assembly = assemble(whole) if any(joint.play for joint in whole.joints) else ideal
+        assembly = assemble(whole)
+        ideal = assemble(describe(spec, ideal=True)) if any(joint.play for joint in whole.joints) else assembly
     except DoesNotAssemble as error:
         raise DoesNotAssemble(f"linkage: {error}") from None
     run, limits = spec.simulate, spec.limits

@@ -9,12 +9,14 @@ import numpy as np
 
 from drivewright.multibody.analyses.simulation_model import TURN, SimulationModel, run_of
 from drivewright.multibody.analyses.turns import start_of_window
+from drivewright.multibody.continuation import WEAK, carry_on
 from drivewright.multibody.forces.load import ANGLE, TIME
 from drivewright.multibody.observe import FIELDS, observe
 from drivewright.multibody.simulate import GRID
 from drivewright.multibody.system import System
 
 OVERLAP = 4  # samples beyond the turn: each sample of a turn has neighbours on both sides, as in the middle of a longer run
+COUNT = OVERLAP + 1  # samples at either end of the turn that are the same
 SAME = 1e-9  # of its size to which everything is the same one turn later
 ALIGNED = 1e-6  # of a sample
 
@@ -23,7 +25,7 @@ def repeated_turn(model: SimulationModel) -> SimulationModel:
     """A model that runs for one turn, and has every extreme, of a motion or a force, that the run of `model` has in its window.
 
     The model itself where it is not known to repeat itself: with freedom, without turns, with loads of another period, in a run that
-    passes a singular position or has samples elsewhere in each turn, or where an output turns all the way round.
+    passes a singular position, splits its coordinates or has samples elsewhere in each turn, or where an output turns all the way round.
     """
     if not _may_repeat(model):
         return model
@@ -53,19 +55,39 @@ def _loads_repeat(system: System, period: float) -> bool:
 
 
 def _repeats(turn):
-    """Whether a run of a turn ends as it began: poses, but for whole rotations, rates, accelerations, loads and drives."""
-    run, count = run_of(turn), OVERLAP + 1
-    first = run.stretches[0]
-    if run.advice or run.passages or len(run.stretches) > 1 or len(first.t) != GRID + count:
+    """Whether a run of a turn ends as it began, and is the first of many alike."""
+    run = run_of(turn)
+    t, y = (np.concatenate([getattr(part, name) for part in run.stretches]) for name in ("t", "y"))
+    later = np.max(np.abs(t[-COUNT:] - t[:COUNT] - turn.turn_length))
+    if run.advice or any(len(part.system.chart.offsets) for part in run.stretches) or later > ALIGNED * turn.turn_length / GRID:
         return False
-    ends = [*range(count), *range(GRID, GRID + count)]
-    observed = observe(first.system, first.t[ends], first.y[ends])
+    return _ends_as_it_began(turn, t, y) and _splits_alike(turn, run)
+
+
+def _splits_alike(turn, run):
+    """Whether the turns that follow split their coordinates, and add samples on the way to where branches come near each other, as a run
+    of the first one does.  A split is made where the determinant of the loops has changed by a decade since the one before, and what
+    follows from a split depends on the pose alone: so all are alike where the first one of the second turn is that of the first turn."""
+    first, last = run.stretches[0], run.stretches[-1]
+    if first is last:
+        return True
+    if run.refined_until > turn.turn_length or last.t[0] > turn.turn_length:
+        return False
+    grid = np.linspace(0.0, run.until, GRID + COUNT)
+    again, code = carry_on(last.system, 0.0, grid, run.until, turn.assembly.state)
+    return code == WEAK and again.t_end == first.t_end
+
+
+def _ends_as_it_began(turn, t, y):
+    """Whether poses, but for whole rotations, rates, accelerations, loads and drives of the last samples are those of the first ones."""
+    ends = [*range(COUNT), *range(len(t) - COUNT, len(t))]
+    observed = observe(turn.assembly.system, t[ends], y[ends])
     angle, outputs = FIELDS.index("angle"), [turn.assembly.names.index(output.body) for output in turn.outputs]
-    change, turned = observed.bodies[count:] - observed.bodies[:count], observed.drives[count:] - observed.drives[:count]
+    change, turned = observed.bodies[COUNT:] - observed.bodies[:COUNT], observed.drives[COUNT:] - observed.drives[:COUNT]
     if np.any(np.abs(change[:, outputs, angle]) > SAME):
         return False
     change[:, :, angle] -= TURN * np.rint(change[:, :, angle] / TURN)
-    sizes = np.max(np.abs(observed.bodies[:count]), axis=(0, 1))
+    sizes = np.max(np.abs(observed.bodies[:COUNT]), axis=(0, 1))
     sizes[angle] = 1.0
     same = np.abs(turned) <= SAME * np.max(np.abs(observed.drives), axis=0)
     return bool(np.all(np.abs(change) <= SAME * sizes) and np.all(same))

@@ -7,7 +7,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.multibody.analyses.energy_audit import Audit, audit, audit_of_samples
 from drivewright.multibody.analyses.simulation_model import Output, SimulationModel, ideal_record, record_of, run_of
-from drivewright.multibody.measures import ImpactLoad, impact_load, largest, peaks, span
+from drivewright.multibody.measures import ImpactLoad, highest, impact_load, largest, peaks
 from drivewright.multibody.observe import PIN_FIELDS, POWER_FIELDS, concatenate, observe
 from drivewright.multibody.reactions import reactions
 from drivewright.multibody.record import Record, record
@@ -53,10 +53,10 @@ def output_numbers(model: SimulationModel, run: Run) -> RunNumbers:
     record, numbers = window_record(model, run), RunNumbers()
     ends = turn_ends(model, start, record.t[-1])
     turns = ends if model.assembly.freedom else ends[:1]  # kinematics is exact, and nobody looks at its turns one by one
-    for output in model.outputs:
-        _motion(record, output, turns, numbers)
-        if model.has_play:
-            add_impact_load(record, output, ends, numbers, ideal_peak(model, output))
+    if model.outputs:
+        _motions(record, model.outputs, turns, numbers)
+    for output in model.outputs if model.has_play else ():
+        add_impact_load(record, output, ends, numbers, ideal_peak(model, output))
     if model.assembly.model.drives:
         torque = np.max(np.abs(record.drives), axis=1)
         numbers.whole["drive.torque"] = float(np.max(torque))
@@ -117,16 +117,28 @@ def audit_of_run(model: SimulationModel, run: Run) -> Audit:
     return audit_of_samples(run_record) if model.assembly.freedom == 0 else audit(run_record)  # kinematics has samples, not steps
 
 
-def _motion(record, output, ends, numbers):
-    """Largest magnitudes and the range of the angle of an output, in SI."""
-    name, angle = output.name, record.point(output.name, "angle")
-    sizes = {"alpha": np.abs(record.point(name, "alpha"))} | ({"acceleration": acceleration(record, output)[0]} if output.point else {})
-    numbers.whole.update({f"{name}.{key}": largest(record.t, x) for key, x in sizes.items()} | {f"{name}.swing": span(record.t, angle)})
+def _motions(record, outputs, ends, numbers):
+    """Largest magnitudes and the ranges of the angles of the outputs, in SI."""
+    sizes = {f"{output.name}.{key}": x for output in outputs for key, x in _sizes(record, output).items()}
+    angles = {f"{output.name}.swing": record.point(output.name, "angle") for output in outputs}
+    top = highest(record.t, np.array([*sizes.values(), *angles.values(), *(-angle for angle in angles.values())]))
+    largest_sizes, above, below = np.split(top, [len(sizes), len(sizes) + len(angles)])
+    numbers.whole.update(zip(sizes, largest_sizes.tolist(), strict=True))
+    numbers.whole.update(zip(angles, (above + below).tolist(), strict=True))
     if len(ends) > 1:
-        numbers.turns.update({f"{name}.{key}": largest_per_turn(*peaks(record.t, x), ends) for key, x in sizes.items()})
-        low, high = np.min(angle), np.max(angle)
-        above, below = largest_per_turn(record.t, angle - low, ends), largest_per_turn(record.t, high - angle, ends)
-        numbers.turns[f"{name}.swing"] = above + below - (high - low)
+        numbers.turns.update({name: largest_per_turn(*peaks(record.t, x), ends) for name, x in sizes.items()})
+        numbers.turns.update({name: _range_per_turn(record.t, angle, ends) for name, angle in angles.items()})
+
+
+def _sizes(record, output):
+    """{name: magnitude (m,)} of the accelerations of an output."""
+    size = {"alpha": np.abs(record.point(output.name, "alpha"))}
+    return size | ({"acceleration": acceleration(record, output)[0]} if output.point else {})
+
+
+def _range_per_turn(t, x, ends):
+    low, high = np.min(x), np.max(x)
+    return largest_per_turn(t, x - low, ends) + largest_per_turn(t, high - x, ends) - (high - low)
 
 
 def add_impact_load(record: Record, output: Output, ends: Floats, numbers: RunNumbers, peak: float) -> None:
