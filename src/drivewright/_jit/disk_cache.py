@@ -79,8 +79,6 @@ class KernelCache:
 
     def _from_another_process(self, file):
         """What another process is compiling at this moment, once it is there; None where this one is to compile it, and holds the lock."""
-        if fcntl is None:
-            return None
         with contextlib.suppress(OSError):  # no locks on this disk: two may compile the same
             lock, began = os.open(file.with_suffix(".lock"), os.O_RDWR | os.O_CREAT, 0o600), time.monotonic()
             while time.monotonic() - began < PATIENCE and not _takes(lock):
@@ -136,7 +134,9 @@ class KernelCache:
 
 
 def _takes(lock):
-    """Whether this process holds the lock now; another one may."""
+    """Whether this process holds the lock now; another one may.  Where a system has no such locks, two may compile the same."""
+    if fcntl is None:
+        return True
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
