@@ -56,7 +56,8 @@ from drivewright._jit import kernel
 def factor(k):
     return {factor} * k
 """
-START = "import platformdirs, pathlib; platformdirs.user_cache_path = lambda *a, **k: pathlib.Path({cache!r})\n"
+# bytecode is told apart by whole seconds, and one file is written twice within one
+START = "import sys, platformdirs, pathlib; sys.dont_write_bytecode = True; platformdirs.user_cache_path = lambda *a, **k: pathlib.Path({cache!r})\n"
 REPORT = "print({call}, sum(work.stats.cache_hits.values()), sum(work.stats.cache_misses.values()))"
 
 
