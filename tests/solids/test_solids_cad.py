@@ -266,7 +266,7 @@ def test_triangles_are_counted_before_they_are_made(monkeypatch):
     """The count is that of equal sides: it grows as area over tolerance, and the mesh has about as many."""
     counts = []
     monkeypatch.setattr(cad, "counted", lambda count, *rest: counts.append(float(count)))
-    meshes = [len(cad.cad_triangles(stepped(length), tolerance)[1]) for length, tolerance in ((0.2, 1e-5), (0.4, 1e-5), (0.4, 5e-6))]
-    assert counts[1] - counts[0] == pytest.approx(2 * np.pi * 0.02 * 0.2 / (np.sqrt(3) / 4 * 8 * 0.02e-5), rel=1e-3)
+    meshes = [len(cad.cad_triangles(stepped(length), tolerance)[1]) for length, tolerance in ((0.2, 1.6e-4), (0.4, 1.6e-4), (0.4, 8e-5))]
+    assert counts[1] - counts[0] == pytest.approx(2 * np.pi * 0.02 * 0.2 / (np.sqrt(3) / 4 * 8 * 0.02 * 1.6e-4), rel=1e-3)
     assert counts[2] == pytest.approx(2 * counts[1], rel=1e-6)
     assert all(0.5 * count < mesh < 4 * count for mesh, count in zip(meshes, counts, strict=True))
