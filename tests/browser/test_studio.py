@@ -162,7 +162,6 @@ def test_undo_and_redo(studio, tab):
 def test_compare_draws_the_design_before(studio, tab):
     page = tab(studio[0])
     analysed(page)
-    page.evaluate("document.querySelector('.dw-button').click()")
     page.get_by_test_id("compare").click()
     if page.evaluate(f"{STATE}.reference === null"):
         page.get_by_text("Pin this design").first.click()
