@@ -16,7 +16,7 @@ from drivewright.multibody.joints.joint import Joint
 from drivewright.multibody.observe import Observed
 from drivewright.multibody.system import System
 from drivewright.multibody.wrenches import ObservedBodies, Reaction, Wrench, cross
-from drivewright.numerics.linear import null_space
+from drivewright.numerics.linear import null_space, pseudo_inverse
 
 CHUNK = 2000  # states at a time: bounds the memory
 RANK = 1e-10  # singular values below this part of the largest are those of redundant constraints
@@ -165,7 +165,7 @@ def _resultants(system, observed, length):
 def _balance(columns, resultants, rank=RANK):
     """(sizes of the unknowns, residual): least squares, least norm, corrected once for rounding."""
     resultants, largest = resultants
-    inverse = np.linalg.pinv(columns, rcond=rank)
+    inverse = pseudo_inverse(columns, rank)
     sizes = np.einsum("mub,mb->mu", inverse, resultants)
     left = resultants - np.einsum("mbu,mu->mb", columns, sizes)
     sizes += np.einsum("mub,mb->mu", inverse, left)
