@@ -35,7 +35,7 @@ def studio():
 
 @pytest.fixture
 def tab(browser):
-    """Opens tabs, their drawings at rest, for they keep a core busy; afterwards none of them may have complained, or asked for anything outside."""
+    """Opens tabs, their drawings at rest, for they keep a core busy; afterwards none may have complained, or asked for anything outside."""
     contexts, complaints = [], []
 
     def open_it(address, width=1440, height=900, motion="reduce"):

@@ -57,7 +57,11 @@ def factor(k):
     return {factor} * k
 """
 # bytecode is told apart by whole seconds, and one file is written twice within one
-START = "import sys, platformdirs, pathlib; sys.dont_write_bytecode = True; platformdirs.user_cache_path = lambda *a, **k: pathlib.Path({cache!r})\n"
+START = """
+import sys, platformdirs, pathlib
+sys.dont_write_bytecode = True
+platformdirs.user_cache_path = lambda *a, **k: pathlib.Path({cache!r})
+"""
 REPORT = "print({call}, sum(work.stats.cache_hits.values()), sum(work.stats.cache_misses.values()))"
 
 
