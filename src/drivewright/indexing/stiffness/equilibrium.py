@@ -21,6 +21,7 @@ from drivewright.indexing.stiffness.minimise import (
     minimise_energy,
     solve_regularised,
 )
+from drivewright.indexing.stiffness.newton import is_compiled, minimise_by_position
 
 USUAL = 1e9  # N/m: stiffness to start from where only pins could yield
 HARD = 1e3  # rigid contacts: the method's k, over that of all other parts together
@@ -76,9 +77,14 @@ def solve_equilibrium(assembly: DrivetrainAssembly, torque: float, touching: Boo
     stiff, start = _start(system, typical, touching)
     law = parts[0].law
     if not isinstance(law, RigidContactLaw):
-        return _state(assembly, system, minimise_energy(system, start, assembly.lever), torque)
+        return _state(assembly, system, _minimum(system, start, assembly.lever), torque)
     system, minimum = _unyielding(system, law._replace(k=stiff), start, assembly.lever)
     return _state(assembly, system, minimum, torque)
+
+
+def _minimum(system: ConvexEnergy, start: Floats, bound: float) -> EnergyMinimum:
+    """In compiled code where all laws are, else by NumPy."""
+    return (minimise_by_position if is_compiled(system) else minimise_energy)(system, start, bound)
 
 
 def _start(system: ConvexEnergy, force: float, touching: Bools) -> tuple[Floats, Floats]:
@@ -119,7 +125,7 @@ def _unyielding(system: ConvexEnergy, law: RigidContactLaw, start: Floats, bound
     y, steps, rounds = start, 0, 0
     while True:
         system = system._replace(parts=(pins._replace(law=law), *system.parts[1:]))
-        minimum = minimise_energy(system, y, bound)
+        minimum = _minimum(system, y, bound)
         y, steps = minimum.y, steps + minimum.steps
         force = law(pins.strain(y))[1]
         change, noise = np.abs(force - law.multipliers), ROUNDING * law.k * np.abs(y).max(axis=1, initial=0.0)[:, None, None]
