@@ -145,13 +145,13 @@ def sample_pin_path(wheel: PinWheelSizes, table: LawTable, theta: Floats) -> Pin
     count = len(theta)
     size = count * wheel.pins
     z, v, a = np.empty(size, np.complex128), np.empty(size, np.complex128), np.empty(size, np.complex128)
+    ways = np.exp(2j * np.pi * np.arange(wheel.pins) / wheel.pins)
     for j in range(count):
         arm_0 = pin_centre_at(wheel, table, theta[j], 0)
         crank = wheel.eccentricity * np.exp(1j * wheel.sense * theta[j])
         crank_rate = 1j * wheel.sense * crank
         for turn in range(wheel.pins):
-            ahead = np.exp(2j * np.pi * turn / wheel.pins)
-            k = turn * count + j
+            k, ahead = turn * count + j, ways[turn]
             z[k] = (arm_0[0] + crank) * ahead - crank
             v[k] = (arm_0[1] + crank_rate) * ahead - crank_rate
             a[k] = (arm_0[2] - crank) * ahead + crank
@@ -235,20 +235,24 @@ def _foot_distance_squared(path, arm, k):
 
 
 @kernel
-def find_exposed_samples(path: PinPath, cells: CellGrid, radius: float, margin: float) -> Bools:
-    """(2, samples): True where no pin covers the point of the envelope, left of the centre's travel, then right of it."""
+def find_exposed_samples(path: PinPath, cells: CellGrid, radius: float, margin: float, least: float = 0.0, most: float = np.inf) -> Bools:
+    """(2, samples): True where no pin covers the point of the envelope, left of the centre's travel, then right of it.
+
+    least, most [m]: points nearer to the cam's axis or further from it are not looked at, and not exposed.
+    """
     exposed = np.zeros((2, len(path.z)), np.bool_)
-    _mark_exposed(path, cells, radius, margin, exposed, np.zeros(1, np.int64))
+    _mark_exposed(path, cells, radius, margin, least, most, exposed, np.zeros(1, np.int64))
     return exposed
 
 
 @inner
-def _mark_exposed(path, cells, radius, margin, exposed, last_cover):
+def _mark_exposed(path, cells, radius, margin, least, most, exposed, last_cover):
     """Writes `exposed` (2, samples); last_cover (1,): the sample that covered the point before."""
     for side in range(2):
         for k in range(len(path.z)):
             point = path.z[k] + (1 - 2 * side) * radius * 1j * path.v[k] / abs(path.v[k])
-            exposed[side, k] = not is_covered(path, cells, radius, margin, point, k, last_cover)
+            if least <= abs(point) <= most:
+                exposed[side, k] = not is_covered(path, cells, radius, margin, point, k, last_cover)
 
 
 @inner

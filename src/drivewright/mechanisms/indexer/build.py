@@ -1,9 +1,9 @@
 """From the spec to a wheel with its cams and to what yields between wheel and input, in SI and in plain data."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import Literal, TypeVar
+from functools import cached_property, wraps
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
@@ -22,6 +22,7 @@ from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refus
 from drivewright.mechanisms.indexer.spec import IndexerBearings, IndexerShafts, IndexerSpec
 
 PartT = TypeVar("PartT")
+ResultT = TypeVar("ResultT")
 STEP = np.deg2rad(4.5)  # of the input, from position to position
 
 
@@ -34,6 +35,7 @@ class IndexerModel:
     train: drivetrain.Drivetrain | None = None
     rolling: Mapping[str, BallBearing | RollerBearing] = field(default_factory=dict)
     findings: tuple[str, ...] = ()
+    results: dict[str, Any] = field(default_factory=dict, init=False, repr=False)  # of `once`
 
     @property
     def wheel(self) -> PinWheel:
@@ -97,6 +99,19 @@ class IndexerModel:
         """Effective modulus of pin and cam [Pa]."""
         card = materials.material(self.spec.contact.material)
         return card.modulus / (2 * (1 - card.poisson**2))
+
+
+def once(function: Callable[[IndexerModel], ResultT]) -> Callable[[IndexerModel], ResultT]:
+    """Decorator: what several analyses of a model need is computed by the first and kept with the model."""
+
+    @wraps(function)
+    def kept(model: IndexerModel) -> ResultT:
+        name = function.__name__
+        if name not in model.results:
+            model.results[name] = function(model)
+        return model.results[name]
+
+    return kept
 
 
 def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT:
