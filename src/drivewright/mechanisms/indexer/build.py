@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property, wraps
+from functools import cached_property, lru_cache, wraps
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -124,7 +124,7 @@ def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT
 def build(spec: IndexerSpec) -> IndexerModel:
     """The `IndexerModel` of a spec; InputError where it has no cam."""
     refuse_contradictions(spec)
-    moving = index_motion(law_name(spec), spec.pins, motion_to_dwell(spec), **law_parameters(spec))
+    moving = _index_motion(law_name(spec), spec.pins, motion_to_dwell(spec), **law_parameters(spec))
     if spec.kind not in TRANSLATING:
         return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=tuple(unused(spec)))
     wheel = PinWheel(spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "eccentricity"), moving, spec.side)
@@ -159,6 +159,9 @@ def _globoidal(spec: IndexerSpec, moving: IndexMotion) -> RollerGear:
 def _barrel(spec: IndexerSpec, moving: IndexMotion) -> RollerGear:
     length, radius, cam_length = (required(spec, key) for key in ("pin_length", "cam_radius", "cam_length"))
     return barrel(moving, spec.pin_circle_radius, spec.pin_radius, length, radius, cam_length, spec.centre_distance, spec.hand)
+
+
+_index_motion = lru_cache(maxsize=16)(index_motion)  # designs of one search have it in common, more often than not
 
 
 OTHERS = {"parallel": _parallel, "globoidal": _globoidal, "barrel": _barrel}
