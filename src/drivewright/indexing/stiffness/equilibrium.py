@@ -71,7 +71,8 @@ class EquilibriumState(NamedTuple):
 def solve_equilibrium(assembly: DrivetrainAssembly, torque: float, touching: Bools) -> EquilibriumState:
     """The `EquilibriumState` under a torque; touching (p, k): pin contacts without a gap, which are taken as closed to start with."""
     typical = abs(torque) / assembly.lever
-    linear = assembly.basis.transpose(0, 2, 1) @ _linear(assembly) @ assembly.basis
+    basis = _once(assembly.basis)
+    linear = np.broadcast_to(basis.transpose(0, 2, 1) @ _linear(assembly) @ basis, (len(assembly.basis), *basis.shape[2:] * 2))
     parts = tuple(_term(group, group.law, assembly.basis) for group in assembly.groups if group.law is not None)
     system = ConvexEnergy(linear, parts, load_vector(assembly, torque))
     stiff, start = _start(system, typical, touching)
@@ -116,7 +117,18 @@ def _linear(assembly: DrivetrainAssembly) -> Floats:
 
 def _term(group: NonlinearGroup, law: StrainLaw, basis: Floats) -> ConvexTerm:
     """The group as a term of the energy of the free unknowns."""
-    return ConvexTerm((flatten_rows(group.rows) @ basis).reshape(*group.rows.shape[:3], basis.shape[2]), group.offset, law)
+    rows, way = flatten_rows(_once(group.rows)), _once(basis)
+    if len(way) == 1:  # one product of two matrices
+        free = (rows.reshape(-1, rows.shape[2]) @ way[0]).reshape(*rows.shape[:2], way.shape[2])
+    else:
+        free = rows @ way
+    shape = (*group.rows.shape[:3], basis.shape[2])
+    return ConvexTerm(np.broadcast_to(free.reshape(len(free), *shape[1:]), shape), group.offset, law)
+
+
+def _once(array: Floats) -> Floats:
+    """(1, ...) of what is the same at all positions (p, ...), else the array itself."""
+    return array[:1] if array.strides[0] == 0 else array
 
 
 def _unyielding(system: ConvexEnergy, law: RigidContactLaw, start: Floats, bound: float) -> tuple[ConvexEnergy, EnergyMinimum]:

@@ -164,17 +164,19 @@ def _measured(spec: IndexerSpec, measures: Sequence[Measure], play: bool) -> tup
         refuse_contradictions(spec)
         return {}, np.nan
     model = build(spec)
-    quick = sampled(model.wheel)
-    own = replace(model, drive=quick)
-    return {name: number for measure in measures for name, number in numbers_of(measure(own))}, quick.values(play)
+    wheel = sampled(model.wheel)
+    quick = replace(model, drive=wheel)
+    found = {name: number for measure in measures for name, number in numbers_of(measure(quick))}
+    return found, wheel.values(play)
 
 
 def _measures(spec: IndexerSpec, names: Iterable[str]) -> list[Measure] | None:
     """The measures of the names that no compiled code gives; None where one of the names is not among them."""
     missing, chosen = set(names) - COMPILED, []
     try:
-        for measure in MEASURES if missing else ():
-            own = _measured(spec, [measure], False)[0].keys() & missing
+        model = replace(built := build(spec), drive=sampled(built.wheel)) if missing else None
+        for measure in MEASURES if model else ():
+            own = dict(numbers_of(measure(model))).keys() & missing
             if own:
                 chosen.append(measure)
                 missing -= own
