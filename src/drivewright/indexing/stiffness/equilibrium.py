@@ -1,7 +1,7 @@
 """The equilibrium of an `DrivetrainAssembly` under a torque, and the force in every part of it, rigid ones included."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -21,7 +21,6 @@ from drivewright.indexing.stiffness.minimise import (
     minimise_energy,
     solve_regularised,
 )
-from drivewright.indexing.stiffness.newton import is_compiled, minimise_by_position
 
 USUAL = 1e9  # N/m: stiffness to start from where only pins could yield
 HARD = 1e3  # rigid contacts: the method's k, over that of all other parts together
@@ -29,6 +28,8 @@ HARDER = 1e3  # ... and the same again for their tangent, where what is left is 
 RIGIDITY = 1e-6  # least share of the other parts in a usual compliance: below it nothing yields
 ROUND_LIMIT = 30
 EXACT = 1e-12  # of the load: change of the multipliers of rigid contacts
+
+Minimiser: TypeAlias = Callable[[ConvexEnergy, Floats, float], EnergyMinimum]  # as `minimise_energy`
 
 
 class _PartMotion(NamedTuple):
@@ -68,24 +69,30 @@ class EquilibriumState(NamedTuple):
     steps: int
 
 
-def solve_equilibrium(assembly: DrivetrainAssembly, torque: float, touching: Bools) -> EquilibriumState:
-    """The `EquilibriumState` under a torque; touching (p, k): pin contacts without a gap, which are taken as closed to start with."""
+def solve_equilibrium(assembly: DrivetrainAssembly, torque: float, touching: Bools, compiled: bool = False) -> EquilibriumState:
+    """The `EquilibriumState` under a torque; touching (p, k): pin contacts without a gap, which are taken as closed to start with.
+
+    compiled: by Newton's method in compiled code where all laws are, else by NumPy; it pays for many designs.
+    """
     typical = abs(torque) / assembly.lever
     basis = _once(assembly.basis)
     linear = np.broadcast_to(basis.transpose(0, 2, 1) @ _linear(assembly) @ basis, (len(assembly.basis), *basis.shape[2:] * 2))
     parts = tuple(_term(group, group.law, assembly.basis) for group in assembly.groups if group.law is not None)
     system = ConvexEnergy(linear, parts, load_vector(assembly, torque))
+    minimise = _minimiser(system) if compiled else minimise_energy
     stiff, start = _start(system, typical, touching)
     law = parts[0].law
     if not isinstance(law, RigidContactLaw):
-        return _state(assembly, system, _minimum(system, start, assembly.lever), torque)
-    system, minimum = _unyielding(system, law._replace(k=stiff), start, assembly.lever)
+        return _state(assembly, system, minimise(system, start, assembly.lever), torque)
+    system, minimum = _unyielding(system, law._replace(k=stiff), start, assembly.lever, minimise)
     return _state(assembly, system, minimum, torque)
 
 
-def _minimum(system: ConvexEnergy, start: Floats, bound: float) -> EnergyMinimum:
-    """In compiled code where all laws are, else by NumPy."""
-    return (minimise_by_position if is_compiled(system) else minimise_energy)(system, start, bound)
+def _minimiser(system: ConvexEnergy) -> Minimiser:
+    """In compiled code where all laws are."""
+    from drivewright.indexing.stiffness.newton import is_compiled, minimise_by_position
+
+    return minimise_by_position if is_compiled(system) else minimise_energy
 
 
 def _start(system: ConvexEnergy, force: float, touching: Bools) -> tuple[Floats, Floats]:
@@ -131,13 +138,13 @@ def _once(array: Floats) -> Floats:
     return array[:1] if array.strides[0] == 0 else array
 
 
-def _unyielding(system: ConvexEnergy, law: RigidContactLaw, start: Floats, bound: float) -> tuple[ConvexEnergy, EnergyMinimum]:
+def _unyielding(system: ConvexEnergy, law: RigidContactLaw, start: Floats, bound: float, minimise: Minimiser) -> tuple[ConvexEnergy, EnergyMinimum]:
     """Method of multipliers (Hestenes, Powell): the force of a round becomes the multiplier, until it does not change."""
     pins, size = system.parts[0], np.abs(system.load).max(initial=0.0)
     y, steps, rounds = start, 0, 0
     while True:
         system = system._replace(parts=(pins._replace(law=law), *system.parts[1:]))
-        minimum = _minimum(system, y, bound)
+        minimum = minimise(system, y, bound)
         y, steps = minimum.y, steps + minimum.steps
         force = law(pins.strain(y))[1]
         change, noise = np.abs(force - law.multipliers), ROUNDING * law.k * np.abs(y).max(axis=1, initial=0.0)[:, None, None]

@@ -35,7 +35,7 @@ from drivewright.indexing.stiffness.minimise import (
 
 LEAST_PIVOT = 1e-3  # of the floor: what rounding leaves of less
 LINE, SPRING, RIGID, RADIAL, SECOND = range(5)  # kinds of strain; SECOND: y of the bearing whose x stands before it
-COMPILED = (PinContactLaw, RigidContactLaw, GearFlankLaw, RadialBearingLaw)
+COMPILED: tuple[type, ...] = (PinContactLaw, RigidContactLaw, GearFlankLaw, RadialBearingLaw)
 
 
 @by_reference
@@ -140,11 +140,10 @@ def minimise_by_position(system: ConvexEnergy, start: Floats, bound: float) -> E
 
 @warmer
 def warm_positions() -> None:
-    """Compile for `doctor --warm`, and ahead of the first run of a pin wheel."""
-    energy = PositionEnergy(
-        np.ones((1, 1, 1)), np.ones((1, 1)), np.ones((1, 1, 1)), np.zeros((1, 1)), np.full(1, SPRING), np.ones((1, 3)), np.zeros((1, 1)), np.ones(1)
-    )
-    minimise_positions(energy, newton_work(1, 1), 1.0, np.ones((1, 1)), np.ones((1, 1, 1)), np.zeros(1, dtype=bool))
+    """Compile for `doctor --warm`."""
+    one, square = np.ones((1, 1)), np.ones((1, 1, 1))
+    energy = PositionEnergy(square, one, square, one, np.full(1, SPRING), np.ones((1, 3)), one, np.ones(1))
+    minimise_positions(energy, newton_work(1, 1), 1.0, one, square, np.zeros(1, dtype=bool))
 
 
 @inner

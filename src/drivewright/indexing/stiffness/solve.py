@@ -27,12 +27,14 @@ def solve_torsional_stiffness(
     cams: int = 2,
     sense: float = 1,
     model: Literal["unilateral", "bonded"] = "unilateral",
+    compiled: bool = False,
 ) -> TorsionalStiffness:
     """The `TorsionalStiffness` of a `Drivetrain` under a torque [N m] on the wheel, positive along +phi.
 
     theta (p,) [rad]; contacts: `CamContacts` of cam 0, one a position, of the unloaded wheel, or of the wheel turned by its play;
     sense: +1 the cam's centre runs at eccentricity exp(i theta), -1 at exp(-i theta).
     model: "unilateral" - contacts press, also those whose gap closes; "bonded" - the intended ones without a gap stick, no others.
+    compiled: solve in compiled code where all laws are; the same to the solver's tolerance, and worth its compilation for many designs.
     """
     angles = np.atleast_1d(np.asarray(theta, dtype=float))
     _check(drive, angles, contacts, torque, cams, model)
@@ -42,7 +44,7 @@ def solve_torsional_stiffness(
     pins = pad_contacts([contacts[int(i)] for i in here], [kept[int(i)] for i in here])
     centres = (eccentricity * np.exp(1j * sense * angles[here])).astype(np.complex128)
     assembly = assemble_drivetrain(drive, cams, centres, pins, bonded)
-    state = solve_equilibrium(assembly, torque, np.tile(pins.gap < CONTACT_GAP, cams))
+    state = solve_equilibrium(assembly, torque, np.tile(pins.gap < CONTACT_GAP, cams), compiled)
     return collect_result(drive, angles, torque, model, kept, assembly, state, here)
 
 

@@ -165,7 +165,7 @@ def _measured(spec: IndexerSpec, measures: Sequence[Measure], play: bool) -> tup
         return {}, np.nan
     model = build(spec)
     wheel = sampled(model.wheel)
-    quick = replace(model, drive=wheel)
+    quick = replace(model, drive=wheel, compiled=True)
     found = {name: number for measure in measures for name, number in numbers_of(measure(quick))}
     return found, wheel.values(play)
 
@@ -174,7 +174,7 @@ def _measures(spec: IndexerSpec, names: Iterable[str]) -> list[Measure] | None:
     """The measures of the names that no compiled code gives; None where one of the names is not among them."""
     missing, chosen = set(names) - COMPILED, []
     try:
-        model = replace(built := build(spec), drive=sampled(built.wheel)) if missing else None
+        model = replace(built := build(spec), drive=sampled(built.wheel), compiled=True) if missing else None
         for measure in MEASURES if model else ():
             own = dict(numbers_of(measure(model))).keys() & missing
             if own:

@@ -28,13 +28,17 @@ STEP = np.deg2rad(4.5)  # of the input, from position to position
 
 @dataclass(frozen=True, eq=False)
 class IndexerModel:
-    """The drive (PinWheel, ParallelIndexer or RollerGear), the drive train of a pin wheel, and its rolling bearings by table name."""
+    """The drive (PinWheel, ParallelIndexer or RollerGear), the drive train of a pin wheel, and its rolling bearings by table name.
+
+    compiled: whether its equilibria are solved in compiled code, as those of many designs.
+    """
 
     spec: IndexerSpec
     drive: PinWheel | ParallelIndexer | RollerGear
     train: drivetrain.Drivetrain | None = None
     rolling: Mapping[str, BallBearing | RollerBearing] = field(default_factory=dict)
     findings: tuple[str, ...] = ()
+    compiled: bool = False
     results: dict[str, Any] = field(default_factory=dict, init=False, repr=False)  # of `once`
 
     @property
@@ -77,7 +81,7 @@ class IndexerModel:
     @property
     def loaded_wheel(self) -> LoadedWheel:
         """The pin wheel with its drive train, for the stiffness; of translating kinds alone."""
-        return LoadedWheel(self.wheel, _of_kind(self.train, drivetrain.Drivetrain), self.spec.cams, self.spec.contact.model)
+        return LoadedWheel(self.wheel, _of_kind(self.train, drivetrain.Drivetrain), self.spec.cams, self.spec.contact.model, self.compiled)
 
     @property
     def crank_bearing(self) -> Entry | None:
