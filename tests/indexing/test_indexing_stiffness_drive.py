@@ -1,4 +1,8 @@
-"""Torsional stiffness of a pin-wheel indexer: what must hold for any drive, and an independent route by forces alone."""
+"""Torsional stiffness of a pin-wheel indexer: what must hold for any drive, by NumPy and in compiled code, and an independent route by
+forces alone."""
+
+import sys
+from functools import partial
 
 import numpy as np
 import pytest
@@ -24,6 +28,11 @@ GEARED = LINEAR._replace(
     support=PowerLawBearing(2e10, 1.5, 2e-6),
     gear=GearMesh(0.025, 2.8e8, np.radians(20), 1e-5),
 )
+
+
+@pytest.fixture(autouse=True, params=[False, True], ids=["numpy", "compiled"])
+def _route(request, monkeypatch):
+    monkeypatch.setattr(sys.modules[__name__], "solve_torsional_stiffness", partial(solve_torsional_stiffness, compiled=request.param))
 
 
 def touching(theta, seed=0, gaps=0.0, sense=1.0, wheel=R, crank=E):

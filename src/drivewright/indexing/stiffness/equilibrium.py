@@ -138,7 +138,9 @@ def _once(array: Floats) -> Floats:
     return array[:1] if array.strides[0] == 0 else array
 
 
-def _unyielding(system: ConvexEnergy, law: RigidContactLaw, start: Floats, bound: float, minimise: Minimiser) -> tuple[ConvexEnergy, EnergyMinimum]:
+def _unyielding(
+    system: ConvexEnergy, law: RigidContactLaw, start: Floats, bound: float, minimise: Minimiser
+) -> tuple[ConvexEnergy, EnergyMinimum]:
     """Method of multipliers (Hestenes, Powell): the force of a round becomes the multiplier, until it does not change."""
     pins, size = system.parts[0], np.abs(system.load).max(initial=0.0)
     y, steps, rounds = start, 0, 0

@@ -183,4 +183,6 @@ def _beam_of(shaft: SplitShaft) -> "Beam":
     """The `shafts.beam.Beam` of a split shaft, a node at its supports and stations."""
     from drivewright.shafts.beam import beam
 
-    return beam(Shaft(shaft.sections, shaft.modulus, shaft.poisson, 0.0, (), shear=EULER_BERNOULLI), (*shaft.supports, *station_positions(shaft)))
+    return beam(
+        Shaft(shaft.sections, shaft.modulus, shaft.poisson, 0.0, (), shear=EULER_BERNOULLI), (*shaft.supports, *station_positions(shaft))
+    )

@@ -126,7 +126,9 @@ def position_energy(system: ConvexEnergy) -> PositionEnergy:
             penalty[:] = np.broadcast_to(part.law.k, (p, 1, 1))[:, 0, 0]
         first += count
     linear = system.linear[:1] if system.linear.strides[0] == 0 else system.linear
-    return PositionEnergy(np.ascontiguousarray(linear), np.ascontiguousarray(system.load), rows, offset, kind, constants, multiplier, penalty)
+    return PositionEnergy(
+        np.ascontiguousarray(linear), np.ascontiguousarray(system.load), rows, offset, kind, constants, multiplier, penalty
+    )
 
 
 def minimise_by_position(system: ConvexEnergy, start: Floats, bound: float) -> EnergyMinimum:

@@ -65,7 +65,9 @@ def _who_carries(contacts: Sequence[CamContacts], torque: float, bonded: bool) -
     """
     if not contacts:
         return [], np.zeros(0, dtype=bool)
-    gap, arm, centre, intended = (np.concatenate([getattr(each, name) for each in contacts]) for name in ("gap", "arm", "centre", "intended"))
+    gap, arm, centre, intended = (
+        np.concatenate([getattr(each, name) for each in contacts]) for name in ("gap", "arm", "centre", "intended")
+    )
     counts = np.array([len(each.gap) for each in contacts])
     touching = gap < CONTACT_GAP
     kept = touching & intended if bonded else np.isfinite(gap)
