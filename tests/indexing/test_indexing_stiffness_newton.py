@@ -179,7 +179,8 @@ def test_drives(name, model, torque):
 
 def test_a_law_without_a_formula_of_single_strains_goes_by_numpy():
     drive, angles = DRIVE._replace(support=bearing("61904")), [0.4]
-    assert not is_compiled(ConvexEnergy(np.zeros((1, 1, 1)), (ConvexTerm(*np.zeros((2, 1)), radial_bearing_law(drive.support)),), np.ones((1, 1))))
+    term = ConvexTerm(np.zeros((1, 1, 2, 1)), np.zeros((1, 1, 2)), radial_bearing_law(drive.support))
+    assert not is_compiled(ConvexEnergy(np.zeros((1, 1, 1)), (term,), np.ones((1, 1))))
     found = [solve_torsional_stiffness(drive, angles, [contacts(0.4, 2e-5)], 0.01, 900.0, compiled=each).secant for each in (True, False)]
     np.testing.assert_array_equal(*found)
 

@@ -70,7 +70,8 @@ def evaluate_pin_wheels(
     """`PinWheelValues` of N pin wheels that share law (a MotionLaw), number of pins and side.
 
     circle_radius, pin_radius, eccentricity [m], motion_angle [rad] (2 pi: no dwell): arrays (N,) or numbers.  An impossible design, as
-    pins that overlap, is a row of nan and no error.  Without `play` its columns are nan.  The number of `workers` (None: one per core) changes no digit.
+    pins that overlap, is a row of nan and no error.  Without `play` its columns are nan.  The number of `workers` (None: one per core)
+    changes no digit.
     """
     if law.continuity < 1 and law.name != "uniform":
         raise InputError(f"designs: the velocity of law {law.name!r} jumps; give a law that starts and ends at rest, or uniform motion.")

@@ -30,7 +30,7 @@ class SampledPinWheel(PinWheel):
             raise InputError("profile: the pins leave nothing of the cam; take smaller pins or a smaller eccentricity")
         return found
 
-    @property
+    @cached_property
     def nodes(self) -> Nodes:
         """The profile as nodes; InputError where no cam is left."""
         return self.cam.nodes

@@ -81,10 +81,18 @@ class NewtonWork(NamedTuple):
 
 def newton_work(unknowns: int, strains: int) -> NewtonWork:
     """Empty work arrays."""
-    square, of_strains = (strains, unknowns), [np.empty(strains) for _ in range(5)]
-    entries, column = np.empty(strains, np.int64), np.empty(square, np.int64)
     return NewtonWork(
-        entries, column, np.empty(square), *of_strains, np.empty(unknowns), np.empty(unknowns), np.empty((unknowns, unknowns))
+        np.empty(strains, np.int64),
+        np.empty((strains, unknowns), np.int64),
+        np.empty((strains, unknowns)),
+        np.empty(strains),
+        np.empty(strains),
+        np.empty(strains),
+        np.empty(strains),
+        np.empty(strains),
+        np.empty(unknowns),
+        np.empty(unknowns),
+        np.empty((unknowns, unknowns)),
     )
 
 

@@ -165,17 +165,24 @@ def _measured(spec: IndexerSpec, measures: Sequence[Measure], play: bool) -> tup
         return {}, np.nan
     model = build(spec)
     wheel = sampled(model.wheel)
-    quick = replace(model, drive=wheel, compiled=True)
+    quick = _quick(model, wheel)
     found = {name: number for measure in measures for name, number in numbers_of(measure(quick))}
     return found, wheel.values(play)
+
+
+def _quick(model, wheel):
+    """The model with a sampled profile, whose equilibria are solved in compiled code."""
+    return replace(model, drive=wheel, compiled=True)
 
 
 def _measures(spec: IndexerSpec, names: Iterable[str]) -> list[Measure] | None:
     """The measures of the names that no compiled code gives; None where one of the names is not among them."""
     missing, chosen = set(names) - COMPILED, []
+    if not missing:
+        return []
     try:
-        model = replace(built := build(spec), drive=sampled(built.wheel), compiled=True) if missing else None
-        for measure in MEASURES if model else ():
+        model = _quick(built := build(spec), sampled(built.wheel))
+        for measure in MEASURES:
             own = dict(numbers_of(measure(model))).keys() & missing
             if own:
                 chosen.append(measure)
