@@ -324,6 +324,25 @@ def test_a_drive_without_anything_that_yields():
         assert set(found.outcome) == {"rigid"} and np.isnan(found.secant).all() and "rigid" in found.reasons[0]
 
 
+def test_next_to_no_arm_holds_nothing():
+    """One pin touches, its normal 1e-7 rad off the radius."""
+    centre, normal = np.array([R + 0j]), np.exp(1j * np.array([np.pi - 1e-7]))
+    each = CamContacts(np.array([0]), centre, normal, np.imag(np.conj(centre) * normal), *np.zeros((2, 1)), np.array([True]))
+    assert solve_torsional_stiffness(GEARED, [0.3], [each], E, -900.0).outcome == ("free",)
+
+
+def test_bonded_contacts_are_the_intended_ones():
+    """A pin that touches elsewhere, as at a corner, takes no part; it does where contacts press."""
+    each = touching(ANGLES[0])
+    intended = np.arange(N) % 2 == 0
+    found, without = (
+        solve_torsional_stiffness(GEARED, ANGLES[:1], [contacts], E, 900.0, model="bonded")
+        for contacts in (each._replace(intended=intended), each.of(intended))
+    )
+    assert found.secant == pytest.approx(without.secant, rel=1e-10)
+    assert np.all(found.pin_forces[0][:, ~intended] == 0) and np.any(found.pin_forces[0][:, intended] != 0)
+
+
 def test_hardly_an_arm_is_no_stiffness():
     """One pin touches, its normal 1e-5 rad off the radius: it would take a gigantic force."""
     centre, normal = np.array([R + 0j]), np.exp(1j * np.array([np.pi - 1e-5]))

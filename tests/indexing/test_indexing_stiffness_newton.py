@@ -114,6 +114,15 @@ def test_what_leaves_the_bound_or_does_not_settle_keeps_its_last_place():
     assert not assert_same(flat, np.full((1, 2), 1e-5), bound=10.0).converged[0]
 
 
+def test_a_step_uphill_by_rounding_is_taken_whole():
+    """As by NumPy: a spring of 1 N/m under 1 N, a billionth beyond its rest, and a step further."""
+    energy, work = position_energy(ConvexEnergy(np.ones((1, 1, 1)), (), np.ones((1, 1)))), newton_work(1, 0)
+    work.step[:] = 1e-12
+    assert newton._step_length(energy, work, 0, np.array([1 + 1e-9])) == 1.0
+    work.step[:] = 4.0  # from 0, where it ends at 1
+    assert abs(1 - 4.0 * newton._step_length(energy, work, 0, np.zeros(1))) <= 0.5
+
+
 def test_uncompiled_the_same():
     whole, start = system(5, positions=2), np.full((2, 6), 1e-6)
     energy, seen = position_energy(whole), []
@@ -216,6 +225,14 @@ def test_responses_of_arrays_are_those_of_their_elements():
         np.testing.assert_allclose(np.array(contact_response(law, depth)), alone, rtol=1e-14)
     np.testing.assert_allclose(power_law_response(PowerLaw(3.0, 1.5), 4.0), [3 * 32 / 2.5, 24.0, 6.0, 9.0])
     x, y = depth[:3], depth[3:6]
+    for law in (BALL, ROLLER):  # K (r - c)^n along the displacement
+        found = radial_response(law, 3e-6, -4e-6)
+        force = law.constant * (5e-6 - law.clearance) ** law.exponent
+        assert (found.x, found.y) == pytest.approx((0.6 * force, -0.8 * force), rel=1e-12)
+        assert found.energy == pytest.approx(force * (5e-6 - law.clearance) / (1 + law.exponent), rel=1e-12)
+        along = 0.36 * found.xx - 0.96 * found.xy + 0.64 * found.yy
+        assert along == pytest.approx(law.exponent * force / (5e-6 - law.clearance), rel=1e-12)
+        assert 0.64 * found.xx + 0.96 * found.xy + 0.36 * found.yy == pytest.approx(force / 5e-6, rel=1e-12)
     for law in (BALL, ROLLER):
         alone = np.array([radial_response(law, a, b) for a, b in zip(x, y, strict=True)]).T
         np.testing.assert_allclose(np.array(radial_response(law, x, y)), alone, rtol=1e-14)

@@ -14,6 +14,8 @@ from drivewright.execution.keys import key_kind
 from drivewright.execution.outputs import case_outputs
 from drivewright.indexing.batch import sampled
 from drivewright.indexing.plane import contacts_at
+from drivewright.indexing.stiffness import newton
+from drivewright.indexing.stiffness.newton import minimise_by_position
 from drivewright.mechanisms.indexer.geometry import play_answer
 from drivewright.mechanisms.indexer.stiffness import dwell_stiffness, pin_loads, secant_stiffness
 from drivewright.runner import run_analyses, select_analyses
@@ -99,10 +101,23 @@ def test_the_equilibria_of_a_batch_are_those_of_numpy():
         )
 
 
+def test_a_batch_solves_in_compiled_code_and_a_run_by_numpy(monkeypatch):
+    """A single run would wait for the kernel longer than NumPy takes."""
+    seen = []
+    monkeypatch.setattr(newton, "minimise_by_position", lambda *given: seen.append(given) or minimise_by_position(*given))
+    outputs_of(indexer(), (), (), ("stiffness", "bearings"))
+    assert not seen
+    evaluate = INDEXER.batch(indexer(), ("pin_radius",), ("stiffness.mean", "pins.max_force", "contacts.minimum"))
+    seen.clear()
+    evaluate(np.array([[8e-3]]))
+    assert len(seen) == 2  # at the contacts, and after the play: measures share both
+
+
 def test_the_dwell_and_other_numbers_of_pins_contacts_and_ratios():
     keys = ("pins", "motion.motion_to_dwell", "contact.pin_stiffness")
     designs = [[12, 1.2, 5e8], [10, 0.9, 4e8], [11, 1.0, 5e8]]  # two cams do not divide 11 pins
-    found = assert_close(indexer(), keys, designs, (*DWELL, "stiffness.mean"), ("stiffness",), 2e-4)
+    names = (*DWELL, "stiffness.mean", "contacts.minimum", "contacts.maximum")
+    found = assert_close(indexer(), keys, designs, names, ("contacts", "stiffness"), 2e-4)
     assert np.isfinite(found["dwell.stiffness.minimum"]).tolist() == [True, True, False]
 
 

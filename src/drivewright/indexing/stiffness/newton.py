@@ -33,7 +33,6 @@ from drivewright.indexing.stiffness.minimise import (
     flatten_rows,
 )
 
-LEAST_PIVOT = 1e-3  # of the floor: what rounding leaves of less
 LINE, SPRING, RIGID, RADIAL, SECOND = range(5)  # kinds of strain; SECOND: y of the bearing whose x stands before it
 COMPILED: tuple[type, ...] = (PinContactLaw, RigidContactLaw, GearFlankLaw, RadialBearingLaw)
 
@@ -312,7 +311,7 @@ def _solve(hessian, floor, work):
         factor[a, a] += floor
         step[a] = -work.gradient[a]
     for k in range(size):
-        pivot = 1.0 / np.sqrt(max(factor[k, k], LEAST_PIVOT * floor))
+        pivot = 1.0 / np.sqrt(factor[k, k])  # at least the floor, beside which rounding is small
         for b in range(k, size):
             factor[k, b] *= pivot
         step[k] *= pivot
