@@ -6,6 +6,7 @@ A segment shorter
 than a sample is not seen.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from drivewright.motion import MotionLaw
 
 _COVER_DEPTH = 2e-9  # a point deeper than this [m] in a pin is covered; the foot of a sample is exact to a fraction of it
 _OWN_SAMPLES = 2  # samples on either side of a point's own centre that are compared as they are
-_HALVINGS = 36
+_HALVINGS = 28  # of a step of the samples: to some 1e-12 m
 _TABLE_CELLS = 256  # of a law's table
 
 
@@ -85,6 +86,7 @@ class ExposedSegments(NamedTuple):
     length: Ints
 
 
+@lru_cache(maxsize=16)
 def tabulate_law(law: MotionLaw) -> LawTable:
     """The `LawTable` of a MotionLaw: quintics that agree with it in s, v, a at their ends, exact to about 1e-12."""
     knots, rows = [0.0], []

@@ -112,8 +112,9 @@ def _start(system: ConvexEnergy, force: float, touching: Bools) -> tuple[Floats,
 
 
 def _product(rows: Floats) -> Floats:
-    """(p, m, m): sum of row' row."""
-    return flatten_rows(rows).transpose(0, 2, 1) @ flatten_rows(rows)
+    """(p, m, m), or (1, m, m) where the rows are the same everywhere: sum of row' row."""
+    flat = flatten_rows(_once(rows))
+    return flat.transpose(0, 2, 1) @ flat
 
 
 def _linear(assembly: DrivetrainAssembly) -> Floats:
