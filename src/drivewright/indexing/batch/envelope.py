@@ -185,10 +185,12 @@ def is_covered(path: PinPath, cells: CellGrid, radius: float, margin: float, poi
     size, near = len(path.z), radius + margin
     if _covers_point(path, radius, near, point, own, last_cover[0], size):
         return True
-    low_x, high_x = _cell_range(cells, point.real, near)
+    per_cell = 1.0 / cells.width
+    x_in_cells, y_in_cells, near_in_cells = (point.real + cells.reach) * per_cell, (point.imag + cells.reach) * per_cell, near * per_cell
+    low_x, high_x = _cell_range(x_in_cells, near_in_cells, cells.per_side)
     for x in range(low_x, high_x + 1):
-        apart = max(x * cells.width - cells.reach - point.real, point.real - (x + 1) * cells.width + cells.reach, 0.0)  # of the column
-        low_y, high_y = _cell_range(cells, point.imag, np.sqrt(max(near * near - apart * apart, 0.0)))
+        apart = max(x - x_in_cells, x_in_cells - x - 1.0, 0.0)  # of the column
+        low_y, high_y = _cell_range(y_in_cells, np.sqrt(max(near_in_cells * near_in_cells - apart * apart, 0.0)), cells.per_side)
         first, last = cells.start[x * cells.per_side + low_y], cells.start[x * cells.per_side + high_y + 1]
         for place in range(first, last):
             arm = point - cells.centre[place]
@@ -201,10 +203,9 @@ def is_covered(path: PinPath, cells: CellGrid, radius: float, margin: float, poi
 
 
 @inner
-def _cell_range(cells, x, near):
-    """First and last cell along an axis within `near` [m] of the coordinate x [m]."""
-    low, high = int((x - near + cells.reach) / cells.width), int((x + near + cells.reach) / cells.width)
-    return max(low, 0), min(high, cells.per_side - 1)
+def _cell_range(x, near, count):
+    """First and last of `count` cells along an axis within `near` of x, both in widths of a cell from where the cells begin."""
+    return max(int(x - near), 0), min(int(x + near), count - 1)
 
 
 @inner

@@ -22,7 +22,7 @@ from drivewright.indexing.play import BACKWARD, CAPACITY, FORWARD, free_rotation
 
 VALUES = 8
 _LEAST_ARM = 1e-6  # an arm above this part of the pin circle stops the wheel
-_CELL_WIDTH = 0.25  # width of a cell over the pin's radius
+_CELL_WIDTH = 0.4  # width of a cell over the pin's radius
 _PASSES = 7  # over the places of the play: the first visits every 64th, each of the others those in the middle between
 
 

@@ -1,4 +1,5 @@
-"""Many pin wheels at once: play, contacts and pressure angles in compiled code; stiffness and loads on the sampled profile, one by one."""
+"""Many pin wheels at once: play, contacts and pressure angles in compiled code; stiffness and loads on the same sampled profile, design by
+design, in threads, with equilibria in compiled code."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
