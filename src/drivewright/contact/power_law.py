@@ -5,7 +5,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from drivewright._jit import generic, implements
-from drivewright._typing import Floats
+from drivewright._typing import Floats, Numbers
 from drivewright.contact.normal import PowerLaw
 
 ForceT = TypeVar("ForceT", float, Floats)
@@ -21,7 +21,7 @@ class PowerLawResponse(NamedTuple):
 
 
 @generic
-def power_law_response(law: PowerLaw, depth: Floats) -> PowerLawResponse:
+def power_law_response(law: PowerLaw, depth: Numbers) -> PowerLawResponse:
     """Energy, force and stiffness at depths [m] of any shape, and of one depth in kernels: F = k d^n where d >= 0, nothing below."""
     raise NotImplementedError
 

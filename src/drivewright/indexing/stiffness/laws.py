@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, Protocol, TypeAlias
 import numpy as np
 
 from drivewright._jit import generic, implements
-from drivewright._typing import Floats
+from drivewright._typing import Floats, Numbers
 from drivewright.contact import PowerLaw, power_law_response, power_law_secant
 from drivewright.indexing.drivetrain import BearingModel, PinContact, PowerLawBearing
 
@@ -35,7 +35,7 @@ class ContactResponse(NamedTuple):
 
 
 @generic
-def contact_response(law: Any, depth: Floats) -> ContactResponse:
+def contact_response(law: Any, depth: Numbers) -> ContactResponse:
     """The `ContactResponse` of a one-sided contact to approaches [m]: nothing where they are negative."""
     raise NotImplementedError
 
@@ -81,7 +81,7 @@ class RadialResponse(NamedTuple):
 
 
 @generic
-def radial_response(bearing: PowerLawBearing, x: Floats, y: Floats) -> RadialResponse:
+def radial_response(bearing: PowerLawBearing, x: Numbers, y: Numbers) -> RadialResponse:
     """The `RadialResponse` to displacements (x, y) [m] of a bearing alike in all directions: F = K max(r - c, 0)^n along them, r = |d|."""
     raise NotImplementedError
 
