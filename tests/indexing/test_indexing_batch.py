@@ -235,3 +235,15 @@ def test_values_that_are_known_are_taken():
     found = evaluate_designs("modified-sine", {}, 12, 0.12, [8e-3, 40e-3], 0.01, np.pi, wheels=known)
     np.testing.assert_array_equal(np.array(found.wheels)[:, 0], np.arange(0.0, 16.0, 2))
     assert np.isnan(np.array(found.wheels)[:, 1]).all()
+
+
+def test_segments_that_follow_each_other_meet():
+    """Their ends are where a pin is four times as deep in the other's as counts as covered, at most; no step of the samples shows."""
+    wheel, table = envelope.PinWheelSizes(12, 0.12, 8e-3, 0.01, np.pi, 1.0), envelope.tabulate_law(SINE)
+    path = envelope.sample_pin_path(wheel, table, crank_samples(np.pi)[0])
+    margin = values._spacing(path) ** 2 / (2 * 8e-3)
+    cells = envelope.sort_into_cells(path, 0.14, 2e-3)
+    segments = envelope.trace_exposed_segments(wheel, table, path, cells, margin, envelope.find_exposed_samples(path, cells, 8e-3, margin))
+    loop = loops.find_cam_loop(segments, True)
+    ends, starts = segments.point[segments.first[loop + 1] - 1], segments.point[segments.first[loop]]
+    assert len(loop) == 14 and np.max(np.abs(ends - np.roll(starts, -1))) < 4 * envelope._COVER_DEPTH
