@@ -257,6 +257,7 @@ def _respond(energy, work, i, share):
 
 @inner
 def _three(constants, j):
+    """Row j of the constants (n, 3) as three numbers."""
     return constants[j, 0], constants[j, 1], constants[j, 2]
 
 
