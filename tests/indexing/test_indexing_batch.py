@@ -5,7 +5,7 @@ import pytest
 
 from drivewright._jit import plain
 from drivewright.indexing import play
-from drivewright.indexing.batch import envelope, evaluate_designs, loops, values
+from drivewright.indexing.batch import envelope, evaluate_designs, loops, sampled, values
 from drivewright.indexing.batch.pin_wheels import PinWheelValues, crank_samples, evaluate_pin_wheels
 from drivewright.indexing.motion import TURN, IndexMotion
 from drivewright.indexing.pin_wheel import PinWheel
@@ -192,3 +192,58 @@ def test_a_sample_is_moved_to_its_foot():
         moved = np.sqrt(envelope._foot_distance_squared(path, point - path.z[k], k))
         assert moved == pytest.approx(min(near), abs=1e-8)
         assert abs(point - path.z[k]) - moved > 1e-7
+
+
+@pytest.mark.parametrize(
+    ("pins", "pin", "eccentricity", "angle", "side"),
+    [
+        (12, 8e-3, 10e-3, np.pi, "inside"),
+        (5, 6e-3, 7e-3, 3.6, "inside"),
+        (9, 11e-3, 12e-3, 4.1, "outside"),
+        (12, 3e-4, 10e-3, 4.4, "inside"),
+    ],
+)
+def test_points_where_no_cam_ends_need_not_be_looked_at(pins, pin, eccentricity, angle, side):
+    """The profile is the same where all points of the envelope are looked at."""
+    wheel = envelope.PinWheelSizes(pins, 0.12, pin, eccentricity, angle, 1.0 if side == "inside" else -1.0)
+    table, (theta, _) = envelope.tabulate_law(SINE), crank_samples(angle)
+    path, _, nodes = values.sample_cam(wheel, table, theta)
+    margin = values._spacing(path) ** 2 / (2 * pin)
+    cells = envelope.sort_into_cells(path, 0.12 + eccentricity + margin, 0.25 * pin)
+    exposed = envelope.find_exposed_samples(path, cells, pin, margin)
+    segments = envelope.trace_exposed_segments(wheel, table, path, cells, margin, exposed)
+    for ours, all_of_it in zip(nodes, loops.loop_nodes(segments, loops.find_cam_loop(segments, side == "inside")), strict=True):
+        np.testing.assert_array_equal(ours, all_of_it)
+    least, most = values._where_the_cam_ends(wheel)
+    fewer = envelope.find_exposed_samples(path, cells, pin, margin, least, most)
+    assert not np.any(fewer & ~exposed) and (pin < 1e-3 or np.sum(fewer) < 0.95 * np.sum(exposed))
+
+
+@pytest.mark.parametrize("side", ["inside", "outside"])
+def test_a_sampled_wheel_has_the_values_of_many_and_no_play_that_is_not_asked_for(side):
+    wheel = PinWheel(9, 0.12, 11e-3, 12e-3, IndexMotion(SINE, 9, 4.0), side)
+    many = PinWheelValues(*(column[0] for column in evaluate_pin_wheels(SINE, 9, 0.12, 11e-3, 12e-3, 4.0, side)))
+    np.testing.assert_array_equal(sampled(wheel).values(), many)
+    without = PinWheelValues(*(column[0] for column in evaluate_pin_wheels(SINE, 9, 0.12, 11e-3, 12e-3, 4.0, side, play=False)))
+    np.testing.assert_array_equal(sampled(wheel).values(play=False), without)
+    assert np.isnan(without[:2]).all() and np.isfinite(many).all()
+    np.testing.assert_array_equal(without[2:], many[2:])
+
+
+def test_values_that_are_known_are_taken():
+    known = PinWheelValues(*np.arange(16.0).reshape(8, 2))
+    found = evaluate_designs("modified-sine", {}, 12, 0.12, [8e-3, 40e-3], 0.01, np.pi, wheels=known)
+    np.testing.assert_array_equal(np.array(found.wheels)[:, 0], np.arange(0.0, 16.0, 2))
+    assert np.isnan(np.array(found.wheels)[:, 1]).all()
+
+
+def test_segments_that_follow_each_other_meet():
+    """Their ends are where a pin is four times as deep in the other's as counts as covered, at most; no step of the samples shows."""
+    wheel, table = envelope.PinWheelSizes(12, 0.12, 8e-3, 0.01, np.pi, 1.0), envelope.tabulate_law(SINE)
+    path = envelope.sample_pin_path(wheel, table, crank_samples(np.pi)[0])
+    margin = values._spacing(path) ** 2 / (2 * 8e-3)
+    cells = envelope.sort_into_cells(path, 0.14, 2e-3)
+    segments = envelope.trace_exposed_segments(wheel, table, path, cells, margin, envelope.find_exposed_samples(path, cells, 8e-3, margin))
+    loop = loops.find_cam_loop(segments, True)
+    ends, starts = segments.point[segments.first[loop + 1] - 1], segments.point[segments.first[loop]]
+    assert len(loop) == 14 and np.max(np.abs(ends - np.roll(starts, -1))) < 4 * envelope._COVER_DEPTH

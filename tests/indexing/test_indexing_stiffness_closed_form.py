@@ -10,7 +10,7 @@ from drivewright.indexing.motion import index_motion
 from drivewright.indexing.stiffness import solve_torsional_stiffness
 from drivewright.indexing.stiffness.laws import PinContactLaw, radial_bearing_law
 from drivewright.indexing.stiffness.layout import bending_flexibility, torsion_flexibility
-from drivewright.shafts import Section
+from drivewright.shafts import EULER_BERNOULLI, Section, Shaft, Support, assemble, flexibility, solve
 
 pytestmark = pytest.mark.analytical
 
@@ -172,6 +172,18 @@ def test_shafts_on_rigid_supports():
     mixed = -a * b * (span - b) * (2 * span - b) / (6 * bend * span)
     expected = [[a**2 * (a + span) / (3 * bend), mixed], [mixed, (b * (span - b)) ** 2 / (3 * bend * span)]]
     assert bending_flexibility(shaft) == pytest.approx(np.array(expected), rel=1e-9)
+
+
+@pytest.mark.parametrize("cams", [(0.05,), (0.05, 0.08), (0.012, 0.05, 0.11)])
+def test_a_stepped_shaft_bends_as_by_the_general_model_of_shafts(cams):
+    """A cone, gear and cams on either side of the supports."""
+    sections = (Section(0.03, 0.02, 0.02), Section(0.05, 0.03, 0.024), Section(0.04, 0.02, 0.02))
+    shaft = SplitShaft(sections, 0.004, (0.025, 0.1), cams, 206e9, 0.3)
+    rigid = (np.inf, np.inf, 0.0, 0.0, 0.0)
+    supports = tuple(Support(str(z), z, rigid) for z in shaft.supports)
+    model = assemble(Shaft(sections, 206e9, 0.3, 0.0, supports, shear=EULER_BERNOULLI), (0.004, *cams))
+    whole = flexibility(solve(model, np.zeros(model.size)), (0.004, *cams), (1.0, 0.0)).delta
+    assert bending_flexibility(shaft) == pytest.approx(whole, rel=1e-8)
 
 
 def test_torsion_of_stepped_shafts():

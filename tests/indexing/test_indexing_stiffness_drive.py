@@ -1,4 +1,8 @@
-"""Torsional stiffness of a pin-wheel indexer: what must hold for any drive, and an independent route by forces alone."""
+"""Torsional stiffness of a pin-wheel indexer: what must hold for any drive, by NumPy and in compiled code, and an independent route by
+forces alone."""
+
+import sys
+from functools import partial
 
 import numpy as np
 import pytest
@@ -24,6 +28,11 @@ GEARED = LINEAR._replace(
     support=PowerLawBearing(2e10, 1.5, 2e-6),
     gear=GearMesh(0.025, 2.8e8, np.radians(20), 1e-5),
 )
+
+
+@pytest.fixture(autouse=True, params=[False, True], ids=["numpy", "compiled"])
+def _route(request, monkeypatch):
+    monkeypatch.setattr(sys.modules[__name__], "solve_torsional_stiffness", partial(solve_torsional_stiffness, compiled=request.param))
 
 
 def touching(theta, seed=0, gaps=0.0, sense=1.0, wheel=R, crank=E):
@@ -313,6 +322,25 @@ def test_a_drive_without_anything_that_yields():
     for model in ("bonded", "unilateral"):
         found = solved(Drivetrain(L), model=model)
         assert set(found.outcome) == {"rigid"} and np.isnan(found.secant).all() and "rigid" in found.reasons[0]
+
+
+def test_next_to_no_arm_holds_nothing():
+    """One pin touches, its normal 1e-7 rad off the radius."""
+    centre, normal = np.array([R + 0j]), np.exp(1j * np.array([np.pi - 1e-7]))
+    each = CamContacts(np.array([0]), centre, normal, np.imag(np.conj(centre) * normal), *np.zeros((2, 1)), np.array([True]))
+    assert solve_torsional_stiffness(GEARED, [0.3], [each], E, -900.0).outcome == ("free",)
+
+
+def test_bonded_contacts_are_the_intended_ones():
+    """A pin that touches elsewhere, as at a corner, takes no part; it does where contacts press."""
+    each = touching(ANGLES[0])
+    intended = np.arange(N) % 2 == 0
+    found, without = (
+        solve_torsional_stiffness(GEARED, ANGLES[:1], [contacts], E, 900.0, model="bonded")
+        for contacts in (each._replace(intended=intended), each.of(intended))
+    )
+    assert found.secant == pytest.approx(without.secant, rel=1e-10)
+    assert np.all(found.pin_forces[0][:, ~intended] == 0) and np.any(found.pin_forces[0][:, intended] != 0)
 
 
 def test_hardly_an_arm_is_no_stiffness():

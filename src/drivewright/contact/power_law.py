@@ -1,10 +1,11 @@
-"""The power law F = k d^n and its inverse for arrays of depths and forces; `normal_force` takes one depth at a time, in kernels too."""
+"""The power law F = k d^n and its inverse for arrays of depths and forces; the response serves kernels too, one depth at a time."""
 
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._jit import generic, implements
+from drivewright._typing import Floats, Numbers
 from drivewright.contact.normal import PowerLaw
 
 ForceT = TypeVar("ForceT", float, Floats)
@@ -19,10 +20,16 @@ class PowerLawResponse(NamedTuple):
     tangent: Floats  # dF/dd = n F/d [N/m]
 
 
-def power_law_response(law: PowerLaw, depth: Floats) -> PowerLawResponse:
-    """Energy, force and stiffness at depths [m] of any shape: F = k d^n where d >= 0, nothing below."""
+@generic
+def power_law_response(law: PowerLaw, depth: Numbers) -> PowerLawResponse:
+    """Energy, force and stiffness at depths [m] of any shape, and of one depth in kernels: F = k d^n where d >= 0, nothing below."""
+    raise NotImplementedError
+
+
+@implements(power_law_response, PowerLaw)
+def _(law, depth):
     inside = np.maximum(depth, 0.0)
-    secant = law.k * inside ** (law.n - 1) if law.n != 1 else np.where(depth >= 0.0, law.k, 0.0)
+    secant = law.k * inside ** (law.n - 1) if law.n != 1 else law.k * (depth >= 0.0)
     force = secant * inside
     return PowerLawResponse(force * inside / (1 + law.n), force, secant, law.n * secant)
 

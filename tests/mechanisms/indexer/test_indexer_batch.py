@@ -1,6 +1,7 @@
 """Many pin wheels at once: stiffness, loads of pins and bearings, checks, value by value beside the runs."""
 
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,7 +14,10 @@ from drivewright.execution.keys import key_kind
 from drivewright.execution.outputs import case_outputs
 from drivewright.indexing.batch import sampled
 from drivewright.indexing.plane import contacts_at
+from drivewright.indexing.stiffness import newton
+from drivewright.indexing.stiffness.newton import minimise_by_position
 from drivewright.mechanisms.indexer.geometry import play_answer
+from drivewright.mechanisms.indexer.stiffness import dwell_stiffness, pin_loads, secant_stiffness
 from drivewright.runner import run_analyses, select_analyses
 from drivewright.spec import document, from_document, set_key
 
@@ -68,10 +72,52 @@ def test_stiffness_forces_and_pressure_of_other_sizes_loads_and_parts():
     assert found["stiffness.mean"][0] != pytest.approx(found["stiffness.mean"][1], rel=0.05)
 
 
+@pytest.mark.parametrize(
+    ("changes", "rel"),
+    [({}, 3e-4), ({"contact": {"model": "bonded"}}, 1e-3), ({"side": "outside"}, 3e-4), ({"support_bearings": {"bearing": "61904"}}, 3e-4)],
+)
+def test_random_designs_in_compiled_code_are_those_of_the_runs(changes, rel):
+    """Pins that overlap among them; a bearing by its rolling elements has no compiled law.
+
+    Bonded pins carry as long as they touch, which the sampled profile has end a little earlier or later.
+    """
+    rng = np.random.default_rng(6)
+    keys = ("pin_radius", "eccentricity", "load.torque", "shafts.diameters.2", "crank_bearings.radial_clearance")
+    designs = rng.uniform((6e-3, 8e-3, -1500.0, 0.02, 0.0), (10e-3, 12e-3, 1500.0, 0.035, 2e-5), (4, 5))
+    designs[2, 0] = 40e-3
+    names = ("stiffness.mean", "stiffness.undefined_fraction", "pins.max_force", "crank.max_load", "contacts.minimum")
+    crank = {"crank_bearings": {"bearing": "NU207E", "law": "liu", "radial_clearance": "5 um"}}
+    found = assert_close(indexer(**crank, **changes), keys, designs.tolist(), names, ("contacts", "stiffness", "bearings"), rel)
+    assert np.isnan(found["pins.max_force"]).tolist() == [False, False, True, False]
+
+
+def test_the_equilibria_of_a_batch_are_those_of_numpy():
+    built = INDEXER.build(indexer())
+    quick = replace(built, drive=sampled(built.wheel))
+    for measure in (secant_stiffness, pin_loads, dwell_stiffness):
+        ours, theirs = measure(replace(quick, compiled=True)).values, measure(quick).values
+        assert {name: value.value for name, value in ours.items()} == pytest.approx(
+            {name: value.value for name, value in theirs.items()}, rel=1e-9
+        )
+
+
+def test_a_batch_solves_in_compiled_code_and_a_run_by_numpy(monkeypatch):
+    """A single run would wait for the kernel longer than NumPy takes."""
+    seen = []
+    monkeypatch.setattr(newton, "minimise_by_position", lambda *given: seen.append(given) or minimise_by_position(*given))
+    outputs_of(indexer(), (), (), ("stiffness", "bearings"))
+    assert not seen
+    evaluate = INDEXER.batch(indexer(), ("pin_radius",), ("stiffness.mean", "pins.max_force", "contacts.minimum"))
+    seen.clear()
+    evaluate(np.array([[8e-3]]))
+    assert len(seen) == 2  # at the contacts, and after the play: measures share both
+
+
 def test_the_dwell_and_other_numbers_of_pins_contacts_and_ratios():
     keys = ("pins", "motion.motion_to_dwell", "contact.pin_stiffness")
     designs = [[12, 1.2, 5e8], [10, 0.9, 4e8], [11, 1.0, 5e8]]  # two cams do not divide 11 pins
-    found = assert_close(indexer(), keys, designs, (*DWELL, "stiffness.mean"), ("stiffness",), 2e-4)
+    names = (*DWELL, "stiffness.mean", "contacts.minimum", "contacts.maximum")
+    found = assert_close(indexer(), keys, designs, names, ("contacts", "stiffness"), 2e-4)
     assert np.isfinite(found["dwell.stiffness.minimum"]).tolist() == [True, True, False]
 
 

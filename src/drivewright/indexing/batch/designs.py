@@ -36,12 +36,14 @@ def evaluate_designs(
     motion_angle: ArrayLike,
     side: str = "inside",
     factors: bool = True,
+    play: bool = True,
+    wheels: PinWheelValues | None = None,
 ) -> DesignValues:
     """`DesignValues` of N pin wheels that share number of pins, side and the name of their motion law.
 
     The parameters of the law [-], radii and eccentricity [m] and motion_angle [rad] are arrays (N,) or numbers.  An impossible design, as
     pins that overlap or parameters that make no law from rest to rest, is a row of nan.  factors: whether the factors of velocity and
-    acceleration are wanted; else they are nan.
+    acceleration are wanted, play: whether the play is; else they are nan.  wheels: the values (N,) where they are known.
     """
     columns = np.broadcast_arrays(*np.atleast_1d(circle_radius, pin_radius, eccentricity, motion_angle), *parameters.values())
     circle, pin, throw, angle, *shapes = (np.asarray(column, float) for column in columns)
@@ -51,7 +53,10 @@ def evaluate_designs(
         own = rows & feasible_designs(sizes, pins, made)
         if not own.any():
             continue
-        found = evaluate_pin_wheels(made, pins, circle[own], pin[own], throw[own], angle[own], side)
+        if wheels is None:
+            found = evaluate_pin_wheels(made, pins, circle[own], pin[own], throw[own], angle[own], side, play)
+        else:
+            found = PinWheelValues(*(column[own] for column in wheels))
         peaks = made.peaks() if factors else None
         peak_speed, peak_acceleration = (peaks.Vm, peaks.Am) if peaks else (np.nan, np.nan)
         values[:, own] = [*found, angle[own], pitch * peak_speed / angle[own], pitch * peak_acceleration / angle[own] ** 2]

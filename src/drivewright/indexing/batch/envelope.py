@@ -6,6 +6,7 @@ A segment shorter
 than a sample is not seen.
 """
 
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,7 @@ from drivewright.motion import MotionLaw
 
 _COVER_DEPTH = 2e-9  # a point deeper than this [m] in a pin is covered; the foot of a sample is exact to a fraction of it
 _OWN_SAMPLES = 2  # samples on either side of a point's own centre that are compared as they are
-_HALVINGS = 36
+_HALVINGS = 28  # of a step of the samples: to some 1e-12 m
 _TABLE_CELLS = 256  # of a law's table
 
 
@@ -85,6 +86,7 @@ class ExposedSegments(NamedTuple):
     length: Ints
 
 
+@lru_cache(maxsize=16)
 def tabulate_law(law: MotionLaw) -> LawTable:
     """The `LawTable` of a MotionLaw: quintics that agree with it in s, v, a at their ends, exact to about 1e-12."""
     knots, rows = [0.0], []
@@ -145,13 +147,13 @@ def sample_pin_path(wheel: PinWheelSizes, table: LawTable, theta: Floats) -> Pin
     count = len(theta)
     size = count * wheel.pins
     z, v, a = np.empty(size, np.complex128), np.empty(size, np.complex128), np.empty(size, np.complex128)
+    ways = np.exp(2j * np.pi * np.arange(wheel.pins) / wheel.pins)
     for j in range(count):
         arm_0 = pin_centre_at(wheel, table, theta[j], 0)
         crank = wheel.eccentricity * np.exp(1j * wheel.sense * theta[j])
         crank_rate = 1j * wheel.sense * crank
         for turn in range(wheel.pins):
-            ahead = np.exp(2j * np.pi * turn / wheel.pins)
-            k = turn * count + j
+            k, ahead = turn * count + j, ways[turn]
             z[k] = (arm_0[0] + crank) * ahead - crank
             v[k] = (arm_0[1] + crank_rate) * ahead - crank_rate
             a[k] = (arm_0[2] - crank) * ahead + crank
@@ -183,10 +185,12 @@ def is_covered(path: PinPath, cells: CellGrid, radius: float, margin: float, poi
     size, near = len(path.z), radius + margin
     if _covers_point(path, radius, near, point, own, last_cover[0], size):
         return True
-    low_x, high_x = _cell_range(cells, point.real, near)
+    per_cell = 1.0 / cells.width
+    x_in_cells, y_in_cells, near_in_cells = (point.real + cells.reach) * per_cell, (point.imag + cells.reach) * per_cell, near * per_cell
+    low_x, high_x = _cell_range(x_in_cells, near_in_cells, cells.per_side)
     for x in range(low_x, high_x + 1):
-        apart = max(x * cells.width - cells.reach - point.real, point.real - (x + 1) * cells.width + cells.reach, 0.0)  # of the column
-        low_y, high_y = _cell_range(cells, point.imag, np.sqrt(max(near * near - apart * apart, 0.0)))
+        apart = max(x - x_in_cells, x_in_cells - x - 1.0, 0.0)  # of the column
+        low_y, high_y = _cell_range(y_in_cells, np.sqrt(max(near_in_cells * near_in_cells - apart * apart, 0.0)), cells.per_side)
         first, last = cells.start[x * cells.per_side + low_y], cells.start[x * cells.per_side + high_y + 1]
         for place in range(first, last):
             arm = point - cells.centre[place]
@@ -199,10 +203,9 @@ def is_covered(path: PinPath, cells: CellGrid, radius: float, margin: float, poi
 
 
 @inner
-def _cell_range(cells, x, near):
-    """First and last cell along an axis within `near` [m] of the coordinate x [m]."""
-    low, high = int((x - near + cells.reach) / cells.width), int((x + near + cells.reach) / cells.width)
-    return max(low, 0), min(high, cells.per_side - 1)
+def _cell_range(x, near, count):
+    """First and last of `count` cells along an axis within `near` of x, both in widths of a cell from where the cells begin."""
+    return max(int(x - near), 0), min(int(x + near), count - 1)
 
 
 @inner
@@ -235,20 +238,24 @@ def _foot_distance_squared(path, arm, k):
 
 
 @kernel
-def find_exposed_samples(path: PinPath, cells: CellGrid, radius: float, margin: float) -> Bools:
-    """(2, samples): True where no pin covers the point of the envelope, left of the centre's travel, then right of it."""
+def find_exposed_samples(path: PinPath, cells: CellGrid, radius: float, margin: float, least: float = 0.0, most: float = np.inf) -> Bools:
+    """(2, samples): True where no pin covers the point of the envelope, left of the centre's travel, then right of it.
+
+    least, most [m]: points nearer to the cam's axis or further from it are not looked at, and not exposed.
+    """
     exposed = np.zeros((2, len(path.z)), np.bool_)
-    _mark_exposed(path, cells, radius, margin, exposed, np.zeros(1, np.int64))
+    _mark_exposed(path, cells, radius, margin, least, most, exposed, np.zeros(1, np.int64))
     return exposed
 
 
 @inner
-def _mark_exposed(path, cells, radius, margin, exposed, last_cover):
+def _mark_exposed(path, cells, radius, margin, least, most, exposed, last_cover):
     """Writes `exposed` (2, samples); last_cover (1,): the sample that covered the point before."""
     for side in range(2):
         for k in range(len(path.z)):
             point = path.z[k] + (1 - 2 * side) * radius * 1j * path.v[k] / abs(path.v[k])
-            exposed[side, k] = not is_covered(path, cells, radius, margin, point, k, last_cover)
+            if least <= abs(point) <= most:
+                exposed[side, k] = not is_covered(path, cells, radius, margin, point, k, last_cover)
 
 
 @inner

@@ -8,7 +8,7 @@ from drivewright.curves.touching import Nodes, bounding_circles
 from drivewright.indexing.batch.envelope import ExposedSegments
 
 _STILL = 1e-10  # chords shorter than this [m] are left out
-_APART = 1e-3  # ends of segments further apart than this [m] do not meet
+APART = 1e-3  # ends of segments further apart than this [m] do not meet
 _SHORT = 1e-6  # a segment closes by itself only where no other begins within this [m]
 
 
@@ -37,7 +37,7 @@ def _successors(segments):
     """(n,): the segment that begins where each ends; -1 where none does."""
     following = np.empty(len(segments.side), np.int64)
     for k in range(len(following)):
-        end, least, following[k] = segments.point[segments.first[k + 1] - 1], _APART, -1
+        end, least, following[k] = segments.point[segments.first[k + 1] - 1], APART, -1
         for other in range(len(following)):
             apart = abs(segments.point[segments.first[other]] - end) + (_SHORT if other == k else 0.0)
             if apart < least:

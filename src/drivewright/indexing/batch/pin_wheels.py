@@ -20,7 +20,7 @@ from drivewright.indexing.motion import TURN
 from drivewright.motion import MotionLaw
 
 INDEX_STEP = np.deg2rad(4.5)  # as `index_angles`
-_SAMPLES_PER_STEP, _PLAY_STRIDE = 10, 2  # samples in an index step, and to the next angle of the play
+SAMPLES_PER_STEP, PLAY_STRIDE = 10, 2  # samples in an index step, and to the next angle of the play
 CHUNK = 8  # designs: some tenths of a second
 
 
@@ -47,9 +47,9 @@ class PinWheelValues(NamedTuple):
 def crank_samples(motion_angle: float) -> tuple[Floats, int]:
     """Samples of the crank over one turn [rad] and the number of index angles among them, every 10th; every 2nd serves the play."""
     steps = max(int(round(motion_angle / INDEX_STEP)), 1)
-    moving = np.arange(steps * _SAMPLES_PER_STEP, dtype=float) * (motion_angle / (steps * _SAMPLES_PER_STEP))
+    moving = np.arange(steps * SAMPLES_PER_STEP, dtype=float) * (motion_angle / (steps * SAMPLES_PER_STEP))
     rest = TURN - motion_angle
-    dwell = _PLAY_STRIDE * int(np.ceil(rest / (_PLAY_STRIDE * INDEX_STEP / _SAMPLES_PER_STEP) - 1e-9))
+    dwell = PLAY_STRIDE * int(np.ceil(rest / (PLAY_STRIDE * INDEX_STEP / SAMPLES_PER_STEP) - 1e-9))
     if not dwell:
         return moving, steps
     return np.concatenate([moving, motion_angle + np.arange(dwell, dtype=float) * (rest / dwell)]), steps + 1
@@ -63,13 +63,15 @@ def evaluate_pin_wheels(
     eccentricity: ArrayLike,
     motion_angle: ArrayLike,
     side: str = "inside",
+    play: bool = True,
     workers: int | None = None,
     progress: Callable[[int, int, str], object] | None = None,
 ) -> PinWheelValues:
     """`PinWheelValues` of N pin wheels that share law (a MotionLaw), number of pins and side.
 
     circle_radius, pin_radius, eccentricity [m], motion_angle [rad] (2 pi: no dwell): arrays (N,) or numbers.  An impossible design, as
-    pins that overlap, is a row of nan and no error.  The number of `workers` (None: one per core) changes no digit.
+    pins that overlap, is a row of nan and no error.  Without `play` its columns are nan.  The number of `workers` (None: one per core)
+    changes no digit.
     """
     if law.continuity < 1 and law.name != "uniform":
         raise InputError(f"designs: the velocity of law {law.name!r} jumps; give a law that starts and ends at rest, or uniform motion.")
@@ -87,7 +89,7 @@ def evaluate_pin_wheels(
                 theta, count = crank_samples(float(sizes[k, 3]))
                 circle, pin, throw, angle = (float(size) for size in sizes[k])
                 wheel = PinWheelSizes(pins, circle, pin, throw, angle, sense)
-                evaluate_pin_wheel(wheel, table, theta, _SAMPLES_PER_STEP, count, _PLAY_STRIDE, values[k])
+                evaluate_pin_wheel(wheel, table, theta, SAMPLES_PER_STEP, count, PLAY_STRIDE if play else 0, values[k])
 
     if cases.run(chunk, range(0, len(sizes), CHUNK), workers, progress).interrupted:
         raise KeyboardInterrupt

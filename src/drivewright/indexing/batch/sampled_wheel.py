@@ -7,11 +7,14 @@ of pins and bearings by 3e-5, the pressure by 2e-4.
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
+from drivewright._typing import Floats
 from drivewright.curves.touching import Nodes
 from drivewright.errors import InputError
 from drivewright.indexing.batch.envelope import PinWheelSizes, tabulate_law
-from drivewright.indexing.batch.pin_wheels import crank_samples
-from drivewright.indexing.batch.values import find_cam_nodes
+from drivewright.indexing.batch.pin_wheels import PLAY_STRIDE, SAMPLES_PER_STEP, PinWheelValues, crank_samples
+from drivewright.indexing.batch.values import VALUES, SampledCam, evaluate_cam, sample_cam
 from drivewright.indexing.pin_wheel import PinWheel
 
 
@@ -20,14 +23,31 @@ class SampledPinWheel(PinWheel):
     """A `PinWheel` with the profile of `batch.values`, a point every 0.45 deg of the crank."""
 
     @cached_property
-    def nodes(self) -> Nodes:
-        """The profile as nodes; InputError where no cam is left."""
-        angle = self.motion.motion_angle
-        sizes = PinWheelSizes(self.pins, self.circle_radius, self.pin_radius, self.eccentricity, angle, self.sense)
-        found = find_cam_nodes(sizes, tabulate_law(self.motion.law), crank_samples(angle)[0])
-        if not len(found.a):
+    def cam(self) -> SampledCam:
+        """The sampled envelope; InputError where no cam is left."""
+        found = sample_cam(self._sizes, tabulate_law(self.motion.law), self._samples[0])
+        if not len(found.nodes.a):
             raise InputError("profile: the pins leave nothing of the cam; take smaller pins or a smaller eccentricity")
         return found
+
+    @cached_property
+    def nodes(self) -> Nodes:
+        """The profile as nodes; InputError where no cam is left."""
+        return self.cam.nodes
+
+    def values(self, play: bool = True) -> PinWheelValues:
+        """What `evaluate_pin_wheels` gives of the same wheel, numbers in the place of arrays; without `play` its values are nan."""
+        values = np.full(VALUES, np.nan)
+        evaluate_cam(self._sizes, self.cam, SAMPLES_PER_STEP, self._samples[1], PLAY_STRIDE if play else 0, values)
+        return PinWheelValues(*values)
+
+    @property
+    def _sizes(self) -> PinWheelSizes:
+        return PinWheelSizes(self.pins, self.circle_radius, self.pin_radius, self.eccentricity, self.motion.motion_angle, self.sense)
+
+    @property
+    def _samples(self) -> tuple[Floats, int]:
+        return crank_samples(self.motion.motion_angle)
 
 
 def sampled(wheel: PinWheel) -> SampledPinWheel:

@@ -1,26 +1,41 @@
 """Values of one design from its sampled envelope, compiled: pins in contact over the index period, their arms, play over the turn."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from drivewright._jit import inner, kernel
-from drivewright._typing import Floats
+from drivewright._typing import Bools, Floats
 from drivewright.curves.touching import Nodes, nearest
 from drivewright.indexing.batch.envelope import (
     LawTable,
+    PinPath,
     PinWheelSizes,
     find_exposed_samples,
     sample_pin_path,
     sort_into_cells,
     trace_exposed_segments,
 )
-from drivewright.indexing.batch.loops import find_cam_loop, loop_nodes, restrict_to_loop
+from drivewright.indexing.batch.loops import APART, find_cam_loop, loop_nodes, restrict_to_loop
 from drivewright.indexing.plane import PROFILE_TOLERANCE
 from drivewright.indexing.play import BACKWARD, CAPACITY, FORWARD, free_rotation, pin_within_cam
 
 VALUES = 8
 _LEAST_ARM = 1e-6  # an arm above this part of the pin circle stops the wheel
-_CELL_WIDTH = 0.25  # width of a cell over the pin's radius
+_CELL_WIDTH = 0.4  # width of a cell over the pin's radius
 _PASSES = 7  # over the places of the play: the first visits every 64th, each of the others those in the middle between
+
+
+class SampledCam(NamedTuple):
+    """The cam of one design as a sampled envelope.
+
+    path: of the pins' centres; exposed (2, samples): True where the point of the envelope, left of the centre's travel, then right of it,
+    lies on the profile; nodes: of the profile, none where no cam is left.
+    """
+
+    path: PinPath
+    exposed: Bools
+    nodes: Nodes
 
 
 @kernel
@@ -30,38 +45,51 @@ def evaluate_pin_wheel(
     """Writes the values (VALUES,) of one design, in the order and units of `PinWheelValues`; none where no cam is left.
 
     theta (n,) [rad]: samples over one turn; the first `index_count` of every `index_stride`-th are the places of the contacts, every
-    `play_stride`-th those of the play.
+    `play_stride`-th those of the play; of which there is none where the stride is 0.
     """
-    path, exposed, nodes = _sampled_cam(wheel, table, theta)
+    evaluate_cam(wheel, sample_cam(wheel, table, theta), index_stride, index_count, play_stride, values)
+
+
+@kernel
+def evaluate_cam(wheel: PinWheelSizes, cam: SampledCam, index_stride: int, index_count: int, play_stride: int, values: Floats) -> None:
+    """`evaluate_pin_wheel` of a cam that is sampled already."""
+    path, exposed, nodes = cam
     if not len(nodes.a):
         return
     foot_points, curvatures = np.empty(CAPACITY, np.complex128), np.empty(CAPACITY)
     _evaluate_contacts(wheel, path, nodes, exposed, index_stride, index_count, values, foot_points, curvatures)
-    _evaluate_play(wheel, path, nodes, exposed, play_stride, values, foot_points, curvatures, np.empty(wheel.pins, np.complex128))
+    if play_stride:
+        _evaluate_play(wheel, path, nodes, exposed, play_stride, values, foot_points, curvatures, np.empty(wheel.pins, np.complex128))
     values[7] = _convex_radius(path, exposed)
 
 
 @kernel
-def find_cam_nodes(wheel: PinWheelSizes, table: LawTable, theta: Floats) -> Nodes:
-    """The profile of the cam of one design; no nodes where none is left.  theta (n,) [rad]: samples over one turn."""
-    _, _, nodes = _sampled_cam(wheel, table, theta)
-    return nodes
-
-
-@kernel
-def _sampled_cam(wheel, table, theta):
-    """(path, exposed (2, samples), `Nodes`) of the envelope; no nodes where it leaves no cam."""
+def sample_cam(wheel: PinWheelSizes, table: LawTable, theta: Floats) -> SampledCam:
+    """The `SampledCam` of one design; theta (n,) [rad]: samples over one turn."""
     path = sample_pin_path(wheel, table, theta)
     margin = _spacing(path) ** 2 / (2 * wheel.pin_radius)
     cells = sort_into_cells(path, wheel.circle_radius + wheel.eccentricity + margin, _CELL_WIDTH * wheel.pin_radius)
-    exposed = find_exposed_samples(path, cells, wheel.pin_radius, margin)
+    least, most = _where_the_cam_ends(wheel)
+    exposed = find_exposed_samples(path, cells, wheel.pin_radius, margin, least, most)
     segments = trace_exposed_segments(wheel, table, path, cells, margin, exposed)
     loop = find_cam_loop(segments, wheel.sense > 0)
     if not len(loop):
         none = np.empty(0, np.complex128)
-        return path, exposed, Nodes(none, none, none, none, none, np.empty(0))
+        return SampledCam(path, exposed, Nodes(none, none, none, none, none, np.empty(0)))
     restrict_to_loop(exposed, segments, loop)
-    return path, exposed, loop_nodes(segments, loop)
+    return SampledCam(path, exposed, loop_nodes(segments, loop))
+
+
+@inner
+def _where_the_cam_ends(wheel):
+    """Least and greatest distance [m] of the profile from the cam's axis.
+
+    All centres lie from R - e to R + e, on a closed curve that runs round the axis: a cam inside ends within it, one outside beyond it.
+    What is left out is so far beyond that no end of a segment meets it.
+    """
+    if wheel.sense > 0:
+        return 0.0, wheel.circle_radius + wheel.eccentricity + APART
+    return wheel.circle_radius - wheel.eccentricity - APART, np.inf
 
 
 @inner

@@ -1,7 +1,8 @@
 """Torsional stiffness of a pin-wheel indexer: assembly, equilibrium, compliance budget, and the statics to compare it with.
 
 layout, assembly: unknowns and equations of the drive train.  laws, rolling: force laws of contacts and bearings.
-equilibrium, minimise, solve, loading: the loaded positions.  result, tables, values: what comes out.  statics: loads by statics alone.
+equilibrium, minimise, solve, loading: the loaded positions; newton: the same in compiled code.  result, tables, values: what comes out.
+statics: loads by statics alone.
 """
 
 from drivewright.indexing.stiffness.result import COMPLIANCE_GROUPS, TorsionalStiffness, take_up_play

@@ -51,15 +51,15 @@ class DrivetrainAssembly(NamedTuple):
 
 def pad_contacts(contacts: Sequence[CamContacts], kept: Sequence[Bools]) -> PaddedContacts:
     """`PaddedContacts` of a list of `CamContacts`, one a position, and of masks of those that take part."""
-    most = max([int(mask.sum()) for mask in kept] + [1])
+    counts = np.array([np.count_nonzero(mask) for mask in kept], dtype=int)
+    real = np.arange(max(1, counts.max(initial=0))) < counts[:, None]
 
     def table(name, empty):
-        whole = np.full((len(contacts), most), empty)
-        for row, each, mask in zip(whole, contacts, kept, strict=True):
-            row[: mask.sum()] = getattr(each, name)[mask]
+        whole = np.full(real.shape, empty)
+        if len(contacts):
+            whole[real] = np.concatenate([getattr(each, name) for each in contacts])[np.concatenate(kept)]
         return whole
 
-    real = np.arange(most) < np.array([mask.sum() for mask in kept], dtype=int)[:, None]
     return PaddedContacts(table("centre", 0j), table("normal", 0j), table("arm", 0.0), table("gap", NO_CONTACT_GAP), real)
 
 

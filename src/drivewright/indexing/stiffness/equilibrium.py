@@ -1,7 +1,7 @@
 """The equilibrium of an `DrivetrainAssembly` under a torque, and the force in every part of it, rigid ones included."""
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -28,6 +28,8 @@ HARDER = 1e3  # ... and the same again for their tangent, where what is left is 
 RIGIDITY = 1e-6  # least share of the other parts in a usual compliance: below it nothing yields
 ROUND_LIMIT = 30
 EXACT = 1e-12  # of the load: change of the multipliers of rigid contacts
+
+Minimiser: TypeAlias = Callable[[ConvexEnergy, Floats, float], EnergyMinimum]  # as `minimise_energy`
 
 
 class _PartMotion(NamedTuple):
@@ -67,18 +69,30 @@ class EquilibriumState(NamedTuple):
     steps: int
 
 
-def solve_equilibrium(assembly: DrivetrainAssembly, torque: float, touching: Bools) -> EquilibriumState:
-    """The `EquilibriumState` under a torque; touching (p, k): pin contacts without a gap, which are taken as closed to start with."""
+def solve_equilibrium(assembly: DrivetrainAssembly, torque: float, touching: Bools, compiled: bool = False) -> EquilibriumState:
+    """The `EquilibriumState` under a torque; touching (p, k): pin contacts without a gap, which are taken as closed to start with.
+
+    compiled: by Newton's method in compiled code where all laws are, else by NumPy; it pays for many designs.
+    """
     typical = abs(torque) / assembly.lever
-    linear = assembly.basis.transpose(0, 2, 1) @ _linear(assembly) @ assembly.basis
+    basis = _once(assembly.basis)
+    linear = np.broadcast_to(basis.transpose(0, 2, 1) @ _linear(assembly) @ basis, (len(assembly.basis), *basis.shape[2:] * 2))
     parts = tuple(_term(group, group.law, assembly.basis) for group in assembly.groups if group.law is not None)
     system = ConvexEnergy(linear, parts, load_vector(assembly, torque))
+    minimise = _minimiser(system) if compiled else minimise_energy
     stiff, start = _start(system, typical, touching)
     law = parts[0].law
     if not isinstance(law, RigidContactLaw):
-        return _state(assembly, system, minimise_energy(system, start, assembly.lever), torque)
-    system, minimum = _unyielding(system, law._replace(k=stiff), start, assembly.lever)
+        return _state(assembly, system, minimise(system, start, assembly.lever), torque)
+    system, minimum = _unyielding(system, law._replace(k=stiff), start, assembly.lever, minimise)
     return _state(assembly, system, minimum, torque)
+
+
+def _minimiser(system: ConvexEnergy) -> Minimiser:
+    """In compiled code where all laws are."""
+    from drivewright.indexing.stiffness.newton import is_compiled, minimise_by_position
+
+    return minimise_by_position if is_compiled(system) else minimise_energy
 
 
 def _start(system: ConvexEnergy, force: float, touching: Bools) -> tuple[Floats, Floats]:
@@ -98,8 +112,9 @@ def _start(system: ConvexEnergy, force: float, touching: Bools) -> tuple[Floats,
 
 
 def _product(rows: Floats) -> Floats:
-    """(p, m, m): sum of row' row."""
-    return flatten_rows(rows).transpose(0, 2, 1) @ flatten_rows(rows)
+    """(p, m, m), or (1, m, m) where the rows are the same everywhere: sum of row' row."""
+    flat = flatten_rows(_once(rows))
+    return flat.transpose(0, 2, 1) @ flat
 
 
 def _linear(assembly: DrivetrainAssembly) -> Floats:
@@ -110,16 +125,29 @@ def _linear(assembly: DrivetrainAssembly) -> Floats:
 
 def _term(group: NonlinearGroup, law: StrainLaw, basis: Floats) -> ConvexTerm:
     """The group as a term of the energy of the free unknowns."""
-    return ConvexTerm((flatten_rows(group.rows) @ basis).reshape(*group.rows.shape[:3], basis.shape[2]), group.offset, law)
+    rows, way = flatten_rows(_once(group.rows)), _once(basis)
+    if len(way) == 1:  # one product of two matrices
+        free = (rows.reshape(-1, rows.shape[2]) @ way[0]).reshape(*rows.shape[:2], way.shape[2])
+    else:
+        free = rows @ way
+    shape = (*group.rows.shape[:3], basis.shape[2])
+    return ConvexTerm(np.broadcast_to(free.reshape(len(free), *shape[1:]), shape), group.offset, law)
 
 
-def _unyielding(system: ConvexEnergy, law: RigidContactLaw, start: Floats, bound: float) -> tuple[ConvexEnergy, EnergyMinimum]:
+def _once(array: Floats) -> Floats:
+    """(1, ...) of what is the same at all positions (p, ...), else the array itself."""
+    return array[:1] if array.strides[0] == 0 else array
+
+
+def _unyielding(
+    system: ConvexEnergy, law: RigidContactLaw, start: Floats, bound: float, minimise: Minimiser
+) -> tuple[ConvexEnergy, EnergyMinimum]:
     """Method of multipliers (Hestenes, Powell): the force of a round becomes the multiplier, until it does not change."""
     pins, size = system.parts[0], np.abs(system.load).max(initial=0.0)
     y, steps, rounds = start, 0, 0
     while True:
         system = system._replace(parts=(pins._replace(law=law), *system.parts[1:]))
-        minimum = minimise_energy(system, y, bound)
+        minimum = minimise(system, y, bound)
         y, steps = minimum.y, steps + minimum.steps
         force = law(pins.strain(y))[1]
         change, noise = np.abs(force - law.multipliers), ROUNDING * law.k * np.abs(y).max(axis=1, initial=0.0)[:, None, None]

@@ -2,19 +2,100 @@
 
 A law is called with strains d (..., c), c = 1 for a contact and 2 for a bearing, and answers with (energy (...), force (..., c),
 stiffness (..., c, c)); the force is the gradient of the convex energy.  `secant(force)` [N/m] is a usual stiffness to start from.
+The formulas themselves (`contact_response`, `radial_response`) take arrays, and single strains in kernels.
 """
 
-from typing import NamedTuple, Protocol, TypeAlias
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._jit import generic, implements
+from drivewright._typing import Floats, Numbers
 from drivewright.contact import PowerLaw, power_law_response, power_law_secant
 from drivewright.indexing.drivetrain import BearingModel, PinContact, PowerLawBearing
 
 LINE = 10 / 9
-TURNS = 6  # of Newton's method for the share of the line contact: quadratic from a start within a few tens of per cent
+TURNS = 4  # of Halley's method for the share of the line contact: cubic from a start within a fifth
 TINY = 1e-300
+
+
+class LineContact(NamedTuple):
+    """A one-sided line contact F = line s^(10/9) with a compliance [m/N], F compliance, in series; line in [N/m^(10/9)]."""
+
+    line: float
+    compliance: float
+
+
+class ContactResponse(NamedTuple):
+    """What a contact answers with to approaches [m] of any shape, each field of that shape: energy [J], force [N], tangent [N/m]."""
+
+    energy: Floats
+    force: Floats
+    tangent: Floats
+
+
+@generic
+def contact_response(law: Any, depth: Numbers) -> ContactResponse:
+    """The `ContactResponse` of a one-sided contact to approaches [m]: nothing where they are negative."""
+    raise NotImplementedError
+
+
+@implements(contact_response, PowerLaw)
+def _(law, depth):
+    """F = k d^n."""
+    found = power_law_response(law, depth)
+    return ContactResponse(found.energy, found.force, found.tangent)
+
+
+@implements(contact_response, LineContact)
+def _(law, depth):
+    """F(d) of d = s + F C, F = c s^(10/9); V = 9/19 c s^(19/9) + F^2 C/2;  dF/dd = 1/(0.9 s/F + C).
+
+    With t = d^(1/9) and s^(1/9) = t w it is w^9 (1 + c C t w) = 1, solved from w = (1 + c C t)^(-1/9), which is too small.
+    """
+    whole = np.maximum(depth, 0.0) ** (LINE - 1)
+    ratio = law.line * law.compliance * whole
+    w = (1.0 + ratio) ** (1 - LINE)
+    for _ in range(TURNS):
+        cube, part = w * w * w, ratio * w
+        seventh = cube * cube * w
+        off, first, second = seventh * w * w * (1.0 + part) - 1.0, seventh * w * (9.0 + 10.0 * part), seventh * (72.0 + 90.0 * part)
+        w = w - 2.0 * off * first / (2.0 * first * first - off * second)
+    root = whole * w
+    cube, secant = root * root * root, law.line * root  # the secant F/s
+    share = cube * cube * cube
+    force = secant * share
+    energy = force * share / (1 + LINE) + 0.5 * law.compliance * force * force
+    return ContactResponse(energy, force, secant / (1 / LINE + law.compliance * secant))
+
+
+class RadialResponse(NamedTuple):
+    """What a bearing answers with to displacements of any shape, each field of that shape: energy [J], force [N], stiffness [N/m]."""
+
+    energy: Floats
+    x: Floats
+    y: Floats
+    xx: Floats
+    xy: Floats
+    yy: Floats
+
+
+@generic
+def radial_response(bearing: PowerLawBearing, x: Numbers, y: Numbers) -> RadialResponse:
+    """The `RadialResponse` to displacements (x, y) [m] of a bearing alike in all directions: F = K max(r - c, 0)^n along them, r = |d|."""
+    raise NotImplementedError
+
+
+@implements(radial_response, PowerLawBearing)
+def _(bearing, x, y):
+    """dF = F' e e' + F/r (1 - e e')."""
+    length = np.hypot(x, y)
+    found = power_law_response(PowerLaw(bearing.constant, bearing.exponent), length - bearing.clearance)
+    safe = np.maximum(length, TINY)
+    # Without clearance F/r tends to K r^(n-1), also where r is 0 and has no direction.
+    around = found.secant if bearing.clearance == 0.0 else found.force / safe
+    ex, ey, more = x / safe, y / safe, found.tangent - around
+    return RadialResponse(found.energy, around * x, around * y, more * ex * ex + around, more * ex * ey, more * ey * ey + around)
 
 
 Response: TypeAlias = tuple[Floats, Floats, Floats]  # energy (...) [J], force (..., c) [N], stiffness (..., c, c) [N/m]
@@ -36,19 +117,18 @@ class PinContactLaw(NamedTuple):
     pin: PinContact
     bonded: bool
 
+    @property
+    def one_sided(self) -> LineContact | PowerLaw:
+        """The law of an approach that closes the contact."""
+        line, series = self.pin
+        if line is not None:
+            return LineContact(line, 0.0 if series is None else 1.0 / series)
+        assert series is not None  # a pin without both is rigid
+        return PowerLaw(series, 1.0)
+
     def __call__(self, strain: Floats) -> Response:
-        """F(d) of d = s + F/k, F = c s^(10/9); V = 9/19 c s^(19/9) + F^2/2k;  dF/dd = 1/(0.9 s/F + 1/k)."""
-        c, k = self.pin.line, self.pin.series
-        depth = np.abs(strain) if self.bonded else strain
-        if c is None:
-            assert k is not None  # a pin without both is rigid
-            energy, force, _, slope = power_law_response(PowerLaw(k, 1.0), depth)
-        else:
-            share = np.maximum(depth, 0.0)
-            line = power_law_response(PowerLaw(c, LINE), share if k is None else line_contact_approach(share, c / k))
-            force = line.force
-            slope = line.secant / (1 / LINE + (0.0 if k is None else line.secant / k))
-            energy = line.energy + (0.0 if k is None else 0.5 * force**2 / k)
+        """By the size of the strain where the contact is bonded."""
+        energy, force, slope = contact_response(self.one_sided, np.abs(strain) if self.bonded else strain)
         return energy[..., 0], np.copysign(force, strain) if self.bonded else force, slope[..., None]
 
     def secant(self, force: float) -> float:
@@ -60,15 +140,6 @@ def pin_compliance(pin: PinContact, force: float) -> float:
     """d/F of a pin [m/N] under a force above 0: (F/c)^0.9/F + 1/k."""
     line = 0.0 if pin.line is None else (force / pin.line) ** 0.9 / force
     return line + (0.0 if pin.series is None else 1.0 / pin.series)
-
-
-def line_contact_approach(depth: Floats, ratio: float) -> Floats:
-    """s of s + ratio s^(10/9) = depth."""
-    share = depth / (1 + ratio * depth ** (LINE - 1))
-    for _ in range(TURNS):
-        power = ratio * share ** (LINE - 1)
-        share = share * (1 - (share * (1 + power) - depth) / np.maximum(share * (1 + LINE * power), TINY))
-    return share
 
 
 class RigidContactLaw(NamedTuple):
@@ -97,7 +168,7 @@ class GearFlankLaw(NamedTuple):
     k: float
 
     def __call__(self, strain: Floats) -> Response:
-        energy, force, _, slope = power_law_response(PowerLaw(self.k, 1.0), strain)
+        energy, force, slope = contact_response(PowerLaw(self.k, 1.0), strain)
         return energy[..., 0], force, slope[..., None]
 
     def secant(self, force: float) -> float:
@@ -106,22 +177,14 @@ class GearFlankLaw(NamedTuple):
 
 
 class RadialBearingLaw(NamedTuple):
-    """A bearing alike in all directions: F = K max(r - c, 0)^n along d, r = |d|;  dF = F' e e' + F/r (1 - e e')."""
+    """A bearing alike in all directions: F = K max(r - c, 0)^n along d, r = |d|."""
 
     bearing: PowerLawBearing
 
     def __call__(self, strain: Floats) -> Response:
-        constant, n, clearance = self.bearing
-        length = np.hypot(strain[..., 0], strain[..., 1])
-        energy, force, root, slope = power_law_response(PowerLaw(constant, n), length - clearance)
-        safe = np.maximum(length, TINY)
-        # Without clearance F/r tends to K r^(n-1), also where r is 0 and has no direction.
-        around = root if clearance == 0 else force / safe
-        along = strain / safe[..., None]
-        stiffness = ((slope - around)[..., None] * along)[..., None] * along[..., None, :]
-        stiffness[..., 0, 0] += around
-        stiffness[..., 1, 1] += around
-        return energy, around[..., None] * strain if clearance == 0 else force[..., None] * along, stiffness
+        energy, x, y, xx, xy, yy = radial_response(self.bearing, strain[..., 0], strain[..., 1])
+        stiffness = np.stack([xx, xy, xy, yy], axis=-1).reshape(*strain.shape, 2)
+        return energy, np.stack([x, y], axis=-1), stiffness
 
     def secant(self, force: float) -> float:
         """F/d [N/m]."""

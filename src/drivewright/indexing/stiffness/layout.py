@@ -7,13 +7,16 @@ their seats.  Rotations are multiplied by half the spacing, so that all are leng
 
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.indexing.drivetrain import SIDES, Drivetrain, SplitShaft
-from drivewright.shafts import EULER_BERNOULLI, Shaft, Support
+from drivewright.shafts import EULER_BERNOULLI, Shaft
+
+if TYPE_CHECKING:
+    from drivewright.shafts.beam import Beam
 
 OUT, WHEEL, WHEEL_X = 0, 1, 2
 CAMS = 4  # the first unknown of the first cam
@@ -133,15 +136,15 @@ def support_fractions(shaft: SplitShaft) -> Floats:
 
 
 def bending_flexibility(shaft: SplitShaft) -> Floats:
-    """Phi (1 + n, 1 + n) [m/N] of the stations on rigid supports."""
-    from drivewright.shafts import assemble, flexibility, solve
+    """Phi (1 + n, 1 + n) [m/N] of the stations on rigid supports: int M_i M_j/EI dz of the moments under a unit force at either station.
 
-    rigid = (np.inf, np.inf, 0.0, 0.0, 0.0)
-    model = assemble(
-        _beam(shaft, tuple(Support(name, z, rigid) for name, z in zip(("front", "rear"), shaft.supports, strict=True))),
-        station_positions(shaft),
-    )
-    return flexibility(solve(model, np.zeros(model.size)), station_positions(shaft), (1.0, 0.0)).delta
+    M_i = <z - a_i> - (1 - t) <z - front> - t <z - rear>, <x> = max(x, 0), t: where the station a_i stands between the supports.
+    """
+    found, share = _beam_of(shaft), support_fractions(shaft)
+    front, rear = (np.maximum(found.z - place, 0.0)[:, None] for place in shaft.supports)
+    moment = np.maximum(found.z[:, None] - station_positions(shaft), 0.0) - (1 - share) * front - share * rear  # (nodes, stations)
+    ends = np.stack([-np.diff(moment, axis=0) / found.pieces[:, :1], moment[1:]], axis=1)  # shear force and moment at the end of each piece
+    return np.einsum("nai,nab,nbj->ij", ends, found.flexibility, ends)
 
 
 @lru_cache(maxsize=16)
@@ -160,19 +163,26 @@ def bending_stiffness(shaft: SplitShaft) -> Floats:
 
 def torsion_flexibility(shaft: SplitShaft) -> Floats:
     """(n, n) [rad/(N m)]: rotation of cam j against the gear under a torque at cam k: int dz/GJ of the way that both share."""
-    from drivewright.shafts.beam import beam
-
-    found = beam(_beam(shaft, ()), station_positions(shaft))
+    found = _beam_of(shaft)
     softness = np.concatenate([[0.0], np.cumsum(found.flexibility[:, 1, 1] * (1 + shaft.poisson))])  # GJ = EI/(1 + nu)
     at = np.array([softness[found.node(z)] for z in shaft.cams]) - softness[found.node(shaft.gear)]
     shared = np.minimum(np.abs(at)[:, None], np.abs(at))
     return np.where(np.sign(at)[:, None] == np.sign(at), shared, 0.0)
 
 
+@lru_cache(maxsize=16)
 def torsion_stiffness(shaft: SplitShaft) -> Floats:
-    """Inverse of `torsion_flexibility` [N m/rad]."""
-    return np.asarray(np.linalg.inv(torsion_flexibility(shaft)), dtype=float)
+    """Inverse of `torsion_flexibility` [N m/rad], kept as `bending_stiffness` is."""
+    found = np.asarray(np.linalg.inv(torsion_flexibility(shaft)), dtype=float)
+    found.setflags(write=False)
+    return found
 
 
-def _beam(shaft: SplitShaft, supports: tuple[Support, ...]) -> Shaft:
-    return Shaft(shaft.sections, shaft.modulus, shaft.poisson, 0.0, supports, shear=EULER_BERNOULLI)
+@lru_cache(maxsize=16)
+def _beam_of(shaft: SplitShaft) -> "Beam":
+    """The `shafts.beam.Beam` of a split shaft, a node at its supports and stations."""
+    from drivewright.shafts.beam import beam
+
+    return beam(
+        Shaft(shaft.sections, shaft.modulus, shaft.poisson, 0.0, (), shear=EULER_BERNOULLI), (*shaft.supports, *station_positions(shaft))
+    )

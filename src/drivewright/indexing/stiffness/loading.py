@@ -19,12 +19,13 @@ REACH = 2e-3  # gaps up to this [m] may close under the load
 
 
 class LoadedWheel(NamedTuple):
-    """A pin wheel, what yields between wheel and input, its number of cams, and how contacts carry."""
+    """A pin wheel, what yields between wheel and input, its number of cams, how contacts carry, and whether compiled code solves it."""
 
     wheel: PinWheel
     train: Drivetrain
     cams: int
     model: Literal["unilateral", "bonded"]
+    compiled: bool = False
 
 
 def solve_loaded(loaded: LoadedWheel, angles: Floats, torque: float) -> tuple[TorsionalStiffness, list[CamContacts]]:
@@ -35,8 +36,10 @@ def solve_loaded(loaded: LoadedWheel, angles: Floats, torque: float) -> tuple[To
 
 def solve_at_contacts(loaded: LoadedWheel, angles: Floats, contacts: Sequence[CamContacts], torque: float) -> TorsionalStiffness:
     """The result with given contacts, one set an angle."""
-    wheel, train, cams, model = loaded
-    return solve_torsional_stiffness(train, angles, contacts, wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model)
+    wheel, train, cams, model, compiled = loaded
+    return solve_torsional_stiffness(
+        train, angles, contacts, wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model, compiled=compiled
+    )
 
 
 def solve_after_play(

@@ -27,23 +27,24 @@ def solve_torsional_stiffness(
     cams: int = 2,
     sense: float = 1,
     model: Literal["unilateral", "bonded"] = "unilateral",
+    compiled: bool = False,
 ) -> TorsionalStiffness:
     """The `TorsionalStiffness` of a `Drivetrain` under a torque [N m] on the wheel, positive along +phi.
 
     theta (p,) [rad]; contacts: `CamContacts` of cam 0, one a position, of the unloaded wheel, or of the wheel turned by its play;
     sense: +1 the cam's centre runs at eccentricity exp(i theta), -1 at exp(-i theta).
     model: "unilateral" - contacts press, also those whose gap closes; "bonded" - the intended ones without a gap stick, no others.
+    compiled: solve in compiled code where all laws are; the same to the solver's tolerance, and worth its compilation for many designs.
     """
     angles = np.atleast_1d(np.asarray(theta, dtype=float))
     _check(drive, angles, contacts, torque, cams, model)
     bonded = model == "bonded"
-    kept = [_kept(each, bonded) for each in contacts]
-    carries = np.array([_resists(each, keep, torque, bonded) for each, keep in zip(contacts, kept, strict=True)], dtype=bool)
+    kept, carries = _who_carries(contacts, torque, bonded)
     here = np.flatnonzero(carries)
     pins = pad_contacts([contacts[int(i)] for i in here], [kept[int(i)] for i in here])
     centres = (eccentricity * np.exp(1j * sense * angles[here])).astype(np.complex128)
     assembly = assemble_drivetrain(drive, cams, centres, pins, bonded)
-    state = solve_equilibrium(assembly, torque, np.tile(pins.gap < CONTACT_GAP, cams))
+    state = solve_equilibrium(assembly, torque, np.tile(pins.gap < CONTACT_GAP, cams), compiled)
     return collect_result(drive, angles, torque, model, kept, assembly, state, here)
 
 
@@ -57,13 +58,20 @@ def _check(drive: Drivetrain, theta: Floats, contacts: Sequence[CamContacts], to
         raise InputError(f'torsional stiffness: no model {model!r}; it is "unilateral" (contacts press) or "bonded" (they stick).')
 
 
-def _kept(contacts: CamContacts, bonded: bool) -> Bools:
-    """Which contacts take part."""
-    touching = contacts.gap < CONTACT_GAP
-    return touching & contacts.intended if bonded else np.isfinite(contacts.gap)
+def _who_carries(contacts: Sequence[CamContacts], torque: float, bonded: bool) -> tuple[list[Bools], Bools]:
+    """(which contacts take part, one mask a position; whether a contact without a gap holds the wheel there against the torque (p,)).
 
-
-def _resists(contacts: CamContacts, kept: Bools, torque: float, bonded: bool) -> bool:
-    """Whether a contact without a gap holds the wheel against the torque; what holds the cams holds both ways."""
-    arm = contacts.arm / np.abs(contacts.centre)
-    return bool(np.any(kept & (contacts.gap < CONTACT_GAP) & ((np.abs(arm) if bonded else -np.sign(torque) * arm) > LEAST_ARM)))
+    What holds the cams holds both ways.
+    """
+    if not contacts:
+        return [], np.zeros(0, dtype=bool)
+    gap, arm, centre, intended = (
+        np.concatenate([getattr(each, name) for each in contacts]) for name in ("gap", "arm", "centre", "intended")
+    )
+    counts = np.array([len(each.gap) for each in contacts])
+    touching = gap < CONTACT_GAP
+    kept = touching & intended if bonded else np.isfinite(gap)
+    lever = np.abs(arm) if bonded else -np.sign(torque) * arm
+    holding = kept & touching & (lever > LEAST_ARM * np.abs(centre))
+    carries = np.bincount(np.repeat(np.arange(len(counts)), counts), holding, len(counts)) > 0
+    return np.split(kept, np.cumsum(counts)[:-1]), carries

@@ -1,4 +1,5 @@
-"""Many pin wheels at once: play, contacts and pressure angles in compiled code; stiffness and loads on the sampled profile, one by one."""
+"""Many pin wheels at once: play, contacts and pressure angles in compiled code; stiffness and loads on the same sampled profile, design by
+design, in threads, with equilibria in compiled code."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
@@ -7,10 +8,12 @@ from typing import TypeAlias
 
 import numpy as np
 
+from drivewright import cases
 from drivewright._typing import Floats
 from drivewright.errors import DrivewrightError
 from drivewright.indexing.batch import evaluate_designs, sampled
 from drivewright.indexing.batch.designs import DesignValues
+from drivewright.indexing.batch.pin_wheels import PinWheelValues
 from drivewright.indexing.motion import TURN, step_angle
 from drivewright.mechanisms.indexer import geometry, loads, stiffness
 from drivewright.mechanisms.indexer.build import IndexerModel, build, law_parameters, motion_to_dwell
@@ -18,7 +21,7 @@ from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refus
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.result import Answer, Check
 from drivewright.spec import value_at
-from drivewright.spec.designs import accepted_blocks, numbers_of, sample_of, with_columns, within_limits
+from drivewright.spec.designs import numbers_of, sample_of, with_columns, within_limits
 
 TABLES = ("motion", "load", "contact", "crank_bearings", "support_bearings", "shafts", "gear", "housing", "limits")
 RATIO = "motion.motion_to_dwell"
@@ -50,19 +53,29 @@ def batch(spec: IndexerSpec, keys: Sequence[str], names: Sequence[str]) -> Calla
     if measures is None:
         return None
     compiled = [name for name in names if name in COMPILED]
+    play = any("play." in name for name in compiled)
 
     def evaluate(designs: Floats) -> dict[str, Floats]:
         """{name: (n,)} of designs (n, d), nan for an impossible one."""
         columns = dict(zip(keys, np.asarray(designs, float).T, strict=True))
         values = {name: np.full(len(designs), np.nan) for name in names}
-        accepted, possible = np.flatnonzero(within_limits(type(spec), columns, len(designs))), []
-        for rows, found in accepted_blocks(accepted, lambda rows: _measured(_design(spec, columns, int(rows[0])), measures), 1):
-            possible += rows.tolist()
+        wheels = np.full((len(PinWheelValues._fields), len(designs)), np.nan)
+
+        def measure(row: int) -> None:
+            numbers, wheel = _measured(_design(spec, columns, row), measures, play)
             for name in set(names) - COMPILED:
-                values[name][rows] = found.get(name, np.nan)
-        if compiled and possible:
+                values[name][row] = numbers.get(name, np.nan)
+            wheels[:, row] = wheel
+            possible[row] = True
+
+        possible = np.zeros(len(designs), bool)
+        accepted = np.flatnonzero(within_limits(type(spec), columns, len(designs))).tolist()
+        if cases.run(measure, accepted, None if measures else 1).interrupted:
+            raise KeyboardInterrupt
+        if compiled and possible.any():
             rest = {key: column[possible] for key, column in columns.items()}
-            for name, column in _compiled(spec, rest, len(possible), compiled).items():
+            known = PinWheelValues(*wheels[:, possible]) if measures else None
+            for name, column in _compiled(spec, rest, int(np.sum(possible)), compiled, play, known).items():
                 values[name][possible] = column
         return values
 
@@ -86,14 +99,17 @@ def _design(spec, columns, row):
 # -- in compiled code, many designs in one call ----------------------------------------------------------------------------------
 
 
-def _compiled(spec: IndexerSpec, columns: Mapping[str, Floats], count: int, names: Iterable[str]) -> dict[str, Floats]:
-    """{name: (n,)} of the designs that the spec accepts."""
+def _compiled(
+    spec: IndexerSpec, columns: Mapping[str, Floats], count: int, names: Iterable[str], play: bool, wheels: PinWheelValues | None
+) -> dict[str, Floats]:
+    """{name: (n,)} of the designs that the spec accepts; wheels: their values where they are known."""
     pins = columns.get("pins", np.full(count, spec.pins))
     values = {name: np.full(count, np.nan) for name in names}
     for number in np.unique(pins):
         rows = pins == number
         own = with_columns(spec, {"pins": int(number)} | {key: column[rows] for key, column in columns.items() if key != "pins"})
-        found = _evaluated(own, int(np.sum(rows)), any(name in MOTION for name in names))
+        known = wheels and PinWheelValues(*(column[rows] for column in wheels))
+        found = _evaluated(own, int(np.sum(rows)), any(name in MOTION for name in names), play, known)
         numbers = {name: getattr(found.wheels, field) for name, field in VALUES.items()}
         numbers |= {name: getattr(found, field) for name, field in MOTION.items()}
         numbers |= dict(numbers_of(Answer(checks=tuple(_checks(own, numbers)))))
@@ -102,11 +118,13 @@ def _compiled(spec: IndexerSpec, columns: Mapping[str, Floats], count: int, name
     return values
 
 
-def _evaluated(spec: IndexerSpec, count: int, factors: bool) -> DesignValues:
+def _evaluated(spec: IndexerSpec, count: int, factors: bool, play: bool, wheels: PinWheelValues | None) -> DesignValues:
     """The values of designs, arrays in the place of the numbers of a spec, in compiled code."""
     law, circle = law_name(spec), np.broadcast_to(spec.pin_circle_radius, count)
     throw, angle = required(spec, "eccentricity"), step_angle(law, motion_to_dwell(spec))
-    return evaluate_designs(law, law_parameters(spec), spec.pins, circle, spec.pin_radius, throw, angle, spec.side, factors)
+    return evaluate_designs(
+        law, law_parameters(spec), spec.pins, circle, spec.pin_radius, throw, angle, spec.side, factors, play=play, wheels=wheels
+    )
 
 
 def _checks(spec, numbers):
@@ -141,22 +159,32 @@ MEASURES: tuple[Measure, ...] = (
 )
 
 
-def _measured(spec, measures):
-    """{name: number} of one design by the measures, that of none where there are none."""
+def _measured(spec: IndexerSpec, measures: Sequence[Measure], play: bool) -> tuple[dict[str, float], PinWheelValues | float]:
+    """({name: number} by the measures, `PinWheelValues`) of one design from one profile; nothing and nan where there are no measures."""
     if not measures:
         refuse_contradictions(spec)
-        return {}
+        return {}, np.nan
     model = build(spec)
-    quick = replace(model, drive=sampled(model.wheel))
-    return {name: number for measure in measures for name, number in numbers_of(measure(quick))}
+    wheel = sampled(model.wheel)
+    quick = _quick(model, wheel)
+    found = {name: number for measure in measures for name, number in numbers_of(measure(quick))}
+    return found, wheel.values(play)
+
+
+def _quick(model, wheel):
+    """The model with a sampled profile, whose equilibria are solved in compiled code."""
+    return replace(model, drive=wheel, compiled=True)
 
 
 def _measures(spec: IndexerSpec, names: Iterable[str]) -> list[Measure] | None:
     """The measures of the names that no compiled code gives; None where one of the names is not among them."""
     missing, chosen = set(names) - COMPILED, []
+    if not missing:
+        return []
     try:
-        for measure in MEASURES if missing else ():
-            own = _measured(spec, [measure]).keys() & missing
+        model = _quick(built := build(spec), sampled(built.wheel))
+        for measure in MEASURES:
+            own = dict(numbers_of(measure(model))).keys() & missing
             if own:
                 chosen.append(measure)
                 missing -= own

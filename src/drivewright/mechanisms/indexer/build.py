@@ -1,9 +1,9 @@
 """From the spec to a wheel with its cams and to what yields between wheel and input, in SI and in plain data."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
-from typing import Literal, TypeVar
+from functools import cached_property, lru_cache, wraps
+from typing import Any, Literal, TypeVar
 
 import numpy as np
 
@@ -22,18 +22,24 @@ from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refus
 from drivewright.mechanisms.indexer.spec import IndexerBearings, IndexerShafts, IndexerSpec
 
 PartT = TypeVar("PartT")
+ResultT = TypeVar("ResultT")
 STEP = np.deg2rad(4.5)  # of the input, from position to position
 
 
 @dataclass(frozen=True, eq=False)
 class IndexerModel:
-    """The drive (PinWheel, ParallelIndexer or RollerGear), the drive train of a pin wheel, and its rolling bearings by table name."""
+    """The drive (PinWheel, ParallelIndexer or RollerGear), the drive train of a pin wheel, and its rolling bearings by table name.
+
+    compiled: whether its equilibria are solved in compiled code, as those of many designs.
+    """
 
     spec: IndexerSpec
     drive: PinWheel | ParallelIndexer | RollerGear
     train: drivetrain.Drivetrain | None = None
     rolling: Mapping[str, BallBearing | RollerBearing] = field(default_factory=dict)
     findings: tuple[str, ...] = ()
+    compiled: bool = False
+    results: dict[str, Any] = field(default_factory=dict, init=False, repr=False)  # of `once`
 
     @property
     def wheel(self) -> PinWheel:
@@ -75,7 +81,7 @@ class IndexerModel:
     @property
     def loaded_wheel(self) -> LoadedWheel:
         """The pin wheel with its drive train, for the stiffness; of translating kinds alone."""
-        return LoadedWheel(self.wheel, _of_kind(self.train, drivetrain.Drivetrain), self.spec.cams, self.spec.contact.model)
+        return LoadedWheel(self.wheel, _of_kind(self.train, drivetrain.Drivetrain), self.spec.cams, self.spec.contact.model, self.compiled)
 
     @property
     def crank_bearing(self) -> Entry | None:
@@ -99,6 +105,19 @@ class IndexerModel:
         return card.modulus / (2 * (1 - card.poisson**2))
 
 
+def once(function: Callable[[IndexerModel], ResultT]) -> Callable[[IndexerModel], ResultT]:
+    """Decorator: what several analyses of a model need is computed by the first and kept with the model."""
+
+    @wraps(function)
+    def kept(model: IndexerModel) -> ResultT:
+        name = function.__name__
+        if name not in model.results:
+            model.results[name] = function(model)
+        return model.results[name]
+
+    return kept
+
+
 def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT:
     """The part, where it is of a type, or of one of several."""
     if not isinstance(part, kind):
@@ -109,7 +128,7 @@ def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT
 def build(spec: IndexerSpec) -> IndexerModel:
     """The `IndexerModel` of a spec; InputError where it has no cam."""
     refuse_contradictions(spec)
-    moving = index_motion(law_name(spec), spec.pins, motion_to_dwell(spec), **law_parameters(spec))
+    moving = _index_motion(law_name(spec), spec.pins, motion_to_dwell(spec), **law_parameters(spec))
     if spec.kind not in TRANSLATING:
         return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=tuple(unused(spec)))
     wheel = PinWheel(spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "eccentricity"), moving, spec.side)
@@ -144,6 +163,9 @@ def _globoidal(spec: IndexerSpec, moving: IndexMotion) -> RollerGear:
 def _barrel(spec: IndexerSpec, moving: IndexMotion) -> RollerGear:
     length, radius, cam_length = (required(spec, key) for key in ("pin_length", "cam_radius", "cam_length"))
     return barrel(moving, spec.pin_circle_radius, spec.pin_radius, length, radius, cam_length, spec.centre_distance, spec.hand)
+
+
+_index_motion = lru_cache(maxsize=16)(index_motion)  # designs of one search have it in common, more often than not
 
 
 OTHERS = {"parallel": _parallel, "globoidal": _globoidal, "barrel": _barrel}

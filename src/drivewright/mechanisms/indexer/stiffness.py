@@ -1,13 +1,12 @@
 """Torsional stiffness over the index period: who carries, how far the wheel yields, and where nothing holds it."""
 
 from collections.abc import Iterator
-from functools import lru_cache
 
 from drivewright.indexing.pin_pressure import largest_pin_values
 from drivewright.indexing.stiffness.loading import dwell_angles, solve_after_play, solve_at_contacts, solve_loaded
 from drivewright.indexing.stiffness.tables import pin_force_table, stiffness_table
 from drivewright.indexing.stiffness.values import dwell_values, stiffness_findings, stiffness_values
-from drivewright.mechanisms.indexer.build import STEP, IndexerModel
+from drivewright.mechanisms.indexer.build import STEP, IndexerModel, once
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.mechanisms.indexer.stress import pressure_check
@@ -59,19 +58,19 @@ def pin_loads(model: IndexerModel) -> Answer:
     return Answer(values, checks=tuple(pressure_check(model, values)))
 
 
-@lru_cache(maxsize=2)
+@once
 def _at_contacts(model):
     """(result, contacts) over the index period, the wheel in its ideal place."""
     return solve_loaded(model.loaded_wheel, model.angles, model.torque)
 
 
-@lru_cache(maxsize=2)
+@once
 def _after_play(model):
     """(result, contacts, play) once the wheel has turned freely."""
     return solve_after_play(model.loaded_wheel, model.angles, model.torque, *_at_contacts(model))
 
 
-@lru_cache(maxsize=2)
+@once
 def _pin_forces(model):
     """Table of the forces on the pins after the play."""
     loaded, touching, _ = _after_play(model)
