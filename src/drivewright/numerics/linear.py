@@ -51,7 +51,7 @@ def pseudo_inverse(matrices: Floats, rcond: float) -> Floats:
 def _inverse_where_well(matrices: Floats) -> tuple[Floats, Bools]:
     """(inverses, which of them are of a condition below `WELL`) of symmetric matrices (..., n, n); of none where one is singular."""
     try:
-        inverse = np.linalg.inv(matrices)
+        inverse = np.asarray(np.linalg.inv(matrices), dtype=float)
     except np.linalg.LinAlgError:
         return matrices, np.zeros(matrices.shape[:-2], dtype=bool)
     return inverse, np.linalg.norm(matrices, axis=(-2, -1)) * np.linalg.norm(inverse, axis=(-2, -1)) < WELL
