@@ -1,5 +1,7 @@
 """Kernels on eight cases in lanes: to the bit what they give case by case; cosine and sine against the mathematics library."""
 
+import subprocess
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -236,3 +238,34 @@ def test_what_stands_in_two_places_stays_one():
     case = machine(0)
     one, other = in_lanes((case, case))
     assert one is other
+
+
+ALONE = """
+import sys
+import numpy as np
+from drivewright._jit import kernel, per_lane
+
+@per_lane
+def half(x):
+    return 0.5 * x
+
+@kernel
+def length(x, n):
+    total = 0.0
+    for _ in range(n):
+        total = np.hypot(total, x)
+    total = half(total)
+    for _ in range(n):
+        total = np.hypot(total, x)
+    return total
+
+print(length(4.0, 9), "drivewright._jit.lanes" in sys.modules)
+"""
+
+
+def test_who_has_no_lanes_does_not_tell_numba_of_them():
+    """Told while a kernel is being compiled, numba would take one function for two."""
+    done = subprocess.run([sys.executable, "-c", ALONE], capture_output=True, text=True, timeout=120)
+    assert done.returncode == 0, done.stderr
+    found, lanes = done.stdout.split()
+    assert float(found) == pytest.approx(np.hypot(6.0, 12.0), rel=1e-14) and lanes == "False"

@@ -6,7 +6,9 @@ below it, optimised as a whole, and it alone gets machine code and a wrapper (`L
 """
 
 import gc
+import importlib
 import re
+import sys
 from collections.abc import Callable
 from typing import Any
 
@@ -17,6 +19,7 @@ from numba.core.compiler_machinery import LoweringPass, register_pass
 from numba.core.registry import CPUDispatcher
 from numba.core.typing.templates import AbstractTemplate, infer_global
 
+LANES = "drivewright._jit.lanes"  # imported by those alone that have lanes
 ENVIRONMENT = "_ZN08NumbaEnv"  # how the names of places for objects begin
 OPTIONS = {"nopython": True, "nogil": True, "error_model": "numpy", "boundscheck": None}
 
@@ -238,17 +241,22 @@ class Kernel(CPUDispatcher):
 
     def _callee_for(self, args):
         """The kernel itself, or what stands for it where its arguments have lanes."""
-        in_lanes = getattr(self.py_func, "in_lanes", None)
-        if in_lanes is None:
-            return self.callee
-        from drivewright._jit import lanes
-
-        if not any(lanes.is_laned(each) for each in args):
+        in_lanes, lanes = getattr(self.py_func, "in_lanes", None), sys.modules.get(LANES)
+        if in_lanes is None or lanes is None or not any(lanes.is_laned(each) for each in args):
             return self.callee
         if args not in self.laned:
             function = lanes.lane_by_lane(self.callee, self.py_func.__name__, args) if in_lanes is True else getattr(lanes, in_lanes)
             self.laned[args] = _Callee(function, OPTIONS | {"_nrt": False})
         return self.laned[args]
+
+
+def tell_numba_of_lanes() -> None:
+    """Whoever has lanes calls it before the first kernel gets any; it takes a while.
+
+    Never while a kernel is being compiled: what numba knows of a function by then, np.hypot, say, it would not take for the same function.
+    """
+    with global_compiler_lock:
+        importlib.import_module(LANES)
 
 
 def choose_by_type(dispatch: Callable[..., Any], formula_for: Callable[[Any], Any]) -> None:

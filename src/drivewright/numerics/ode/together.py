@@ -111,8 +111,9 @@ class _Lanes:
     """Up to `WIDTH` runs of one structure side by side."""
 
     def __init__(self, request):
-        import drivewright._jit.lanes  # noqa: F401  # tells numba of lanes, which takes a while
+        from drivewright._jit.compiling import tell_numba_of_lanes
 
+        tell_numba_of_lanes()
         run, self.key, self.rules = request.run, request.key, request.run.rules
         batch: StepBatch = run.batch(STEPS)
         self.state, self.batch = in_lanes(_state(run)), in_lanes(batch)
