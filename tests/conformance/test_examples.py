@@ -4,6 +4,10 @@ These numbers are our own.  When one moves for a good reason, print the new one 
 say in the commit why it moved, and change it here.
 """
 
+import os
+import subprocess
+import sys
+
 import pytest
 from places import EXAMPLES
 
@@ -74,3 +78,12 @@ def test_an_example_runs_to_the_same_numbers(name):
 
 def test_the_improved_pusher_meets_every_requirement():
     assert dw.run(dw.load(FOLDER / "seedling_pusher_improved.toml")).ok
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", sorted(PINNED))
+def test_a_first_run_with_nothing_compiled_is_complete(name, tmp_path):
+    """In a process of its own: what is compiled first, and from where, differs from that among other tests."""
+    command = [sys.executable, "-m", "drivewright", "run", str(FOLDER / f"{name}.toml"), "--no-figures", "--out", str(tmp_path / "out")]
+    done = subprocess.run(command, env=os.environ | {"XDG_CACHE_HOME": str(tmp_path)}, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
