@@ -15,6 +15,7 @@ import sys
 import threading
 from typing import NoReturn
 
+from drivewright._garbage import collect_rarely
 from drivewright.cli.interruption import ending_signals, exit_code
 from drivewright.errors import DrivewrightError, InputError
 
@@ -27,6 +28,7 @@ _ended, _starved = threading.Event(), threading.Event()  # the command; a thread
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; exits with 0 done, 1 failed check, 2 bad input, 3 strict, 4 solver gave up, 130 interrupted, 128 and its number
     after another signal that ends a process."""
+    collect_rarely()
     threading.excepthook = _end_of_a_thread
     _ended.clear()
     _starved.clear()

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Protocol
 
+from drivewright._garbage import collect_rarely
 from drivewright.cases import worker_count
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS", "VECLIB_MAXIMUM_THREADS")
@@ -61,6 +62,7 @@ def endings_blocked() -> Iterator[None]:
 
 def exit_with_parent(parent: int, pipe: Pipe) -> None:
     """In the process: leave when the parent (its process id) dies or closes its end; Ctrl-C is the parent's business."""
+    collect_rarely()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def watch() -> None:
