@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 WIDTH = 7.2  # inches: the text width of an A4 page with normal margins
 TITLE = {"ha": "left", "fontsize": 11, "fontweight": "bold"}
+POINTS = 72  # in an inch: a unit of SVG
+NEEDLESS = re.compile(r"(?<=\.\d\d)\d+|\s+(?=[MLCQz\s]|$)|(?<=[MLCQz])\s+|^\s+")  # in a path: more than two decimals, blanks about commands
 RASTER = 220  # dots per inch of what is drawn as an image
 TALLEST = 4.4  # inches: the tallest picture to scale
 BADGE = {"boxstyle": "square,pad=0.1", "fc": (1, 1, 1, 0.75), "ec": "none"}  # behind words that stand on a line
@@ -130,14 +132,27 @@ def svg(figure: "Figure") -> str:
     """
     sink = io.StringIO()
     with styled():
+        _lay_out(figure)
         figure.savefig(sink, format="svg", dpi=RASTER, metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
     text = sink.getvalue().replace("'DejaVu Sans'", "'DejaVu Sans', Verdana, Arial, sans-serif")
     return re.sub(r' d="([^"]+)"', lambda path: f' d="{_short(path[1])}"', text)
 
 
+def _lay_out(figure: "Figure") -> None:
+    """Give the axes their places once and for all: `savefig` would draw everything twice for it."""
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
+
+    engine = figure.get_layout_engine()
+    if engine is not None and figure.axes:
+        FigureCanvasSVG(figure)  # whose letters count
+        figure.set_dpi(POINTS)
+        engine.execute(figure)
+    figure.set_layout_engine(None)
+
+
 def _short(path: str) -> str:
     """The commands of an SVG path with two decimals and no needless blanks."""
-    return re.sub(r"\s*([MLCQz])\s*", r"\1", re.sub(r"(\.\d\d)\d+", r"\1", path)).strip()
+    return NEEDLESS.sub("", path)
 
 
 def angle_ticks(axis: "Axis", low: float, high: float, most: int = 9) -> None:
