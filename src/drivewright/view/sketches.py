@@ -136,8 +136,9 @@ def _draw_shape(axis, shape, pose, role, tolerance, near=None):
 
 
 def _draw_ghosts(axis, scene, observer, phases, tolerance):
-    """Edges of the material at other phases, faint."""
-    from matplotlib.collections import LineCollection
+    """Edges of the material at other phases, faint: those of one colour in one stroke, which is as faint where they lie upon each other."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.path import Path
 
     lines = {}
     for phase in phases:
@@ -146,9 +147,10 @@ def _draw_ghosts(axis, scene, observer, phases, tolerance):
                 if LAYERS.get(shape.layer, LAYERS["body"])[2]:
                     points = place(simplified_points(shape.outline, tolerance), pose) * _length()[0]
                     lines.setdefault(body.colour, []).append(points[[*range(len(points)), 0]] if shape.outline.closed else points)
-    for role, segments in lines.items():
-        axis.add_artist(LineCollection(segments, colors=colour(role), linewidths=0.6, alpha=0.25))
-        axis.update_datalim(np.concatenate(segments))
+    for role, outlines in lines.items():
+        edges = Path.make_compound_path(*map(Path, outlines))
+        axis.add_artist(PathPatch(edges, fill=False, ec=colour(role), lw=0.6, alpha=0.25, joinstyle="round"))
+        axis.update_datalim(edges.vertices)
 
 
 def _add(axis, points, closed, near=None, **look):
