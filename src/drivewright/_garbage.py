@@ -6,5 +6,5 @@ NEW_OBJECTS = 100_000  # between two looks (700 is Python's own choice): a start
 
 
 def collect_rarely() -> None:
-    """Look for cycles after as many new objects as take some ten megabytes: a twentieth of the time of a start, a tenth of that of a report."""
+    """Look for cycles after as many new objects as take some ten megabytes: a start takes a twentieth less time."""
     gc.set_threshold(NEW_OBJECTS, *gc.get_threshold()[1:])

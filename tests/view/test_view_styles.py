@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from sample_designs import four_bar_result, four_bar_scene
 
 from drivewright import registry
@@ -12,6 +13,8 @@ from drivewright.report.pack import pack_plots
 from drivewright.result import Column, Plot, Table
 from drivewright.view import draw_panels, svg
 from drivewright.view.panels import DECADES, known_plots, log_span, panels
+from drivewright.view.powers import power_of_ten
+from drivewright.view.style import log_ticks
 
 pytestmark = pytest.mark.interface
 
@@ -115,3 +118,22 @@ def test_plots_may_depend_on_the_result(monkeypatch):
     kind = replace(registry.mechanism("cam"), plots=lambda result: (made._replace(name=f"of_{result.title}"),))
     monkeypatch.setattr(registry, "mechanism", lambda name: kind)
     assert known_plots(replace(RESULT, mechanism="cam")) == {made.name: made}
+
+
+@pytest.mark.parametrize(
+    ("x", "name"), [(1e-3, "10⁻³"), (1e12, "10¹²"), (1.0, "10⁰"), (2e-3, "2×10⁻³"), (0.9999999999e-3, "10⁻³"), (3.25e4, "3.25×10⁴")]
+)
+def test_powers_of_ten_are_text(x, name):
+    assert power_of_ten(x) == name
+
+
+@pytest.mark.parametrize(("low", "high", "names"), [(2e-5, 3e-2, ["10⁻⁴", "10⁻³", "10⁻²"]), (2.5e-3, 4.5e-3, ["3×10⁻³", "4×10⁻³"])])
+def test_a_logarithmic_axis_names_its_decades_or_what_lies_between(low, high, names):
+    axes = Figure().subplots()
+    axes.set(yscale="log", ylim=(low, high))
+    log_ticks(axes.yaxis)
+    axes.figure.draw_without_rendering()
+    texts = [
+        tick.label1.get_text() for tick in [*axes.yaxis.get_major_ticks(), *axes.yaxis.get_minor_ticks()] if low <= tick.get_loc() <= high
+    ]
+    assert sorted(text for text in texts if text) == sorted(names)

@@ -8,6 +8,7 @@ motion      poses (x, y, angle) seen by an observer, and between two frames of a
 outlines    outlines as polylines with no more points than a picture needs
 palette     colours by role, once, for the figures, the report's style sheet and the player
 panels      a plot as plain data: which columns share a panel, in which unit, over which range
+powers      powers of ten along a logarithmic axis
 ranked      what matters most: lying bars, the longest on top
 rounds      a quantity round a circle: what each place around a bearing carries
 sketches    scenes and drawings as figures, to scale

@@ -14,7 +14,19 @@ from drivewright.view.palette import SERIES, colour
 from drivewright.view.panels import Panel, find_plot, panels
 from drivewright.view.ranked import draw_ranked
 from drivewright.view.rounds import draw_round, round_into
-from drivewright.view.style import BADGE, MUTED, angle_ticks, are_turned, legend_above, new_figure, places, show_places, styled, whole_ticks
+from drivewright.view.style import (
+    BADGE,
+    MUTED,
+    angle_ticks,
+    are_turned,
+    legend_above,
+    log_ticks,
+    new_figure,
+    places,
+    show_places,
+    styled,
+    whole_ticks,
+)
 from drivewright.view.text import axis_label, literal, parts_of_label
 
 if TYPE_CHECKING:
@@ -202,6 +214,7 @@ def _scale(axis, panel, x):
     axis.set_ylim(panel.low, panel.high)
     if panel.log:
         axis.set_yscale("log")
+        log_ticks(axis.yaxis)
     if len(x) > FEW and np.ptp(x) > 0 and not panel.series[0].marker:
         axis.set_xlim(np.min(x), np.max(x))
     if panel.x.unit == "°":

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from drivewright._typing import ArrayLike, Floats
 from drivewright.view.palette import colour
 from drivewright.view.panels import Panel, decimals
-from drivewright.view.style import angle_ticks, legend_above, new_figure, places, show_places, styled, whole_ticks
+from drivewright.view.style import angle_ticks, legend_above, log_ticks, new_figure, places, show_places, styled, whole_ticks
 from drivewright.view.text import axis_label, literal, number, parts_of_label
 
 if TYPE_CHECKING:
@@ -104,6 +104,8 @@ def _axis(axis: "Axis", levels: NDArray[Any], names: list[str] | None, unit: str
     ends = edges(levels, logarithmic)[[0, -1]] if len(levels) else (0.0, 1.0)
     getattr(axis.axes, f"set_{along}scale")("log" if logarithmic else "linear")
     getattr(axis.axes, f"set_{along}lim")(*ends)
+    if logarithmic:
+        log_ticks(axis)
     if names is None and (len(levels) == 1 or _are_few_whole(levels)):
         axis.set_ticks(levels)
     elif not logarithmic:
@@ -132,7 +134,9 @@ def _paint(figure, axis, panel, x, y, cells):
     tint = panel.series[1]
     bar = figure.colorbar(painted, ax=axis, aspect=28, pad=0.015, label=literal(axis_label(tint.label, tint.unit, width=34)))
     bar.outline.set_visible(False)
-    if are_whole(cells) and not panel.log:
+    if panel.log:
+        log_ticks(bar.ax.yaxis)
+    elif are_whole(cells):
         whole_ticks(bar.ax.yaxis)
     return painted
 

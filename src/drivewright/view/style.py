@@ -197,6 +197,14 @@ def whole_ticks(axis: "Axis") -> None:
     axis.set_major_locator(MaxNLocator("auto", steps=[1, 2, 5, 10], integer=True, min_n_ticks=1))
 
 
+def log_ticks(axis: "Axis") -> None:
+    """Names of ticks along a logarithmic axis: '10⁻³'."""
+    from drivewright.view.powers import PowersOfTen
+
+    axis.set_major_formatter(PowersOfTen())
+    axis.set_minor_formatter(PowersOfTen())
+
+
 def legend_above(axis: "Axes", handles: "Sequence[Artist] | None" = None, room: int = 84) -> None:
     """The legend in rows of `room` letters above an axis, from its left end on; none without anything to tell."""
     handles = axis.get_legend_handles_labels()[0] if handles is None else handles
