@@ -183,7 +183,8 @@ def loaded_shaft(bearings: int, segments: int) -> Callable[[], object]:
 
     law, pitch = law_of(benchmark.ball_bearing()), 0.1
     supports = tuple(shafts.Support(f"B{k}", pitch * (k + 0.45), law=law) for k in range(bearings))
-    sections = tuple(shafts.Section(pitch * bearings / segments, (0.02, 0.022, 0.025, 0.021)[k % 4], 0.0) for k in range(segments))
+    diameters = [(0.02, 0.022, 0.025, 0.021)[k % 4] for k in range(segments)]
+    sections = tuple(shafts.Section(pitch * bearings / segments, diameter, diameter) for diameter in diameters)
     loads = shafts.ShaftLoads(tuple(shafts.ShaftLoad(pitch * (k + 0.9), (0.0, -500.0, 0.0)) for k in range(bearings)))
     return lambda: shafts.apply_loads(shafts.Shaft(sections, MODULUS, POISSON, 7850.0, supports), loads)
 
