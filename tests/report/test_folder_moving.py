@@ -79,6 +79,22 @@ def test_a_file_that_differs_from_the_one_there_lies_beside_it(tmp_path, system)
     assert name.startswith("notes.recovered-") and text == "old"
 
 
+@pytest.mark.parametrize(("ours", "theirs"), [("folder", "folder"), ("folder", "file"), ("file", "folder")])
+def test_a_name_that_somebody_takes_between_the_look_and_the_rename_is_theirs(tmp_path, monkeypatch, ours, theirs):
+    """Without the system's call the name is looked at first, and another process may be quicker."""
+    monkeypatch.setattr(renames, "_renameat2", lambda: None)
+    monkeypatch.setattr(renames.os.path, "lexists", lambda path: False)
+    source, target = tmp_path / "source", tmp_path / "target"
+    for path, form in ((source, ours), (target, theirs)):
+        if form == "folder":
+            path.mkdir()
+            (path / "notes.txt").write_text(path.name)
+        else:
+            path.write_text(path.name)
+    assert not renames.move(source, target) and source.exists()
+    assert (target / "notes.txt" if theirs == "folder" else target).read_text() == "target"
+
+
 def test_files_of_a_person_stay_where_there_is_no_run_folder_to_bring_them_to(tmp_path):
     (tmp_path / "run").mkdir()
     (tmp_path / "run" / "thesis.tex").write_text("mine")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 HERE = -100  # AT_FDCWD of fcntl.h
 NO_REPLACE, EXCHANGE = 1, 2  # flags of renameat2(2)
+TAKEN = (errno.ENOTEMPTY, errno.EEXIST, errno.ENOTDIR, errno.EISDIR)  # somebody has just given the name to something else
 UNABLE = (errno.ENOSYS, errno.EINVAL, errno.ENOTSUP)  # the answer of a kernel, or of a file system, that cannot do it
 
 
@@ -26,7 +27,12 @@ def move(source: Path, target: Path) -> bool:
         return False
     if os.path.lexists(target):
         return False
-    source.rename(target)
+    try:
+        source.rename(target)
+    except OSError as error:
+        if error.errno in TAKEN:
+            return False
+        raise
     return True
 
 
