@@ -1,8 +1,10 @@
 """Results, scenes and drawings as figures.  matplotlib is imported only when something is drawn.
 
+axis_names  what a y axis is called that several lines share
 histograms  how often a sample takes which values, with its mean, its tails and its limits
 lines       which columns of a table are lines of a plot, with what each is compared with and the intervals of its values
 maps        a quantity over two others as coloured cells, each about its own point of the grid
+markers     sparse markers that tell the lines of one panel apart without their colours
 meshes      a closed triangle surface seen from the side
 motion      poses (x, y, angle) seen by an observer, and between two frames of a cycle
 outlines    outlines as polylines with no more points than a picture needs

@@ -9,6 +9,7 @@ from drivewright.errors import InputError
 from drivewright.result import Result
 from drivewright.view.histograms import draw_histogram
 from drivewright.view.maps import draw_map, map_into
+from drivewright.view.markers import line_marker, marked_rows
 from drivewright.view.meshes import draw_mesh
 from drivewright.view.palette import SERIES, colour
 from drivewright.view.panels import Panel, find_plot, panels
@@ -162,7 +163,17 @@ def _draw_series(axis, panel, series, x, names):
     elif series.dashed:
         axis.plot(x, data, lw=1.0, ls=(0, (4, 3)), color=hue, label=label, zorder=2.5)
     else:
-        axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, marker="o" if len(x) <= FEW else None, ms=3.5, color=hue, label=label)
+        axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, color=hue, label=label, **_line_markers(panel, series, x, data))
+
+
+def _line_markers(panel, series, x, data):
+    """Every point of a short line is marked; several long lines carry a few markers each, so that they differ without colour."""
+    solid = [each for each in panel.series if not each.dashed]
+    number, few = solid.index(series), len(x) <= FEW
+    if len(solid) == 1:
+        return {"marker": "o", "ms": 3.5} if few else {}
+    rows = None if few else marked_rows(x, data, number, len(solid), upright=not panel.equal)
+    return {"marker": line_marker(number), "ms": 5, "mew": 0.4, "mec": "white", "markevery": rows}
 
 
 def _draw_intervals(axis, series, x, isolated):

@@ -14,9 +14,10 @@ from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import UnknownName
 from drivewright.result import Column, Plot, Result, Table
+from drivewright.view.axis_names import axis_name
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.palette import MARKERS, SERIES
-from drivewright.view.text import axis_label, dimension, display_unit, number, quantity, sentence, with_unit
+from drivewright.view.text import axis_label, display_unit, number, quantity, sentence, with_unit
 
 REACH = 8.0  # a panel with a limit shows at most so many times the limit: beyond it (a pole of a radius) the line leaves the panel
 DECADES = 6  # powers of ten that a logarithmic axis shows at most
@@ -111,15 +112,24 @@ def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade]) if plot.shade else ()
     return tuple(
-        _panel(plot, _series(x), _coloured(chunk, roles), _label(table, plot, chunk), () if n else _limits(result, plot), shade)
+        _panel(
+            plot,
+            _series(x),
+            _coloured(chunk, roles),
+            _label(table, plot, chunk, len(groups) == 1),
+            () if n else _limits(result, plot),
+            shade,
+        )
         for n, chunk in enumerate(chunks)
     )
 
 
-def _label(table: Table, plot: Plot, chunk: Sequence[Line]) -> tuple[str, str]:
-    """(meaning, SI unit) of the y axis: that of the only line, or of the column that another one splits into lines; else the dimension."""
-    column = chunk[0].column if len(chunk) == 1 else table[plot.y[0]] if plot.by and len(plot.y) == 1 else None
-    return (column.meaning or column.name if column else dimension(chunk[0].column.unit)), chunk[0].column.unit
+def _label(table: Table, plot: Plot, chunk: Sequence[Line], alone: bool) -> tuple[str, str]:
+    """(name, SI unit) of the y axis: that of the only column, also of one that another one splits into lines, else `axis_name`."""
+    unit = chunk[0].column.unit
+    columns = [table[name] for name in plot.y if table[name].unit == unit] if plot.by else [line.column for line in chunk]
+    meanings = [column.meaning or column.name for column in columns]
+    return (meanings[0] if len(columns) == 1 else axis_name(meanings, unit, plot.title, alone)), unit
 
 
 def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str) -> Panel:
