@@ -8,6 +8,7 @@ commented_template  the commented template of a spec
 csv_columns         two columns of a CSV file by name, each with its unit in brackets in the header
 csv_text            CSV files as text: read within limits, and texts that no spreadsheet takes for a formula
 designs             many designs in one spec
+differences         in which keys specs differ
 document_limits     how much the text of a spec may hold, checked in one pass before it is parsed
 error_messages      validation errors of pydantic as `SpecError`: the dotted key, the value, what would be right
 json_schema         the JSON schema of a kind's spec files, read off the fields

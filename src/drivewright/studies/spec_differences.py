@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from pathlib import Path
 
-from drivewright.errors import SpecError, UnitError
+from drivewright.errors import SpecError
 from drivewright.spec import MechanismSpec, document, load
-from drivewright.units import any_quantity
+from drivewright.spec.differences import flat_tables, is_same_entry
 
 TOLD = 8  # differences that are told
 UNSEEN = ("spec", "plan", "study")  # parts of an identity that the keys tell better
@@ -35,28 +35,8 @@ def differing_keys(spec_file: str | Path, spec: MechanismSpec, is_sweep: bool) -
     try:
         if not Path(spec_file).is_file():
             return []
-        there, here = _flat(document(load(spec_file))), _flat(document(spec))
+        there, here = flat_tables(document(load(spec_file))), flat_tables(document(spec))
     except SpecError as error:
         return [f"its spec cannot be read ({error})"]
     keys = [key for key in dict.fromkeys([*there, *here]) if key != "title" and not key.startswith(idle)]
-    return [_row(key, there, here) for key in keys if not _same(there.get(key), here.get(key))]
-
-
-def _flat(tables, path=""):
-    """{dotted key: value} of raw tables."""
-    entries = tables.items() if isinstance(tables, dict) else enumerate(tables)
-    flat = {}
-    for key, value in entries:
-        place = f"{path}.{key}" if path else str(key)
-        flat |= _flat(value, place) if isinstance(value, (dict, list)) else {place: value}
-    return flat
-
-
-def _same(there, here):
-    """Whether two entries say the same: in other units, or by a copy of the same file."""
-    if there == here or not (isinstance(there, str) and isinstance(here, str)):
-        return there == here
-    try:
-        return any_quantity(there) == any_quantity(here)
-    except UnitError:
-        return Path(there).is_file() and Path(here).is_file() and Path(there).read_bytes() == Path(here).read_bytes()
+    return [_row(key, there, here) for key in keys if not is_same_entry(there.get(key), here.get(key))]
