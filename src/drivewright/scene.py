@@ -148,7 +148,7 @@ def capsule(start: Point, end: Point, radius: float) -> Outline:
 
 
 class Shape(NamedTuple):
-    """One outline on a layer.  Layers: profile, pitch, base, roller, body, hole, axis, ground, defect."""
+    """One outline on a layer: profile, pitch, base, roller, body, hole, axis, ground, defect, or edge (a line that covers nothing)."""
 
     layer: str
     outline: Outline
@@ -180,6 +180,7 @@ class Trace:
     label: str
     body: str
     point: Point
+    colour: str = ""  # a role; the viewer gives each trace one of its own unless one is named
 
 
 @dataclass(frozen=True)

@@ -150,7 +150,7 @@ export function createPainter(scene) {
     const back = stepBack(observer), moving = back[0] || back[1], [low, part] = locate(scene.u, phase), last = scene.frames - 1;
     context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     traces(observer, scale).forEach((points, n) => {
-      const colour = colours[TRACES[n % TRACES.length]];
+      const colour = colours[scene.traces[n].colour || TRACES[n % TRACES.length]];
       context.strokeStyle = context.fillStyle = colour;
       context.lineWidth = 1.5; context.globalAlpha = 0.45;
       for (let k = 1; moving && k <= PAST; k++) line(context, view, points, [k * back[0], k * back[1]], 0, last);

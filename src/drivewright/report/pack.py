@@ -52,7 +52,10 @@ def pack_scene(scene: Scene) -> dict[str, Any]:
         for f in scene.frames
     ]
     order = [b.name for b in scene.bodies]
-    traces = [{"label": t.label, "body": order.index(t.body), "point": [float(p) for p in t.point]} for t in scene.traces]
+    traces = [
+        {"label": t.label, "body": order.index(t.body), "point": [float(p) for p in t.point], **({"colour": t.colour} if t.colour else {})}
+        for t in scene.traces
+    ]
     period = float(scene.period) if np.isfinite(scene.period) and scene.period > 0 else None
     return {
         "cycle": _cycle(scene),

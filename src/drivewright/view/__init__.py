@@ -1,25 +1,27 @@
 """Results, scenes and drawings as figures.  matplotlib is imported only when something is drawn.
 
-axis_names  what a y axis is called that several lines share
-histograms  how often a sample takes which values, with its mean, its tails and its limits
-lines       which columns of a table are lines of a plot, with what each is compared with and the intervals of its values
-maps        a quantity over two others as coloured cells, each about its own point of the grid
-markers     sparse markers that tell the lines of one panel apart without their colours
-meshes      a closed triangle surface seen from the side
-motion      poses (x, y, angle) seen by an observer, and between two frames of a cycle
-outlines    outlines as polylines with no more points than a picture needs
-palette     colours by role, once, for the figures, the report's style sheet and the player
-panels      a plot as plain data: which columns share a panel, in which unit, over which range
-powers      powers of ten along a logarithmic axis
-ranked      what matters most: lying bars, the longest on top
-rounds      a quantity round a circle: what each place around a bearing carries
-sketches    scenes and drawings as figures, to scale
-style       the look of every figure: fonts, lines, spacing
-text        numbers and units as people read them: '48.183°', '26.469 mm', '2.4670×10⁻⁶ m'
+axis_names     what a y axis is called that several lines share
+histograms     how often a sample takes which values, with its mean, its tails and its limits
+lines          which columns of a table are lines of a plot, with what each is compared with and the intervals of its values
+maps           a quantity over two others as coloured cells, each about its own point of the grid
+markers        sparse markers that tell the lines of one panel apart without their colours
+merged_scenes  several scenes as one: the bodies of each design in its own colour
+meshes         a closed triangle surface seen from the side
+motion         poses (x, y, angle) seen by an observer, and between two frames of a cycle
+outlines       outlines as polylines with no more points than a picture needs
+overlays       a plot of several designs in one picture: a panel for each quantity, in it a curve for each design
+palette        colours by role, once, for the figures, the report's style sheet and the player
+panels         a plot as plain data: which columns share a panel, in which unit, over which range
+powers         powers of ten along a logarithmic axis
+ranked         what matters most: lying bars, the longest on top
+rounds         a quantity round a circle: what each place around a bearing carries
+sketches       scenes and drawings as figures, to scale
+style          the look of every figure: fonts, lines, spacing
+text           numbers and units as people read them: '48.183°', '26.469 mm', '2.4670×10⁻⁶ m'
 """
 
 from drivewright.view.figures import draw_panels, plot_table
-from drivewright.view.sketches import draw_drawing, draw_scene, draw_thumbnail
+from drivewright.view.sketches import draw_drawing, draw_overlaid, draw_scene, draw_thumbnail
 from drivewright.view.style import svg
 
-__all__ = ["draw_drawing", "draw_panels", "draw_scene", "draw_thumbnail", "plot_table", "svg"]
+__all__ = ["draw_drawing", "draw_overlaid", "draw_panels", "draw_scene", "draw_thumbnail", "plot_table", "svg"]

@@ -40,6 +40,18 @@ def common_ends(labels: Sequence[str]) -> tuple[list[str], list[str]]:
     return start, end[::-1]
 
 
+def common_phrase(labels: Sequence[str]) -> str:
+    """The label that all have, else the words that all begin with up to a mark, or end with; "" where they have nothing in common.
+
+    'Mode 1, 38.8 Hz', 'Mode 1, 39.8 Hz' -> 'Mode 1';  'A: cam disc', 'B: cam disc' -> 'Cam disc'.
+    """
+    if len(set(labels)) == 1:
+        return sentence(labels[0])
+    start, end = common_ends(labels)
+    start = _up_to_mark(start)
+    return _joined(start, ()) if start and (_is_closed(start) or not end) else sentence(" ".join(end))
+
+
 def _up_to_mark(start):
     """The words up to the last mark among them, all of them where there is none."""
     marks = [n for n, word in enumerate(start) if word[-1] in ",;:·"]

@@ -13,7 +13,7 @@ from drivewright.view.markers import line_marker, marked_rows
 from drivewright.view.meshes import draw_mesh
 from drivewright.view.palette import SERIES, colour
 from drivewright.view.panels import Panel, find_plot, panels
-from drivewright.view.ranked import draw_ranked
+from drivewright.view.ranked import draw_ranked, hatch
 from drivewright.view.rounds import draw_round, round_into
 from drivewright.view.style import (
     BADGE,
@@ -81,7 +81,8 @@ def draw_panels(shown: Sequence[Panel], marks: Sequence[tuple[float, str]] = ())
         figure = new_figure(4.6 if equal else _height(shown), shown[0].title)
         axes = figure.subplots(len(shown), 1, squeeze=False, sharex=not equal)[:, 0]
         for axis, panel in zip(axes, shown, strict=True):
-            _draw_panel(axis, panel, marks, named=axis is axes[0])
+            first = axis is axes[0]
+            _draw_panel(axis, panel, marks, first, first or _legend_entries(panel) != _legend_entries(shown[0]))
         axes[-1].set_xlabel(literal(axis_label(shown[0].x.label, shown[0].x.unit)))
         figure.align_ylabels(list(axes))
     return figure
@@ -93,9 +94,13 @@ APART = {"mesh": draw_mesh, "polar": draw_round, "map": draw_map, "histogram": d
 INTO = {"polar": round_into, "map": map_into}
 
 
-def _draw_panel(axis, panel, marks, named=True):
-    """One panel of lines, points, stems or bars, with its phases."""
-    _draw(axis, panel)
+def _legend_entries(panel):
+    return [(series.label, series.role) for series in panel.series]
+
+
+def _draw_panel(axis, panel, marks, named=True, told=True):
+    """One panel of lines, points, stems or bars, with its phases, `named` or not; `told` with its legend."""
+    _draw(axis, panel, told)
     _shade(axis, panel, marks, named)
 
 
@@ -106,13 +111,13 @@ def _height(shown):
     return (3.1 if len(shown) == 1 else 0.9 + 1.7 * len(shown)) + more
 
 
-def _draw(axis, panel):
+def _draw(axis, panel, told):
     # Points may share a name; in any other style each row has its own place.
     x, names = places(panel.x.data) if panel.style == "points" else _positions(panel.x.data)
-    if panel.style == "bars":
-        _draw_bars(axis, panel.series, x)
-    for series in panel.series if panel.style != "bars" else ():
-        _draw_series(axis, panel, series, x, names)
+    if panel.style in BARS:
+        BARS[panel.style](axis, panel.series, x)
+    for series in panel.series if panel.style not in BARS else ():
+        _draw_series(axis, panel, series, x if series.x is None else series.x, names)
     for start, end in panel.shade:
         axis.axvspan(start, end, color=colour("line"), zorder=0, lw=0)
     for radius, text in panel.rings:
@@ -125,17 +130,17 @@ def _draw(axis, panel):
         _scale(axis, panel, x)
     for value, text in panel.limits:
         _limit(axis, value, text)
-    if len(panel.series) > 1:
+    if len(panel.series) > 1 and told:
         legend_above(axis)
 
 
 def _draw_series(axis, panel, series, x, names):
     """One line, cloud of points or row of stems, with the intervals of its values."""
     if series.ends:
-        _draw_intervals(axis, series, x, isolated=bool(names or series.marker) or panel.style in ("points", "stems"))
+        _draw_intervals(axis, series, x, isolated=bool(names) or panel.style in ("points", "stems"))
     data = np.where(np.isfinite(series.data), series.data, np.nan)
     hue, finite, label = colour(series.role), np.isfinite(data), literal(series.label)
-    if series.marker:
+    if series.marker and panel.style == "points":
         size = 6 if len(x) <= FEW else 5 if len(x) <= MANY else 3
         # The first group lies on top: it is the one that matters.
         axis.plot(
@@ -157,23 +162,37 @@ def _draw_series(axis, panel, series, x, names):
         axis.plot(x, data, ls="none", marker=".", ms=size, mew=0, color=hue, label=label, rasterized=len(x) > MANY)
     elif panel.style == "stems" and not series.dashed:
         axis.vlines(x[finite], panel.low if panel.log else 0.0, data[finite], color=hue, lw=1.0)
-        axis.plot(x, data, ls="none", marker="o", ms=3, color=hue, label=label)
+        axis.plot(x, data, ls="none", ms=3, color=hue, label=label, marker=_own_marker(panel, series, "o"))
     elif names:
-        axis.plot(x, data, ls="none", marker="D", ms=5, color=hue, label=label)
+        axis.plot(x, data, ls="none", ms=5, color=hue, label=label, marker=_own_marker(panel, series, "D"))
     elif series.dashed:
         axis.plot(x, data, lw=1.0, ls=(0, (4, 3)), color=hue, label=label, zorder=2.5)
     else:
         axis.plot(x, data, lw=1.5 if len(x) <= MANY else 0.9, color=hue, label=label, **_line_markers(panel, series, x, data))
 
 
+def _own_marker(panel, series, usual):
+    """The marker of one of several series, the usual one of a single one."""
+    solid = [each for each in panel.series if not each.dashed]
+    return (series.marker or line_marker(_number(solid, series))) if len(solid) > 1 and not series.dashed else usual
+
+
 def _line_markers(panel, series, x, data):
     """Every point of a short line is marked; several long lines carry a few markers each, so that they differ without colour."""
-    solid = [each for each in panel.series if not each.dashed]
-    number, few = solid.index(series), len(x) <= FEW
+    solid, few = [each for each in panel.series if not each.dashed], len(x) <= FEW
     if len(solid) == 1:
         return {"marker": "o", "ms": 3.5} if few else {}
-    rows = None if few else marked_rows(x, data, number, len(solid), upright=not panel.equal)
-    return {"marker": line_marker(number), "ms": 5, "mew": 0.4, "mec": "white", "markevery": rows}
+    rows = None if few else marked_rows(x, data, _number(solid, series), len(solid), upright=not panel.equal)
+    return {"marker": _own_marker(panel, series, ""), "ms": 5.5, "mew": 0.4, "mec": "white", "markevery": rows}
+
+
+def _number(lines, line):
+    return [each.name for each in lines].index(line.name)
+
+
+def _is_cloud(panel):
+    """Whether points lie in groups, each with a marker of its own."""
+    return panel.style == "points" and bool(panel.series[0].marker)
 
 
 def _draw_intervals(axis, series, x, isolated):
@@ -206,6 +225,20 @@ def _draw_bars(axis, lines, x):
     axis.axhline(0.0, color=colour("muted"), lw=0.8)
 
 
+def _draw_grouped(axis, lines, x):
+    """Bars of several series side by side, each with a hatch of its own."""
+    steps = np.diff(np.sort(np.asarray(x, float)))
+    wide = 0.8 * float(steps.min() if len(steps) else 1.0) / len(lines)
+    for number, series in enumerate(lines):
+        place = (x if series.x is None else series.x) + (number - (len(lines) - 1) / 2) * wide
+        look = {"color": colour(series.role), "edgecolor": "white", "lw": 0.4, "hatch": hatch(number)}
+        axis.bar(place, np.where(np.isfinite(series.data), series.data, 0.0), 0.94 * wide, label=literal(series.label), **look)
+    axis.axhline(0.0, color=colour("muted"), lw=0.8)
+
+
+BARS = {"bars": _draw_bars, "grouped": _draw_grouped}
+
+
 def _ring(axis, radius, text):
     """A circle about the origin with its name at its top."""
     turn = np.linspace(0, 2 * np.pi, 181)
@@ -223,10 +256,11 @@ def _positions(data):
 def _scale(axis, panel, x):
     """The range of both axes, and ticks at round angles."""
     axis.set_ylim(panel.low, panel.high)
+    x = np.concatenate([np.asarray(x if series.x is None else series.x, float) for series in panel.series])
     if panel.log:
         axis.set_yscale("log")
         log_ticks(axis.yaxis)
-    if len(x) > FEW and np.ptp(x) > 0 and not panel.series[0].marker:
+    if len(x) > FEW and np.ptp(x) > 0 and panel.style not in BARS and not _is_cloud(panel):
         axis.set_xlim(np.min(x), np.max(x))
     if panel.x.unit == "°":
         angle_ticks(axis.xaxis, np.min(x), np.max(x))

@@ -4,7 +4,7 @@ Figures and the player's plots both draw these panels, so both show the same thi
 """
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,9 +26,11 @@ STANDING = ("map", "histogram", "ranked")  # styles whose x is no quantity that 
 
 
 class Series(NamedTuple):
-    """One column in the unit people read; `unit` as printed, `role` its colour, `dashed` where it is a reference, `marker` of points.
+    """One column in the unit people read; `unit` as printed, `role` its colour, `dashed` where it is a reference, `marker` of points,
+    or of a line that has one of its own.
 
     `ends` are the (low, high) of its 95 % intervals, nan where a value has none; () where no value has one.
+    `x` are its own places on the x axis [unit of the panel's x], None where they are the panel's.
     """
 
     name: str
@@ -39,14 +41,15 @@ class Series(NamedTuple):
     dashed: bool = False
     marker: str = ""
     ends: tuple[Floats, ...] = ()
+    x: Floats | None = None
 
 
 class Panel(NamedTuple):
     """Series of one unit over x, with limit lines (value, text) and the range [low, high] to show.
 
-    style: line, points, stems, bars (stacked), polar (over the angle x), mesh (series: up, depth, colour, then right and up of the shape
-    before), map (series: second axis, colour; the range is the colour's), histogram (of its series) or ranked (x: labels);
-    `log`: y axis or colour in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
+    style: line, points, stems, bars (stacked), grouped (bars side by side), polar (over the angle x), mesh (series: up, depth, colour,
+    then right and up of the shape before), map (series: second axis, colour; the range is the colour's), histogram (of its series) or
+    ranked (x: labels); `log`: y axis or colour in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
     """
 
     title: str
@@ -112,12 +115,12 @@ def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade]) if plot.shade else ()
     return tuple(
-        _panel(
+        panel_of(
             plot,
-            _series(x),
+            series_of(x),
             _coloured(chunk, roles),
             _label(table, plot, chunk, len(groups) == 1),
-            () if n else _limits(result, plot),
+            () if n else limits_of(result, plot),
             shade,
         )
         for n, chunk in enumerate(chunks)
@@ -134,7 +137,7 @@ def _label(table: Table, plot: Plot, chunk: Sequence[Line], alone: bool) -> tupl
 
 def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str) -> Panel:
     """Points of a column told apart by colour and shape; the rows of the other groups are nan."""
-    column = _series(table[name], ends=table.bounds_of(name) or ())
+    column = series_of(table[name], ends=table.bounds_of(name) or ())
     names, group = _groups(table[plot.by])
 
     def member(n, name):
@@ -149,8 +152,8 @@ def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str) -> Pa
         )
 
     series = [member(n, name) for n, name in enumerate(names)]
-    limits = _limits(result, plot) if name == plot.y[0] else ()
-    return _panel(plot, _series(table[plot.x]), series or [column], (column.label, table[name].unit), limits, ())
+    limits = limits_of(result, plot) if name == plot.y[0] else ()
+    return panel_of(plot, series_of(table[plot.x]), series or [column], (column.label, table[name].unit), limits, ())
 
 
 def _groups(by: Column) -> tuple[list[str], NDArray[np.int64]]:
@@ -170,7 +173,7 @@ def _coloured(chunk: Sequence[Line], roles: Iterator[str]) -> list[Series]:
     series = []
     for line in chunk:
         role = next(roles)
-        series += [_series(line.column, role, ends=line.ends), *(_series(column, "ink", dashed=True) for column in line.references)]
+        series += [series_of(line.column, role, ends=line.ends), *(series_of(column, "ink", dashed=True) for column in line.references)]
     return _with_distinct_labels(series)
 
 
@@ -183,7 +186,7 @@ def _shaded(x: Column, column: Column) -> tuple[tuple[float, float], ...]:
     return tuple((float(edges[a]), float(edges[b])) for a, b in zip(starts, ends, strict=True))
 
 
-def _limits(result: Result[Any], plot: Plot) -> Iterator[tuple[float, str]]:
+def limits_of(result: Result[Any], plot: Plot) -> Iterator[tuple[float, str]]:
     """(value, label) of every limit line; those of a check that this run did not make are left out."""
     known = {check.name: check.limit for check in result.checks}
     for value, label in plot.limits:
@@ -193,7 +196,15 @@ def _limits(result: Result[Any], plot: Plot) -> Iterator[tuple[float, str]]:
             yield (-known[name] if value.startswith("-") else known[name]), label
 
 
-def _panel(plot, x, series, label, limits, shade):
+def panel_of(
+    plot: Plot,
+    x: Series,
+    series: Sequence[Series],
+    label: tuple[str, str],
+    limits: Iterable[tuple[float, str]],
+    shade: tuple[tuple[float, float], ...] = (),
+) -> Panel:
+    """The panel of some series in the style of a plot; `label` (name, SI unit) of the y axis, `limits` (value [SI], name)."""
     factor, text = display_unit(label[1])
     limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits)
     rings = tuple((radius * factor, limit_text(radius * factor, label, text)) for radius, label in plot.rings)
@@ -201,7 +212,7 @@ def _panel(plot, x, series, label, limits, shade):
     if plot.style == "bars":
         data, ends = [s.data for s in series], series[0].ends if len(series) == 1 else ()
         lines = [np.maximum(data, 0.0).sum(axis=0), np.minimum(data, 0.0).sum(axis=0), *ends]
-    low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style == "stems"))
+    low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style in ("stems", "grouped")))
     return Panel(
         sentence(plot.title),
         axis_label(sentence(label[0]), text),
@@ -220,27 +231,28 @@ def _panel(plot, x, series, label, limits, shade):
 
 def _mesh_panel(plot: Plot, table: Table) -> Panel:
     """The panel of a surface: series up, depth and colour (lengths in um), then the dashed right and up of the surface before."""
-    up, depth, colour = (_series(table[name]) for name in plot.y)
+    up, depth, colour = (series_of(table[name]) for name in plot.y)
     if table[plot.y[2]].unit == "m":
         colour = colour._replace(unit="µm", data=np.asarray(table[plot.y[2]].data) * 1e6)
-    before = tuple(_series(table[name], dashed=True) for name in plot.reference)
+    before = tuple(series_of(table[name], dashed=True) for name in plot.reference)
     label = axis_label(up.label, up.unit)
-    return Panel(plot.title, label, _series(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh")
+    return Panel(plot.title, label, series_of(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh")
 
 
 def _map_panel(result: Result[Any], plot: Plot, table: Table) -> Panel:
     """The panel of cells over two axes; its range and its limits are those of the colour."""
-    up, tint = (_series(table[name]) for name in plot.y)
+    up, tint = (series_of(table[name]) for name in plot.y)
     factor, text = display_unit(table[plot.y[1]].unit)
-    limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in _limits(result, plot))
+    limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits_of(result, plot))
     finite = np.asarray(tint.data, float)
     finite = finite[np.isfinite(finite) & (finite > 0)] if plot.log else finite[np.isfinite(finite)]
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (np.nan, np.nan)
     label = axis_label(up.label, up.unit)
-    return Panel(sentence(plot.title), label, _series(table[plot.x]), (up, tint), limits, low, high, False, "map", plot.log)
+    return Panel(sentence(plot.title), label, series_of(table[plot.x]), (up, tint), limits, low, high, False, "map", plot.log)
 
 
-def _series(column: Column, role: str = "ink", dashed: bool = False, ends: Sequence[Column] = ()) -> Series:
+def series_of(column: Column, role: str = "ink", dashed: bool = False, ends: Sequence[Column] = ()) -> Series:
+    """A column in the unit people read; `ends` are the columns of its intervals."""
     factor, text = display_unit(column.unit)
     data = np.asarray(column.data)
     # Whole numbers stay whole, so that their axis has whole ticks.

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drivewright._typing import Floats, Ints
-from drivewright.view.palette import SERIES, colour
+from drivewright.view.palette import colour
 from drivewright.view.panels import Panel, Series
 from drivewright.view.style import legend_above, new_figure, styled
 from drivewright.view.text import axis_label, literal, number, numbers, parts_of_label, wrapped
@@ -20,6 +20,11 @@ HATCHES = ("", "///", "...", "xxx", "\\\\\\")  # so that bars side by side diffe
 ROOM = 80  # letters of the figure's width, for the labels and a row of the legend
 THICK = 0.8  # of the room of a row
 LETTER = 0.018  # room of a letter beside the longest bar, over the width of all bars
+
+
+def hatch(number: int) -> str:
+    """The hatch of the bars of that number among several side by side."""
+    return HATCHES[number % len(HATCHES)]
 
 
 def draw_ranked(shown: Sequence[Panel]) -> "Figure":
@@ -47,7 +52,7 @@ def _draw(axis: "Axes", panel: Panel, labels: Sequence[str]) -> None:
             color=colour(series.role),
             edgecolor="white",
             lw=0.3,
-            hatch=HATCHES[n // len(SERIES) + n % len(SERIES) if n < len(HATCHES) else n % len(HATCHES)],
+            hatch=hatch(n),
             label=literal(series.label),
         )
         if series.ends:
@@ -84,6 +89,7 @@ def _write(axis: "Axes", bars: Sequence[Series], place: Ints) -> None:
     """The number of each single bar beyond its end, with room for it, and a word where there is none."""
     data, *ends = (each[: len(place)] for each in (bars[0].data, *bars[0].ends))
     low, high = (np.fmin.reduce([data, *ends]), np.fmax.reduce([data, *ends]))
+    some = np.any([np.isfinite(series.data[: len(place)]) for series in bars], axis=0)
     for row, value in zip(place, data, strict=True):
         side = -1 if value < 0 else 1
         look = {
@@ -94,7 +100,7 @@ def _write(axis: "Axes", bars: Sequence[Series], place: Ints) -> None:
             "color": colour("muted"),
             "ha": "right" if value < 0 else "left",
         }
-        if not np.isfinite(value):
+        if not some[row]:
             axis.annotate("no value", (0.0, row), **look)
         elif len(bars) == 1:
             tip = min(low[row], 0.0) if value < 0 else max(high[row], 0.0)

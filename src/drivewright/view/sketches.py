@@ -9,9 +9,9 @@ from drivewright.errors import UnknownName
 from drivewright.scene import Drawing, Scene, place
 from drivewright.view.motion import path, pose_at, seen_from, step_back
 from drivewright.view.outlines import overall_size, simplified_points
-from drivewright.view.palette import TRACES, colour
+from drivewright.view.palette import SERIES, TRACES, colour
 from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_columns, nice_length, styled
-from drivewright.view.text import display_unit, number, quantity, sentence, with_unit
+from drivewright.view.text import display_unit, literal, number, quantity, sentence, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -29,6 +29,7 @@ LAYERS = {  # layer -> line width, dashes, filled; colour is the body's
     "axis": (0.7, (0, (9, 2, 2, 2)), False),
     "ground": (1.6, "-", False),
     "defect": (2.2, "-", False),
+    "edge": (1.2, "-", False),
 }
 DRAWN = {
     "profile": "blue",
@@ -166,10 +167,14 @@ def _draw_traces(axis, scene, observer):
     bodies = {body.name: body for body in scene.bodies}
     for number_, trace in enumerate(scene.traces):
         points = path(trace.point, seen_from(bodies[trace.body].poses, observer.poses)) * _length()[0]
-        role = colour(TRACES[number_ % len(TRACES)])
+        role = _trace_colour(trace, number_)
         axis.plot(*points.T, color=role, lw=1.1, ls=(0, (4, 2)))
         for past in range(1, PAST + 1 if any(observer.advance) else 1):
             axis.plot(*(points + past * step_back(observer) * _length()[0]).T, color=role, lw=0.9, alpha=0.45)
+
+
+def _trace_colour(trace, number_):
+    return colour(trace.colour or TRACES[number_ % len(TRACES)])
 
 
 def _legend(figure, scene):
@@ -180,8 +185,9 @@ def _legend(figure, scene):
     labels = {body.label: body.colour for body in reversed(scene.bodies)}
     keys = [Patch(fc=(colour(role), 0.3), ec=colour(role), label=sentence(label)) for label, role in reversed(labels.items())]
     keys += [
-        Line2D([], [], color=colour(TRACES[n % len(TRACES)]), ls=(0, (4, 2)), lw=1.2, label=sentence(trace.label))
+        Line2D([], [], color=_trace_colour(trace, n), ls=(0, (4, 2)), lw=1.2, label=sentence(trace.label))
         for n, trace in enumerate(scene.traces)
+        if trace.label not in labels
     ]
     columns = legend_columns([str(key.get_label()) for key in keys])
     figure.legend(handles=keys, loc="lower left", ncols=columns, handlelength=1.6, borderaxespad=0.3)
@@ -215,6 +221,38 @@ def draw_drawing(drawing: Drawing) -> "Figure":
         _scale_bar(axis, unit)
         axis.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
     return figure
+
+
+def draw_overlaid(drawings: Sequence[Drawing], labels: Sequence[str], title: str) -> "Figure":
+    """Figure of flat parts of several designs upon each other, each design in its colour, the first one filled, to one scale."""
+    from matplotlib.patches import Patch
+
+    tolerance = FINENESS * max(float(np.ptp(_points(drawing), axis=0).max()) for drawing in drawings)
+    with styled():
+        figure, (axis,) = figure_to_scale(1, sentence(title))
+        for number_, drawing in enumerate(drawings):
+            for shape in drawing.shapes:
+                _draw_outline(axis, shape, SERIES[number_ % len(SERIES)], tolerance, number_ == 0)
+        keys = [Patch(fc=(hue, 0.2), ec=hue, label=literal(label)) for hue, label in zip(_hues(labels), labels, strict=True)]
+        columns = legend_columns(labels)
+        figure.legend(handles=keys, loc="lower left", ncols=columns, handlelength=1.6, borderaxespad=0.3)
+        arrange(figure, [axis], *_extent([axis]), bottom=0.55 + 0.19 * -(-len(labels) // columns))
+        axis.set(xlabel=f"x [{_length()[1]}]", ylabel=f"y [{_length()[1]}]")
+    return figure
+
+
+def _hues(labels):
+    return [colour(SERIES[number_ % len(SERIES)]) for number_ in range(len(labels))]
+
+
+def _draw_outline(axis, shape, role, tolerance, is_first):
+    """An outline of one design among several: holes let through what lies below."""
+    width, dashes, filled = LAYERS.get(shape.layer, LAYERS["body"])
+    face = (colour(role), 0.14) if is_first and filled and shape.outline.closed else "none"
+    edge = MUTED if shape.layer == "axis" else colour(role)
+    _add(
+        axis, simplified_points(shape.outline, tolerance) * _length()[0], shape.outline.closed, ec=edge, fc=face, lw=0.8 * width, ls=dashes
+    )
 
 
 def _size(drawing, factor, unit):
