@@ -37,6 +37,8 @@ from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.report.comparison import DesignComparison as DesignComparison
+from drivewright.report.comparison import compare as compare
 from drivewright.result import Result as Result
 from drivewright.runner import run as run
 from drivewright.scene import Scene as Scene

@@ -15,6 +15,7 @@ pytestmark = pytest.mark.interface
 
 NAMES = [
     "Cam",
+    "DesignComparison",
     "DrivewrightError",
     "Indexer",
     "InputError",
@@ -33,6 +34,7 @@ NAMES = [
     "by_reference",
     "cams",
     "chains",
+    "compare",
     "contact",
     "curves",
     "fatigue",

@@ -1,6 +1,7 @@
 """The command line.  `main` is the only way out: one message and one exit code for every error a user can cause.
 
 app              the commands; they know no kind of drive by name
+compared         specs run for a comparison, and what the terminal says of it
 doctor           what is installed, what each extra adds, the kernel cache, a self-test
 gallery          the worked examples: listed, copied, run
 interruption     how the command line ends early

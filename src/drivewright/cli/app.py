@@ -115,6 +115,38 @@ def run(
 
 
 @app.command()
+def compare(
+    specs: Annotated[list[Path], typer.Argument(help="spec files of one kind, two or more; the others are compared with the first")],
+    out: Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the first spec>-compared")] = None,
+    set_: SetOption = None,
+    only: OnlyOption = "",
+    labels: Annotated[str, typer.Option("--labels", help="name of each design, comma separated; the titles unless given")] = "",
+) -> None:
+    """Run several designs of one kind and write one page of them side by side."""
+    from drivewright import runner
+    from drivewright.cli import compared
+    from drivewright.report.comparison import check_count, check_kinds
+    from drivewright.report.comparison import compare as side_by_side
+    from drivewright.report.comparison_page import refuse_foreign, write_comparison
+
+    check_count(len(specs))
+    loaded = [_load(path, set_) for path in specs]
+    check_kinds([spec.mechanism for spec in loaded])
+    names, kind = compared.labels_of(specs, loaded, labels), loaded[0].mechanism
+    folder = out or Path("out") / f"{specs[0].stem}-compared"
+    refuse_foreign(folder)
+    runner.select_analyses(registry.mechanism(kind).analyses, _names(only))
+    with compared.helped(kind) as compute, show.progress("compare", kind):
+        designs = compared.run_designs(specs, loaded, _names(only), compute)
+        comparison = side_by_side([result for result, _ in designs], names)
+        with show.located(folder):
+            write_comparison(comparison, [seen for _, seen in designs], folder, compute)
+    show.note(f"wrote {folder}/")
+    compared.show_comparison(comparison)
+    show.finish_run(comparison.results)
+
+
+@app.command()
 def export(
     spec: SpecFile,
     to: Annotated[str, typer.Option("--to", help="formats, comma separated: dxf, svg, csv, step, stl, gcode, pdf")],

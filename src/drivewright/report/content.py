@@ -12,7 +12,7 @@ import numpy as np
 from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
 from drivewright.execution.helper import Map
-from drivewright.result import UNDECIDED, Array, Check, Plot, Result, Table, Value
+from drivewright.result import UNDECIDED, Array, Check, Plot, Result, SpecLike, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
@@ -77,27 +77,33 @@ class Sketch(NamedTuple):
 
 def pictures(result: Result[Any], seen: Views, compute: Map = map) -> tuple[Picture, ...]:
     """Every figure of a run: the scene for each observer, the plots, the drawings; `compute` may draw them side by side."""
-    return tuple(compute(partial(_drawn, result.spec), list(_sketches(result, seen))))
+    return tuple(compute(partial(draw_sketch, result.spec), list(_sketches(result, seen))))
 
 
 def _sketches(result, seen):
     scene = seen.scene
     for frame in scene.frames if scene else ():
-        yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [_thumbnail_phase(scene)], GHOSTS))
+        yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [scene_phase(scene)], GHOSTS))
     for plot in drawable(result, seen.plots):
         try:
             yield Sketch(f"plot-{plot.name}", plot.title, draw_panels, (panels(result, plot), _marks(result, plot, scene)))
         except Exception as error:
-            yield Sketch(f"plot-{plot.name}", plot.title, _fail, (error,))
+            yield failing_sketch(f"plot-{plot.name}", plot.title, error)
     for drawing in seen.drawings:
         yield Sketch(f"drawing-{drawing.name}", sentence(drawing.title), draw_drawing, (drawing,))
+
+
+def failing_sketch(name: str, title: str, error: Exception) -> Sketch:
+    """A figure that says why it is none."""
+    return Sketch(name, title, _fail, (error,))
 
 
 def _fail(error):
     raise error
 
 
-def _drawn(spec, sketch):
+def draw_sketch(spec: SpecLike, sketch: Sketch) -> Picture:
+    """The figure as SVG; one that cannot be drawn says why in words.  `spec` is what the reason speaks of."""
     try:
         return Picture(sketch.name, sketch.title, svg(sketch.draw(*sketch.arguments)))
     except Exception as error:  # one figure that fails must not cost the others
@@ -119,10 +125,10 @@ def _instead(text: str) -> str:
 
 def thumbnail(scene: Scene) -> Picture:
     """The picture of a scene for a gallery."""
-    return Picture("thumbnail", "thumbnail", svg(draw_thumbnail(scene, _thumbnail_phase(scene))))
+    return Picture("thumbnail", "thumbnail", svg(draw_thumbnail(scene, scene_phase(scene))))
 
 
-def _thumbnail_phase(scene: Scene) -> float:
+def scene_phase(scene: Scene) -> float:
     """The first mark behind the start of the cycle, else 0.3: a machine at its start often shows nothing."""
     marked = np.interp([value for value, _ in scene.marks], *_rising(scene.cycle)) if scene.marks else np.array([])
     return float(next((phase for phase in sorted(marked) if phase > 0), 0.3))

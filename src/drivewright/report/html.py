@@ -77,6 +77,11 @@ def scripts() -> str:
     return "\n".join(re.sub(r"^(import|export) \{.*\} from .*$", "", _text(name), flags=re.MULTILINE) for name in MODULES)
 
 
+def template_text(name: str) -> str:
+    """A file beside the templates, as text."""
+    return _text(f"templates/{name}")
+
+
 @cache
 def _text(name: str) -> str:
     return (HERE / name).read_text(encoding="utf-8")

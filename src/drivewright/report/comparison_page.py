@@ -1,0 +1,296 @@
+"""The page of a comparison: verdicts, values, checks and specs side by side, plots and drawings upon each other, one motion."""
+
+import json
+import math
+from collections.abc import Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from drivewright import registry
+from drivewright.errors import InputError
+from drivewright.execution.helper import Map
+from drivewright.report.comparison import DesignComparison, difference_text, distinct, value_text
+from drivewright.report.content import Content, Picture, Sketch, Views, draw_sketch, failing_sketch, program, scene_phase, summary
+from drivewright.report.folder import file_name
+from drivewright.report.html import embedded, page, template_text
+from drivewright.report.moving import Place, recover, replacing_folder
+from drivewright.report.pack import pack_scene
+from drivewright.result import Check, Result, Value
+from drivewright.scene import Scene
+from drivewright.spec.differences import differing_keys
+from drivewright.view import draw_overlaid, draw_panels, draw_scene
+from drivewright.view.axis_names import common_phrase
+from drivewright.view.merged_scenes import merged_scene
+from drivewright.view.overlays import apart, common_plots, is_apart, overlay
+from drivewright.view.palette import SERIES
+from drivewright.view.text import display_unit, number, numbers, sentence, unit_text, with_unit
+
+PAGE, RECORD = "index.html", "compare.json"
+OURS = {PAGE, RECORD, "figures"}  # what a comparison writes, and the next one replaces
+MOST_KEYS = 200  # keys of the specs that differ and are on the page
+SIGNS = {"<=": "≤", ">=": "≥"}
+
+
+class Shown(NamedTuple):
+    """What there is to see of a comparison: one scene of all designs, the figures, and remarks about what is missing."""
+
+    scene: Scene | None
+    pictures: tuple[Picture, ...]
+    remarks: tuple[str, ...]
+
+
+def write_comparison(comparison: DesignComparison, seen: Sequence[Views], out: str | Path, compute: Map = map) -> Path:
+    """Write index.html, compare.json and figures/*.svg of a comparison into the folder `out`, and return its path.
+
+    `seen` are the views of each design.  What an earlier comparison wrote is replaced, everything else in the folder stays; InputError
+    for a folder that is not empty and no comparison.  `compute` may draw the figures side by side.
+    """
+    out = recover_comparison(out)
+    refuse_foreign(out)
+    with replacing_folder(Place(out, OURS, refuse_foreign)) as fresh:
+        record = json.dumps(comparison.record(), indent=1, ensure_ascii=False, allow_nan=False)
+        (fresh / RECORD).write_text(f"{record}\n", encoding="utf-8")
+        shown = views_of(comparison, seen, compute)
+        _write_figures(fresh, shown.pictures)
+        (fresh / PAGE).write_text(_page(comparison, shown), encoding="utf-8")
+    return out
+
+
+def recover_comparison(out: str | Path) -> Path:
+    """The absolute path of the folder, after whatever writers that died have left beside it was brought back, or removed."""
+    out = Path(out).resolve()
+    recover(Place(out, OURS, refuse_foreign))
+    return out
+
+
+def refuse_foreign(out: Path) -> None:
+    """InputError where writing to `out` would take the place of something that is no comparison."""
+    if out.exists() and not out.is_dir():
+        raise InputError(f"{out}: is a file, a comparison cannot take its place; choose another --out")
+    inside = sorted(path.name for path in out.iterdir()) if out.is_dir() else []
+    if inside and not _is_comparison(out):
+        raise InputError(
+            f"{out}: is not empty and is no comparison (it holds {', '.join(inside[:3])} ... but no {RECORD}); nothing was written. "
+            "Choose another --out, or empty it first"
+        )
+
+
+def _is_comparison(folder: Path) -> bool:
+    try:
+        return {"labels", "values"} <= set(json.loads((folder / RECORD).read_text(encoding="utf-8")))
+    except (OSError, ValueError, TypeError):
+        return False
+
+
+def _write_figures(folder: Path, pictures: Sequence[Picture]) -> None:
+    for picture in pictures:
+        (folder / "figures").mkdir(exist_ok=True)
+        (folder / "figures" / f"{picture.name}.svg").write_text(picture.svg, encoding="utf-8")
+
+
+def _page(comparison: DesignComparison, shown: Shown) -> str:
+    player = shown.scene and json.dumps({"scene": pack_scene(shown.scene)}, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+    values = comparison_content(comparison, shown.remarks)
+    pictures = [embedded(picture) for picture in shown.pictures]
+    return page("comparison.html.j2", values, player=player, pictures=pictures, own_style=template_text("comparison.css"))
+
+
+# -- what is drawn -------------------------------------------------------------------------------------------------------------
+
+
+def views_of(comparison: DesignComparison, seen: Sequence[Views], compute: Map = map) -> Shown:
+    """The scene of all designs and every figure; what cannot be drawn is a remark, and costs nothing else."""
+    scene, remarks = _scene(seen, comparison.labels)
+    plots, told = _plots(comparison)
+    sketches = [*_scene_sketches(scene, seen), *plots, *_drawing_sketches(seen, comparison.labels)]
+    names = distinct([file_name(sketch.name) for sketch in sketches])
+    named = [sketch._replace(name=name) for sketch, name in zip(sketches, names, strict=True)]
+    pictures = tuple(compute(partial(draw_sketch, comparison.results[0].spec), named))
+    return Shown(scene, pictures, (*remarks, *_own_remarks(seen, comparison.labels), *told))
+
+
+def _scene(seen, labels):
+    """(one scene of the designs that have one, remarks)."""
+    moving = [(view.scene, label) for view, label in zip(seen, labels, strict=True) if view.scene]
+    if len(moving) < 2:
+        return None, ("fewer than two of these designs have a motion to show",)
+    return merged_scene([scene for scene, _ in moving], [label for _, label in moving])
+
+
+def _own_remarks(seen, labels):
+    return tuple(f"{label}: {remark}" for view, label in zip(seen, labels, strict=True) for remark in view.remarks)
+
+
+def _scene_sketches(scene: Scene | None, seen: Sequence[Views]) -> Iterator[Sketch]:
+    first = next((view.scene for view in seen if view.scene), scene)
+    if scene and first:
+        for frame in scene.frames:
+            yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [scene_phase(first)]))
+
+
+def _plots(comparison: DesignComparison) -> tuple[list[Sketch], list[str]]:
+    """(figures of the plots that designs have in common, remarks)."""
+    sketches, remarks = [], []
+    for name, having in common_plots(comparison.results).items():
+        if len(having) < len(comparison.results):
+            remarks.append(f"plot '{name}' is that of {', '.join(comparison.labels[n] for n in having)} only")
+        try:
+            drawn, left_out = _panels(comparison, name)
+            sketches += [_plot_sketch(name, n, panels) for n, panels in enumerate(drawn)]
+            remarks += [f"plot '{name}': {left_out} more quantities, or those of one design only, are not drawn"] if left_out else []
+        except Exception as error:  # one plot that fails must not cost the others
+            sketches.append(failing_sketch(f"plot-{name}", name, error))
+    return sketches, remarks
+
+
+def _panels(comparison, name):
+    """(panels of each figure of a plot, number of the quantities that are left out)."""
+    if is_apart(comparison.results, name):
+        return apart(comparison.results, comparison.labels, name), 0
+    together = overlay(comparison.results, comparison.labels, name)
+    return [together.panels], together.left_out
+
+
+def _plot_sketch(name, number_, panels):
+    return Sketch(f"plot-{name}-{number_ + 1}" if number_ else f"plot-{name}", panels[0].title, draw_panels, (panels,))
+
+
+def _drawing_sketches(seen: Sequence[Views], labels: Sequence[str]) -> Iterator[Sketch]:
+    found: dict[str, list[Any]] = {}
+    for view, label in zip(seen, labels, strict=True):
+        for drawing in view.drawings:
+            found.setdefault(drawing.name, []).append((drawing, label))
+    for name, parts in found.items():
+        if len(parts) > 1:
+            drawings, own = zip(*parts, strict=True)
+            title = common_phrase([drawing.title for drawing in drawings]) or sentence(name.replace("_", " "))
+            yield Sketch(f"drawing-{name}", title, draw_overlaid, (drawings, own, title))
+
+
+# -- what the page says --------------------------------------------------------------------------------------------------------
+
+
+def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()) -> Content:
+    """What the page says, as plain text in plain dictionaries."""
+    results, labels = comparison.results, comparison.labels
+    verdicts = [summary(result)["verdict"] for result in results]
+    failed = sum(verdict["state"] == "bad" for verdict in verdicts)
+    names = list(comparison.values)
+    headline = headline_names(comparison)
+    keys = differing_keys([result.spec for result in results])
+    rows = [_value_row(comparison, name) for name in names]
+    return {
+        "title": f"Comparison of {len(results)} designs",
+        "mechanism": comparison.mechanism,
+        "version": program(),
+        "verdict": {
+            "state": "bad" if failed else "good",
+            "text": f"{failed} of {len(results)} fail a check" if failed else "no failed check",
+        },
+        "designs": [_design(*each) for each in zip(results, labels, verdicts, range(len(labels)), strict=True)],
+        "headline": [_value_row(comparison, name) for name in headline],
+        "checks": [_check_row(name, results) for name in dict.fromkeys(check.name for result in results for check in result.checks)],
+        "keys": [_key_row(row) for row in keys[:MOST_KEYS]],
+        "more_keys": max(len(keys) - MOST_KEYS, 0),
+        "values": rows,
+        "uncertain": any(not cell["certain"] for row in rows for cell in row["cells"]),
+        "findings": [{"label": label, "findings": list(result.findings)} for result, label in zip(results, labels, strict=True)],
+        "remarks": list(remarks),
+        "sources": list(dict.fromkeys(str(source) for result in results for source in result.provenance.get("sources", ()))),
+    }
+
+
+def headline_names(comparison: DesignComparison) -> list[str]:
+    """The mechanism's headline values; the first six of a kind that is not installed here."""
+    known = {name: comparison.known(name) for name in comparison.values}
+    if not registry.is_known(comparison.mechanism):
+        return list(known)[:6]
+    return registry.headlines(registry.mechanism(comparison.mechanism), known)
+
+
+def _design(result: Result[Any], label: str, verdict: dict[str, str], number_: int) -> Content:
+    seconds = with_unit(number(result.provenance.get("seconds", 0.0), 2), unit_text("s"))
+    colour = SERIES[number_ % len(SERIES)]
+    failed = [_label(check) for check in result.checks if not check.ok]
+    return {
+        "label": label,
+        "title": result.title,
+        "colour": colour,
+        "verdict": verdict,
+        "failed": failed,
+        "digest": result.digest[:12],
+        "seconds": seconds,
+    }
+
+
+def _value_row(comparison: DesignComparison, name: str) -> Content:
+    """A value of all designs, each with its difference from the first one."""
+    known, apart_ = comparison.known(name), comparison.differences(name)
+    cells = [
+        {
+            **_shown_value(result.values.get(name)),
+            "difference": difference_text(step, known.unit) if n else "",
+            "certain": step is None or step.certain,
+            "same": step is not None and step.absolute == 0,
+        }
+        for n, (result, step) in enumerate(zip(comparison.results, apart_, strict=True))
+    ]
+    differs = any(not cell["same"] for cell in cells[1:])
+    return {"name": name, "meaning": sentence(known.meaning or name), "cells": cells, "differs": differs}
+
+
+def _shown_value(value: Value | None) -> dict[str, str]:
+    """{value, interval}: the number with its unit, and the ends of its interval, "" where that says nothing."""
+    if value is None or not math.isfinite(value.value):
+        return {"value": value_text(None), "interval": ""}
+    factor, unit = display_unit(value.unit)
+    low, high = (None if end is None else end * factor for end in (value.low, value.high))
+    text, low, high = numbers(value.value * factor, low, high)
+    return {"value": with_unit(text, unit), "interval": f"{low} to {high}" if low else ""}
+
+
+def _check_row(name: str, results: Sequence[Result[Any]]) -> Content:
+    """A check of all designs; the limit stands in the cells where it is not the same for all."""
+    found = [next((check for check in result.checks if check.name == name), None) for result in results]
+    known = [check for check in found if check]
+    limits = {(check.sense, check.limit) for check in known}
+    return {
+        "name": name,
+        "label": _label(known[0]),
+        "message": sentence(known[0].message),
+        "limit": _limit(known[0]) if len(limits) == 1 else "",
+        "cells": [_check_cell(check, len(limits) > 1) for check in found],
+    }
+
+
+def _label(check: Check) -> str:
+    return sentence(check.name.replace("_", " ").replace(".", " · "))
+
+
+def _limit(check: Check) -> str:
+    factor, unit = display_unit(check.unit)
+    return f"{SIGNS[check.sense]} {with_unit(number(check.limit * factor), unit)}"
+
+
+def _check_cell(check: Check | None, own_limit: bool) -> Content:
+    if check is None:
+        return {"state": "none", "mark": "", "word": "not made", **_shown_value(None), "limit": ""}
+    state = "bad" if not check.ok else "warn" if check.undecided else "good"
+    mark, word = {"bad": ("✕", "fails"), "warn": ("?", "undecided"), "good": ("✓", "passes")}[state]
+    value = _shown_value(Value(check.value, check.unit, "", *(check.bounds or (None, None))))
+    return {"state": state, "mark": mark, "word": word, **value, "limit": _limit(check) if own_limit else ""}
+
+
+def _key_row(row) -> Content:
+    first = row.values[0]
+    return {"key": row.key, "cells": [{"text": _entry(value), "same": value == first} for value in row.values]}
+
+
+def _entry(value: object) -> str:
+    """An entry of a spec as people read it; a data file by its name."""
+    if value is None:
+        return "–"
+    if isinstance(value, str):
+        return Path(value).name if Path(value).is_absolute() else value
+    return str(value).lower() if isinstance(value, bool) else str(value)
