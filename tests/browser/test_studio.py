@@ -171,6 +171,9 @@ def test_compare_draws_the_design_before(studio, tab):
     until(page, f"{STATE}.design.toml.includes('35 mm')")
     analysed(page)
     assert page.evaluate(f"{STATE}.reference.scene.motions.join()") == pinned != page.evaluate(f"{STATE}.scene.scene.motions.join()")
+    until(page, f"Object.values({STATE}.result.differences.values).some(text => text !== '0')")
+    told = [text for text in page.locator(".sd-number em").all_inner_texts() if text]
+    assert told and all(" · " in text for text in told) and any("%" in text for text in told)
 
 
 def test_export_downloads_a_dxf_that_audits_clean(studio, tab, tmp_path):

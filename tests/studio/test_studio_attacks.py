@@ -186,6 +186,7 @@ ODD = [
     '{"what": "job", "name": "export", "options": {"format": {"a": []}}}',
     '{"what": "export", "format": "\\u0000"}',
     '{"what": "reference", "preset": "../../x"}',
+    '{"what": "pin", "gen": [{}]}',
     '{"what": "preset", "name": {"a": 1}}',
     '{"what": "fresh", "kind": 7, "preset": []}',
     '{"what": "cancel"}',

@@ -543,6 +543,47 @@ def test_a_reference_that_is_none(bench, error, message):
     tell(bench)
 
 
+def numbered(value):
+    numbers = {"values": {"lift": (value, "m", None, None)}, "checks": {}}
+    return {**found("motion"), "numbers": numbers}
+
+
+async def analysed(bench, gen, value):
+    await bench.look(gen)
+    await bench.calls[-1].answer(None)
+    await asyncio.sleep(0.01)
+    await bench.calls[-1].answer((numbered(value), {}))
+
+
+@story
+async def test_what_follows_is_told_apart_from_the_pinned_design(bench):
+    await analysed(bench, 1, 20e-3)
+    assert "differences" not in bench.told("result")[-1]["result"]
+    bench.computing.pin(1)
+    await analysed(bench, 2, 25e-3)
+    assert bench.told("result")[-1]["result"]["differences"]["values"] == {"lift": "+5\u00a0mm (+25\u00a0%)"}
+    bench.computing.pin(None)
+    await analysed(bench, 3, 26e-3)
+    assert "differences" not in bench.told("result")[-1]["result"]
+    bench.computing.pin(1)  # it is no longer the newest full result
+    await analysed(bench, 4, 27e-3)
+    assert "differences" not in bench.told("result")[-1]["result"]
+
+
+@story
+async def test_what_is_shown_is_told_apart_from_a_preset_at_once(bench):
+    await analysed(bench, 1, 20e-3)
+    bench.computing.compare_with("other", SimpleNamespace(kind=KIND, gen="other"))
+    await settled()
+    bench.calls[-1].send("{}")
+    await bench.calls[-1].answer(None)
+    await bench.calls[-1].answer((numbered(10e-3), {}))
+    assert bench.told("differences")[-1]["differences"]["values"] == {"lift": "+10\u00a0mm (+100\u00a0%)"}
+    bench.computing.reset(2)
+    await analysed(bench, 2, 20e-3)
+    assert "differences" not in bench.told("result")[-1]["result"]
+
+
 @story
 async def test_the_last_reference_counts(bench):
     for gen in (1, 2):

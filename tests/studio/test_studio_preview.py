@@ -278,7 +278,27 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
         "seconds": 2.5,
         "analyses": ["a"],
         "fractions": {"near": 0.25, "zero": None},
+        "numbers": {"values": {}, "checks": {"near": [3.0, "mm", None, None], "zero": [1.0, "mm", None, None]}},
     }
+
+
+def numbered(value, checked=1.0):
+    """What a result of the page has of one headline value and one check."""
+    return {"numbers": {"values": {"lift": (value, "m", None, None)}, "checks": {"bore": (checked, "m", None, None)}}}
+
+
+def test_differences_are_told_as_the_page_of_a_comparison_tells_them():
+    first = numbered(20e-3)
+    assert preview.differences(first, first) == {"values": {"lift": "0"}, "checks": {"bore": "0"}}
+    assert preview.differences(first, numbered(25e-3, 0.5))["values"]["lift"] == "+5\u00a0mm (+25\u00a0%)"
+    assert preview.differences({"numbers": {"values": {}, "checks": {}}}, first) == {"values": {}, "checks": {}}
+
+
+def test_numbers_of_renewed_analyses_take_over():
+    both = merge_results(
+        {**result(1, "a"), **numbered(1.0, 2.0)}, {**result(2, "a"), "numbers": {"values": {"lift": (3.0, "m", None, None)}}}
+    )
+    assert both["numbers"] == {"values": {"lift": (3.0, "m", None, None)}, "checks": {"bore": (2.0, "m", None, None)}}
 
 
 def test_warming_loads_every_kind_and_tells_nothing(monkeypatch):

@@ -30,6 +30,8 @@ class TabComputations:
         self._newest: tuple[int, Design] | None = None
         self._limit = ANALYSIS
         self._shown: dict[str, Any] | None = None  # what the page shows of it
+        self._full: tuple[int, dict[str, Any]] | None = None  # the newest full result, with its generation
+        self._pinned: dict[str, Any] | None = None  # the result that what is shown is compared with
         self._since = 0  # generation of the first design of this drive
         self._fresh = False  # whether what is shown is the full result of the newest design
         self._draw_loop: asyncio.Task[None] | None = None
@@ -65,6 +67,11 @@ class TabComputations:
         self.cancel("reference")
         self._jobs["reference"] = asyncio.create_task(self._reference(title, design))
 
+    def pin(self, gen: int | None) -> None:
+        """Compare what follows with the full result of a generation, None with nothing."""
+        self.cancel("reference")
+        self._pinned = self._full[1] if self._full and self._full[0] == gen else None
+
     def cancel(self, name: str) -> None:
         """End a job, or what is computed of the design ("look")."""
         for task in (self._draw_task, self._analyse_task) if name == "look" else (self._jobs.get(name),):
@@ -73,6 +80,7 @@ class TabComputations:
     def reset(self, since: int) -> None:
         """Another drive begins with the generation `since`: nothing of the one before belongs to it."""
         self._since, self._shown, self._fresh, self._seconds = since, None, False, {}
+        self._full = self._pinned = None
         for name in self._jobs:
             self.cancel(name)
 
@@ -168,7 +176,10 @@ class TabComputations:
             return
         self._shown = result if quick is None or self._shown is None else preview.merge_results(self._shown, result)
         self._fresh = full and quick is None and self._newest is not None and gen == self._newest[0]
-        self.send({"what": "result", "gen": gen, "full": self._fresh, "result": self._shown})
+        if self._fresh:
+            self._full = gen, self._shown
+        apart = {"differences": preview.differences(self._pinned, self._shown)} if self._pinned else {}
+        self.send({"what": "result", "gen": gen, "full": self._fresh, "result": {**self._shown, **apart}})
 
     # -- the analyses ----------------------------------------------------------------------------------------------------------
 
@@ -218,7 +229,10 @@ class TabComputations:
             async with self.resources.heavy.worker(self) as worker:
                 await worker.call(preview.draw, design, (), on_message=scenes.append, limit=ANALYSIS)
                 result, _ = await worker.call(preview.analyse, design, limit=ANALYSIS)
+            self._pinned = result
             self.send({"what": "reference", "title": title, "json": scenes[-1], "result": result})
+            if self._shown:
+                self.send({"what": "differences", "differences": preview.differences(result, self._shown)})
         except DrivewrightError as error:
             self.send({"what": "refused", "key": "", "text": "", "message": self.describe(error)})
         except WorkerFault as error:

@@ -1,19 +1,23 @@
 """What a worker process does with a design for the page: the drawing, what follows it at once, and the whole result."""
 
 import json
+import math
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 from drivewright import registry, runner
 from drivewright._jit.compilation import Compilation, watched_by
 from drivewright.registry import Analysis
+from drivewright.report.comparison import difference, difference_text
 from drivewright.report.content import summary
 from drivewright.report.pack import pack_plot_groups, pack_scene
-from drivewright.result import Result
+from drivewright.result import Result, Value
 from drivewright.scene import Scene
 from drivewright.studio.design import Design
 from drivewright.view.panels import known_plots
+
+Number: TypeAlias = list[Any]  # value [SI], its unit, the ends of its interval or None
 
 
 def warm(send: Callable[[Any], object]) -> None:
@@ -78,15 +82,44 @@ def _scene(spec, model):
 def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str]) -> dict[str, Any]:
     """Plain dictionary of a result for the page; `analyses` says whose answers it holds."""
     groups = pack_plot_groups(result, scene, tuple(known_plots(result).values())) if scene else None
+    told = summary(result)
     return {
-        **summary(result),
+        **told,
         "plots": groups,
         "findings": list(result.findings),
         "outcome": result.outcome,
         "seconds": result.provenance["seconds"],
         "analyses": analyses,
         "fractions": {check.name: _fraction(check) for check in result.checks},
+        "numbers": _numbers(result, [item["name"] for item in told.get("headline", ())]),
     }
+
+
+def _numbers(result: Result[Any], names: Iterable[str]) -> dict[str, dict[str, Number]]:
+    """The numbers behind the texts of the headline values of those names, and of the checks."""
+    checks = {check.name: Value(check.value, check.unit, "", *(check.bounds or (None, None))) for check in result.checks}
+    return {"values": _finite_numbers({name: result.values[name] for name in names}), "checks": _finite_numbers(checks)}
+
+
+def _finite_numbers(values: Mapping[str, Value]) -> dict[str, Number]:
+    """Those that exist, as JSON has them."""
+    plain = {name: value.plain() for name, value in values.items() if math.isfinite(value.value)}
+    return {name: [value.value, value.unit, value.low, value.high] for name, value in plain.items()}
+
+
+def differences(first: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, dict[str, str]]:
+    """{"values", "checks"}: {name: how far the number of one page's result is from that of another, '+1.2 mm (+3.4 %)'}."""
+
+    def told(what):
+        known, numbers = first.get("numbers", {}).get(what, {}), other.get("numbers", {}).get(what, {})
+        return {name: _difference(known[name], numbers[name]) for name in numbers if name in known}
+
+    return {what: told(what) for what in ("values", "checks")}
+
+
+def _difference(first: Number, other: Number) -> str:
+    one, two = (Value(value, unit, "", low, high) for value, unit, low, high in (first, other))
+    return difference_text(difference(one, two), two.unit)
 
 
 def _fraction(check):
@@ -111,8 +144,14 @@ def merge_results(shown: Mapping[str, Any], update: Mapping[str, Any]) -> dict[s
         "headline": headline,
         "plots": _merged_plots(shown["plots"], update["plots"]),
         "fractions": {**shown["fractions"], **update["fractions"]},
+        "numbers": _merged_numbers(shown, update),
         "verdict": {**shown["verdict"], "stale": True},
     }
+
+
+def _merged_numbers(shown, update):
+    old, new = shown.get("numbers", {}), update.get("numbers", {})
+    return {what: {**old.get(what, {}), **new.get(what, {})} for what in ("values", "checks")}
 
 
 def _merged_plots(shown, update):

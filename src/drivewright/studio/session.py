@@ -222,6 +222,10 @@ class Session:
         design = await self._call(editing.preset_design, self.document.design.kind, str(preset))
         self.computations.compare_with(str(preset), design)
 
+    async def pin(self, gen: int | None = None) -> None:
+        """The design of a generation to compare with, None for none."""
+        self.computations.pin(gen)
+
     # -- computing -------------------------------------------------------------------------------------------------------------
 
     async def job(self, name: str, options: Mapping[str, Any] | None = None) -> None:
@@ -313,7 +317,7 @@ class Session:
 
 
 TAKE_LOCKS = ("sensitivity", "optimise")
-WORDS = "hello again set unset add drop put take undo redo lock text load preset fresh open share reference job export save analyse"
+WORDS = "hello again set unset add drop put take undo redo lock text load preset fresh open share reference pin job export save analyse"
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 
 

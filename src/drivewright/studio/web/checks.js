@@ -1,6 +1,7 @@
 // The list of design checks: a card for each, failing ones first; a card lights the parts that it concerns.
 
 import { icon, setIcon } from "./icons.js";
+import { withDifference } from "./numbers.js";
 import { pressable, put, same } from "./parts.js";
 import { element, fixed } from "./player.js";
 
@@ -39,11 +40,11 @@ function createCard(name, t, clicked) {
     put(state, {ok: t("passes"), bad: t("fails"), warn: t("undecided")}[verdict]);
     node.title = stale ? t("not up to date") : "";
   }
-  function show(check, share, other) {
+  function show(check, share, other, difference) {
     const [number, limits] = told(check, share, t);
     look(check);
     put(label, t(check.label)); put(value, number); put(line, limits); put(message, [check.message, check.undecided].filter(Boolean).map(text => t(text)).join(" · "));
-    put(reference, other && other.value !== check.value ? told(other, null, t)[0] : "");
+    put(reference, other && other.value !== check.value ? withDifference(told(other, null, t)[0], isYesNo(check) ? "" : difference) : "");
   }
   function press(on, near) {
     node.setAttribute("aria-pressed", String(on));
@@ -74,7 +75,7 @@ export function createChecks(host, {store, t}) {
     const others = new Map((reference?.result?.checks || []).map(check => [check.name, check]));
     for (const check of ordered) {
       if (!cards.has(check.name)) cards.set(check.name, createCard(check.name, t, clicked));
-      cards.get(check.name).show(check, result.fractions?.[check.name], others.get(check.name));
+      cards.get(check.name).show(check, result.fractions?.[check.name], others.get(check.name), result.differences?.checks[check.name]);
     }
     if (!same(names, shown)) arrange(names);
     if (active && !names.includes(active)) active = null;

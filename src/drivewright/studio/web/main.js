@@ -100,6 +100,7 @@ function createEar(store, begin) {
     },
     outdated: () => state.result && store.set({result: stale(state.result)}),
     result: ({gen, full, result}) => gen >= since && store.set({result: {...result, gen, full}}),
+    differences: ({differences}) => state.result && store.set({result: {...state.result, differences}}),
     reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
     work: message => store.set({work: message.state === "lost" ? IDLE : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
     job: ({name, ...news}) => {
@@ -158,8 +159,11 @@ const ACTS = {
   compare(store, message, say) {
     const {design, scene, result} = store.state;
     if (message.with === "preset") say({what: "reference", preset: message.name});
-    else if (message.with !== "this") store.set({reference: null});
-    else if (result?.full && scene?.gen === result.gen) store.set({reference: {title: design.title, ...scene, result}});
+    else if (message.with !== "this") { say({what: "pin", gen: null}); store.set({reference: null}); }
+    else if (result?.full && scene?.gen === result.gen) {
+      say({what: "pin", gen: result.gen});
+      store.set({reference: {title: design.title, ...scene, result}});
+    }
     else store.set({notice: "the design is still being analysed; pin it in a moment"});
   },
 };

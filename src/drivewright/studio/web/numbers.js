@@ -28,6 +28,9 @@ export const unitText = unit => !unit || unit === "-" ? "" : unit === "deg" ? "Â
 /** A result with its interval, "10.2 (8.1 to 12.4) mm"; `low` is "" where it says nothing. */
 export const withInterval = ({shown, number, low, high, unit}, t) => low ? `${t("* (* to *)", number, low, high)}${unitText(unit)}` : shown;
 
+/** The number of the design compared with, and how far this one is from it, as the server tells it. */
+export const withDifference = (text, difference) => difference ? `${text} Â· ${difference}` : text;
+
 /** A number with the digits that an interval [low, high] supports: to the second digit of half its width, five at most. */
 export function supported(value, [low, high]) {
   const half = (high - low) / 2, place = half > 0 ? Math.floor(Math.log10(Number(half.toPrecision(2)))) - 1 : -Infinity;

@@ -2,7 +2,7 @@
 
 import { createChecks } from "./checks.js";
 import { createOptimise, createSensitivity, createStudy } from "./jobs.js";
-import { intervalHint, withInterval } from "./numbers.js";
+import { intervalHint, withDifference, withInterval } from "./numbers.js";
 import { button, put, same } from "./parts.js";
 import { element } from "./player.js";
 
@@ -78,7 +78,7 @@ function createNumbers(host, {store, t}) {
     for (const value of values) {
       const row = rows.get(value.name), other = others.get(value.name);
       put(row.name, t(value.meaning)); put(row.value, withInterval(value, t));
-      put(row.other, other && other.shown !== value.shown ? withInterval(other, t) : "");
+      put(row.other, other && other.shown !== value.shown ? withDifference(withInterval(other, t), result.differences?.values[value.name]) : "");
       row.name.title = value.name; row.value.title = intervalHint(value, t);
     }
   }
