@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from html.parser import HTMLParser
 from xml.etree import ElementTree
 
@@ -159,3 +160,14 @@ def test_designs_without_motion_are_a_remark(designs):
     shown = views_of(comparison, [view._replace(scene=None, drawings=()) for view in seen])
     assert shown.scene is None and "fewer than two" in shown.remarks[0]
     assert not [picture for picture in shown.pictures if picture.name.startswith(("scene", "drawing"))]
+
+
+def test_a_plot_without_a_common_quantity_is_a_remark(designs):
+    comparison, seen = designs
+    first, second, _ = comparison.results
+    motion = second.tables["motion"]
+    columns = tuple(column._replace(unit="rad") if column.name != "angle" else column for column in motion.columns)
+    swinging = replace(second, tables={**second.tables, "motion": replace(motion, columns=columns)})
+    shown = views_of(dw.compare([first, swinging]), seen[:2])
+    assert "plot-motion" not in {picture.name for picture in shown.pictures}
+    assert [remark for remark in shown.remarks if remark.startswith("plot 'motion' is not drawn")]

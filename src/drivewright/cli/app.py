@@ -122,7 +122,7 @@ def compare(
     only: OnlyOption = "",
     labels: Annotated[str, typer.Option("--labels", help="name of each design, comma separated; the titles unless given")] = "",
 ) -> None:
-    """Run several designs of one kind and write one page of them side by side."""
+    """Run designs of one kind and write one page of them."""
     from drivewright import runner
     from drivewright.cli import compared
     from drivewright.report.comparison import check_count, check_kinds

@@ -137,6 +137,9 @@ def _plots(comparison: DesignComparison) -> tuple[list[Sketch], list[str]]:
             remarks.append(f"plot '{name}' is that of {', '.join(comparison.labels[n] for n in having)} only")
         try:
             drawn, left_out = _panels(comparison, name)
+            if not drawn:
+                remarks.append(f"plot '{name}' is not drawn: the designs have none of its quantities in common")
+                continue
             sketches += [_plot_sketch(name, n, panels) for n, panels in enumerate(drawn)]
             remarks += [f"plot '{name}': {left_out} more quantities, or those of one design only, are not drawn"] if left_out else []
         except Exception as error:  # one plot that fails must not cost the others
@@ -145,11 +148,12 @@ def _plots(comparison: DesignComparison) -> tuple[list[Sketch], list[str]]:
 
 
 def _panels(comparison, name):
-    """(panels of each figure of a plot, number of the quantities that are left out)."""
+    """(panels of each figure of a plot, none where designs share no quantity; number of the quantities that are left out)."""
     if is_apart(comparison.results, name):
         return apart(comparison.results, comparison.labels, name), 0
     together = overlay(comparison.results, comparison.labels, name)
-    return [together.panels], together.left_out
+    shared = any(sum(not series.dashed for series in panel.series) > 1 for panel in together.panels)
+    return [together.panels] if shared else [], together.left_out
 
 
 def _plot_sketch(name, number_, panels):
