@@ -78,6 +78,7 @@ def test_differences_are_those_to_the_first_one():
 def test_a_difference_is_relative_to_the_magnitude_of_the_first():
     assert difference(Value(-2.0, "m", ""), Value(-1.0, "m", "")) == Difference(1.0, 0.5)
     assert difference(Value(0.0, "m", ""), Value(1.0, "m", "")) == Difference(1.0, None)
+    assert difference(Value(1.0, "m", ""), Value(1.0 + 1e-9, "m", "")).absolute == pytest.approx(1e-9)
     assert difference(Value(1.0, "m", ""), Value(1.0 + 1e-15, "m", "")) == Difference(0.0, 0.0)
     assert difference(Value(1.0, "m", ""), Value(1.0, "N", "")) is None
 

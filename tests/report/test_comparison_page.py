@@ -88,6 +88,8 @@ def test_values_checks_and_keys_stand_design_by_design(designs):
     first, larger, _ = cells(said["values"], "name", "max_pressure_angle")
     assert first["difference"] == "" and larger["difference"].startswith("−") and larger["difference"].endswith("\u00a0%)")
     assert cells(said["values"], "name", "lift")[1]["same"]
+    fast = cells(said["values"], "name", "max_contact_force")[2]
+    assert fast["difference"].startswith("+") and not fast["same"]
     assert [cell["text"] for cell in cells(said["keys"], "key", "drive.speed")] == ["600 rpm", "600 rpm", "900 rpm"]
     assert [row["key"] for row in said["keys"]] == ["follower.prime_radius", "drive.speed", "load.mass"]
     for row in said["checks"]:
@@ -96,6 +98,14 @@ def test_values_checks_and_keys_stand_design_by_design(designs):
             assert cell["state"] == made.get(row["name"], "none")
     failing = sum(not result.ok for result in comparison.results)
     assert said["verdict"] == {"state": "bad", "text": f"{failing} of 3 fail a check"} and failing == 1
+
+
+def test_a_limit_stands_once_where_it_is_the_same_and_else_in_the_cells(designs):
+    first = designs[0].results[0]
+    checks = tuple(check._replace(limit=2 * check.limit) if check.name == "bore_wall" else check for check in first.checks)
+    rows = {row["name"]: row for row in comparison_content(dw.compare([first, replace(first, checks=checks)]))["checks"]}
+    assert rows["bore_wall"]["limit"] == "" and all(cell["limit"].startswith("≥ ") for cell in rows["bore_wall"]["cells"])
+    assert rows["pressure_angle"]["limit"].startswith("≤ ") and {cell["limit"] for cell in rows["pressure_angle"]["cells"]} == {""}
 
 
 def test_a_check_that_a_design_does_not_make_has_no_verdict(designs):

@@ -58,6 +58,7 @@ def test_markers_lie_at_equal_distances_along_x_even_where_the_points_do_not():
     x = np.concatenate([np.linspace(0, 1, 5000, endpoint=False), np.linspace(1, 8, 701)])
     places = x[marked_rows(x, np.sin(x), 0, 2)]
     assert len(places) == MARKED and np.diff(places) == pytest.approx(np.ones(MARKED - 1), abs=0.02)
+    assert places[0] == pytest.approx(0.25, abs=0.02)
     other = x[marked_rows(x, np.sin(x), 1, 2)]
     assert other - places == pytest.approx(np.full(MARKED, 0.5), abs=0.02)
 

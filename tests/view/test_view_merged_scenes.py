@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from sample_designs import four_bar_scene
 
+from drivewright.report.pack import pack_scene
 from drivewright.scene import Body, Frame, Scene, Shape, circle
 from drivewright.view import draw_scene
 from drivewright.view.merged_scenes import merged_scene, phases_of
-from drivewright.view.palette import SERIES
+from drivewright.view.palette import SERIES, colour
 
 pytestmark = pytest.mark.interface
 
@@ -44,6 +45,15 @@ def test_other_samples_of_the_same_cycle_lie_on_the_same_motion():
     merged, _ = merged_scene([fine, coarse], ["A", "B"])
     a, b = merged.bodies
     assert b.poses[:, :2] == pytest.approx(a.poses[:, :2], abs=1e-5)
+    assert np.exp(1j * b.poses[:, 2]) == pytest.approx(np.exp(1j * a.poses[:, 2]), abs=1e-9)
+
+
+def test_an_angle_that_jumps_by_a_turn_is_continued_between_the_samples():
+    coarse, fine = turning(37, speed=3.0), turning(361, speed=3.0)
+    (body,) = coarse.bodies
+    wrapped = np.column_stack([body.poses[:, :2], np.angle(np.exp(1j * body.poses[:, 2]))])
+    merged, _ = merged_scene([fine, replace(coarse, bodies=(replace(body, poses=wrapped),))], ["A", "B"])
+    a, b = merged.bodies
     assert np.exp(1j * b.poses[:, 2]) == pytest.approx(np.exp(1j * a.poses[:, 2]), abs=1e-9)
 
 
@@ -88,6 +98,9 @@ def test_the_picture_names_each_design_once():
     merged, _ = merged_scene([SCENE, SCENE], ["A", "B"])
     figure = draw_scene(merged, "machine", [0.3])
     assert [text.get_text() for text in figure.legends[0].get_texts()] == ["A", "B"]
+    assert [line.get_color() for line in figure.axes[0].lines] == [colour(role) for role in SERIES[:2]]
+    assert [trace["colour"] for trace in pack_scene(merged)["traces"]] == list(SERIES[:2])
+    assert "colour" not in pack_scene(SCENE)["traces"][0]
     box = figure.axes[0].get_position()
     width, height = figure.get_size_inches()
     low, high = figure.axes[0].get_xlim(), figure.axes[0].get_ylim()
