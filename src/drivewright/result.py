@@ -315,6 +315,7 @@ class Plot(NamedTuple):
     shade: str = ""  # a column: the ground is shaded where it is above 0
     rings: tuple[tuple[float, str], ...] = ()  # (radius, label) of circles about the origin, in the unit of x
     meaning: str = ""  # a sentence on what it shows, where the title is not enough; the title is its label
+    places: tuple[tuple[float, str], ...] = ()  # (x, name) of what stands along the x axis, bearings of a shaft for instance
 
 
 AnalysisData: TypeAlias = Any  # whatever an analysis hands to those that need it; they know what it is

@@ -22,6 +22,7 @@ from drivewright.view.style import (
     are_turned,
     legend_above,
     log_ticks,
+    name_places,
     new_figure,
     places,
     show_places,
@@ -122,6 +123,7 @@ def _draw(axis, panel, told):
         axis.axvspan(start, end, color=colour("line"), zorder=0, lw=0)
     for radius, text in panel.rings:
         _ring(axis, radius, text)
+    name_places(axis, panel.places)
     show_places(axis.xaxis, x, names)
     axis.set_ylabel(literal(axis_label(*parts_of_label(panel.label), width=26 if not panel.equal else 60)))
     if panel.equal:

@@ -49,7 +49,8 @@ class Panel(NamedTuple):
 
     style: line, points, stems, bars (stacked), grouped (bars side by side), polar (over the angle x), mesh (series: up, depth, colour,
     then right and up of the shape before), map (series: second axis, colour; the range is the colour's), histogram (of its series) or
-    ranked (x: labels); `log`: y axis or colour in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text).
+    ranked (x: labels); `log`: y axis or colour in powers of ten; `shade`: stretches (from, to) of x; `rings`: circles (radius, text);
+    `places`: (x, name) of what stands along the x axis.
     """
 
     title: str
@@ -64,6 +65,7 @@ class Panel(NamedTuple):
     log: bool = False
     shade: tuple[tuple[float, float], ...] = ()
     rings: tuple[tuple[float, str], ...] = ()
+    places: tuple[tuple[float, str], ...] = ()
 
 
 def known_plots(result: Result[Any]) -> dict[str, Plot]:
@@ -114,6 +116,7 @@ def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
     chunks = [group[i : i + most] for group in groups.values() for i in range(0, len(group), most)]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade]) if plot.shade else ()
+    places = tuple((place * display_unit(x.unit)[0], name) for place, name in plot.places)
     return tuple(
         panel_of(
             plot,
@@ -122,7 +125,7 @@ def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
             _label(table, plot, chunk, len(groups) == 1),
             () if n else limits_of(result, plot),
             shade,
-        )
+        )._replace(places=places)
         for n, chunk in enumerate(chunks)
     )
 

@@ -205,6 +205,22 @@ def log_ticks(axis: "Axis") -> None:
     axis.set_minor_formatter(PowersOfTen())
 
 
+def name_places(axis: "Axes", places: Sequence[tuple[float, str]]) -> None:
+    """Names at places along the x axis, in the lower edge of the axes, each with a thin line up."""
+    for x, name in places:
+        axis.axvline(x, color=MUTED, lw=0.7, ls=(0, (1, 2)), zorder=0.5)
+        axis.annotate(
+            literal(name),
+            (x, 0.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(2, 3),
+            textcoords="offset points",
+            fontsize=8,
+            color=MUTED,
+            bbox=BADGE,
+        )
+
+
 def legend_above(axis: "Axes", handles: "Sequence[Artist] | None" = None, room: int = 84) -> None:
     """The legend in rows of `room` letters above an axis, from its left end on; none without anything to tell."""
     handles = axis.get_legend_handles_labels()[0] if handles is None else handles

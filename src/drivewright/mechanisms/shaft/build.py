@@ -56,12 +56,13 @@ def build(spec: ShaftSpec) -> ShaftModel:
     given = spec.material
     material = materials.properties(given.card, given.youngs_modulus, given.poisson_ratio, given.density, given.yield_strength)
     rolling = {b.name: rolling_bearing(spec, b) for b in spec.bearings if is_rolling(b)}
+    mirrored = _mirrored(spec, rolling)
     shaft = shafts.Shaft(
         tuple(shafts.Section(s.length, s.diameter, s.end_diameter or s.diameter, s.bore) for s in spec.segments),
         material.modulus,
         material.poisson,
         material.density,
-        tuple(_support(b, rolling.get(b.name)) for b in spec.bearings),
+        tuple(_support(b, rolling.get(b.name), b.name in mirrored) for b in spec.bearings),
         tuple(shafts.Station(s.name, s.position, s.mass, s.polar_inertia, s.diametral_inertia) for s in spec.stations),
         _shear_coefficient(spec.analysis),
     )
@@ -86,12 +87,18 @@ def common_direction(spec: ShaftSpec) -> Floats:
 # -- supports ------------------------------------------------------------------------------------------------------------------
 
 
-def _support(bearing: Bearing, rolling: BallBearing | RollerBearing | None) -> shafts.Support:
+def _mirrored(spec: ShaftSpec, rolling: Mapping[str, BallBearing | RollerBearing]) -> set[str]:
+    """Names of the bearings that take an axial force to the left; those with a contact angle in turn from the left unless it is given."""
+    inclined = sorted((b for b in spec.bearings if b.name in rolling and rolling[b.name].contact_angle), key=lambda b: b.position)
+    in_turn = {bearing.name: ("right", "left")[number % 2] for number, bearing in enumerate(inclined)}
+    return {b.name for b in spec.bearings if (b.carries or in_turn.get(b.name, "right")) == "left"}
+
+
+def _support(bearing: Bearing, rolling: BallBearing | RollerBearing | None, mirrored: bool) -> shafts.Support:
     """The `Support` of a bearing."""
     housing = (bearing.housing_stiffness, bearing.housing_axial_stiffness)
     seat = {"housing": housing, "offset": (*bearing.seat_offset, 0.0, *bearing.seat_tilt), "width": bearing.width}
     if rolling is not None:
-        mirrored = bearing.carries == "left"
         try:
             return shafts.rolling_support(
                 bearing.name, bearing.position, rolling, preload=bearing.preload, mirrored=mirrored, free=bearing.free, **seat

@@ -8,5 +8,18 @@ from drivewright.shafts.plots import SURFACE, shaft_plots
 
 def plots(result: Result[ShaftSpec]) -> tuple[Plot, ...]:
     """All plots whose table the result has."""
-    every = (*shaft_plots(result), *bearing_plots(result.tables), SURFACE)
+    every = (*shaft_plots(result, places(result.spec)), *bearing_plots(result.tables), SURFACE)
     return tuple(plot for plot in every if plot.table in result.tables)
+
+
+def places(spec: ShaftSpec) -> tuple[tuple[float, str], ...]:
+    """(position [m], name) of bearings, stations, gears and forces along the shaft; what stands at one place shares a name."""
+    at: dict[float, list[str]] = {}
+    for each in (*spec.bearings, *spec.stations, *spec.gears):
+        at.setdefault(round(each.position, 9), []).append(each.name)
+    stations = {station.name: station.position for station in spec.stations}
+    for load in spec.loads:
+        place = stations[str(load.station)] if load.position is None else load.position
+        if load.force:
+            at.setdefault(round(place, 9), []).append(f"{load.force:.5g} N")
+    return tuple((place, ", ".join(names)) for place, names in sorted(at.items()))

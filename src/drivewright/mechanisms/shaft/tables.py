@@ -113,8 +113,10 @@ class Bearing(Spec):
         description="axial force that a rolling bearing is mounted with, on a shaft that does not yield; "
         "where it is free to slide, that of the spring behind it",
     )
-    carries: Literal["right", "left"] = Field(
-        "right", description="which axial force on the shaft an angular-contact or tapered bearing takes"
+    carries: Literal["right", "left"] | None = Field(
+        None,
+        description="which axial force on the shaft an angular-contact or tapered bearing takes; unless given, such bearings take it "
+        "in turn from the left: right, left, right (a pair stands back to back)",
     )
     free: tuple[Literal["axial", "tilt"], ...] = Field(
         (), description="freedoms that the seat of a rolling bearing leaves to its outer ring"
