@@ -17,6 +17,7 @@ from drivewright.scene import Arc
 from drivewright.solids.plane import PlaneBody
 
 STEP = np.radians(10.0)  # between neighbouring directions
+SMALL = 0.05  # of the greatest force: what a strand that is nearly slack leaves to a pin
 MARGIN = np.radians(30.0)  # of a direction from the end of an open seat
 
 
@@ -81,11 +82,11 @@ def shares(turns: Floats, seat_directions: Floats, size: Floats) -> Floats:
     """Amounts (n, k) of the pressures of prepared directions (k,) that give forces (n,) of a size [N] and turn [rad].
 
     f sin(t1 - t)/sin(t1 - t0) and f sin(t - t0)/sin(t1 - t0) of the neighbours t0, t1.  Raises InputError for a force that points
-    elsewhere and is not below a thousandth of the greatest.
+    elsewhere and is not small, below `SMALL` of the greatest; a small one acts at the end of the seat.
     """
     turns, size = np.asarray(turns, float), np.asarray(size, float)
     outside = (turns < seat_directions[0]) | (turns > seat_directions[-1])
-    lost = np.flatnonzero(outside & (size > 1e-3 * size.max(initial=0.0)))
+    lost = np.flatnonzero(outside & (size > SMALL * size.max(initial=0.0)))
     if len(lost):
         worst = lost[size[lost].argmax()]
         raise InputError(

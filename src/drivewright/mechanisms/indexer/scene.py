@@ -1,5 +1,8 @@
 """The drive on screen and for manufacture: scene, drawings, parts."""
 
+from dataclasses import replace
+
+from drivewright.gears import EllipticGearPair, Rack, cut_gear
 from drivewright.indexing import roller_gear
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.plate_views import CamHoles, PlateDrive, plate_drawings, plate_parts, plate_scene
@@ -25,8 +28,21 @@ def scene(model: IndexerModel) -> Scene:
 
 
 def drawings(model: IndexerModel) -> tuple[Drawing, ...]:
-    """The cams that differ; a roller gear has none that is flat."""
-    return plate_drawings(plates(model), model.spec.title or "indexer") if model.flat else ()
+    """The cams that differ, and the gear of input and split shafts; a roller gear has none that is flat."""
+    cams = plate_drawings(plates(model), model.spec.title or "indexer") if model.flat else ()
+    return (*cams, *input_gear(model))
+
+
+def input_gear(model: IndexerModel) -> tuple[Drawing, ...]:
+    """The gear that input and split shafts have alike, with involute teeth cut by a standard rack; none without a [gear] table."""
+    given, shafts = model.spec.gear, model.spec.shafts
+    if given is None or not model.flat:
+        return ()
+    pair = EllipticGearPair(0.0, given.module * given.teeth / 2)
+    gear = cut_gear(pair, 1, given.teeth, Rack(pressure_angle=given.pressure_angle))
+    drawn = gear.drawing("gear", shafts.diameters[0] if shafts else 0.0)
+    title = f"gear of input and split shafts, {drawn.title}"
+    return (replace(drawn, title=title, milled=False),)  # an end mill does not fit into the tooth spaces
 
 
 def parts(model: IndexerModel) -> tuple[Part, ...]:
