@@ -9,7 +9,7 @@ from functools import cached_property, lru_cache
 import numpy as np
 
 from drivewright import curves, motion
-from drivewright._typing import ArrayLike, Floats
+from drivewright._typing import ArrayLike, Complexes, Floats
 from drivewright.cams.conjugate import ConjugateCam, ConjugatePair
 from drivewright.errors import InputError, SpecError
 from drivewright.gears import EllipticGearPair, Gear, GearTrain, PlanetArm, Rack, RackFamily, cut_gear
@@ -44,6 +44,30 @@ class PusherModel:
     def advance(self) -> float:
         """How far the machine drives per carrier turn, signed [m]."""
         return self.spec.field.spacing * (1 if self.spec.field.travel == "+x" else -1)
+
+    @property
+    def needle(self) -> complex:
+        """Direction of needle and rod in the frame of the arm at t = 0, origin on the planet axis."""
+        return complex(np.exp(1j * (self.arm.start - self.spec.arm.needle_angle)))
+
+    @property
+    def outwards(self) -> complex:
+        """Direction from the planet axis to the lever pivot, in the same frame."""
+        return self.pair.orbit * 1j * self.needle
+
+    @property
+    def rod_ends(self) -> tuple[complex, complex]:
+        """(back, front) of the rod with the rod in [m], in the same frame: its front is one stroke behind the needle's tip."""
+        spec = self.spec
+        line = (spec.lever.pivot_distance + spec.lever.output_arm) * self.outwards
+        tip = spec.arm.tip_distance * np.exp(1j * self.arm.start)
+        front = line + ((tip * np.conj(self.needle)).real - spec.push.stroke) * self.needle
+        return front - spec.lever.rod_length * self.needle, complex(front)
+
+    def rod_end(self, t: ArrayLike) -> Complexes:
+        """Front end of the rod over the carrier angle, machine frame, x + i y [m]."""
+        inside = self.rod_ends[1] + self.pair.travel(t).d0 * self.needle
+        return self.arm.axis(t).d0 + np.exp(1j * self.arm.rotation(t).d0) * inside
 
     def needle_angle(self, t: ArrayLike) -> Floats:
         """Needle below the horizontal [rad], pointing away from the planet axis."""

@@ -3,6 +3,7 @@
 import numpy as np
 
 from drivewright import curves
+from drivewright._typing import Floats
 from drivewright.cams.clearance import (
     LeverBetweenCams,
     LeverRun,
@@ -17,10 +18,13 @@ from drivewright.contact import KelvinVoigt
 from drivewright.errors import SolverError
 from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
 from drivewright.multibody.analyses.poincare import Section, section_answer
+from drivewright.numerics.ensemble import mean_of_members
 from drivewright.numerics.jets import cos
 from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 GRID = 4096
+ENSEMBLE = 8  # runs behind a number with play
+WIDEST = 0.1e-3  # m: the largest play that the study of it looks at
 TURNS, DISCARD = 48, 16  # of the carrier in the Poincare section, and those of them that are left out
 STILL = 1e-3  # of the rod's range: the damper's force jumps at a touch, which costs digits
 
@@ -66,9 +70,20 @@ def contact(model: PusherModel, done: Answers) -> Answer:
 
 def clearance_study(model: PusherModel, done: Answers) -> Answer:
     """Peak force and rod error over clearance at the given speed, and over speed without clearance."""
-    plays, speeds = np.linspace(0, 0.1e-3, 5), model.spec.drive.speed * np.array([0.5, 1.0, 1.5])
+    plays, speeds = np.linspace(0, WIDEST, 5), model.spec.drive.speed * np.array([0.5, 1.0, 1.5])
     rows = [(play, model.spec.drive.speed) for play in plays] + [(0.0, speed) for speed in speeds]
     runs = [simulate(model, play, speed) for play, speed in rows]
+    tight, loose, many = runs[0].peak_force, _loose_runs(model, runs[len(plays) - 1]), f"with {1e3 * WIDEST:g} mm of play in each roller"
+    forces, separations = (np.array([getattr(run, name) for run in loose]) for name in ("peak_force", "separation"))
+    values = {
+        "clearance.peak_force.tight": Value(tight, "N", "largest normal force without play"),
+        "clearance.peak_force": _mean(forces, "N", f"largest normal force {many}, mean"),
+        "clearance.force_ratio": _mean(forces / tight, "-", f"largest normal force {many} over that without, mean"),
+        "clearance.separation": _mean(separations, "-", f"share of the turn in which neither roller touches, {many}, mean"),
+    }
+    message = f"largest normal force {many} over that without: impacts decide the life of rollers and cams"
+    limit = model.spec.limits.play_force_ratio
+    checks = (Check.of(values["clearance.force_ratio"], "play", limit, "<=", message, ("rollers",)),)
     columns = (
         Column("clearance", "m", "normal play of each roller", np.array([play for play, _ in rows])),
         Column("speed", "rad/s", "carrier speed", np.array([speed for _, speed in rows])),
@@ -76,7 +91,19 @@ def clearance_study(model: PusherModel, done: Answers) -> Answer:
         Column("separation", "-", "share of the turn in which neither roller touches", np.array([run.separation for run in runs])),
         Column("rod_error", "m", "largest deviation of the rod", np.array([run.max_deviation for run in runs])),
     )
-    return Answer(tables=(Table("clearance", "Play and speed", columns),))
+    by_play = Table("play", "Play of the rollers", tuple(column._replace(data=column.data[: len(plays)]) for column in columns))
+    return Answer(values, (Table("clearance", "Play and speed", columns), by_play), checks)
+
+
+def _loose_runs(model: PusherModel, first: LeverRun) -> list[LeverRun]:
+    """The run at the widest play and others whose play differs by next to nothing: impacts are chaotic."""
+    return [first, *(simulate(model, WIDEST * (1 + 1e-6 * number)) for number in range(1, ENSEMBLE))]
+
+
+def _mean(numbers: Floats, unit: str, meaning: str) -> Value:
+    """Mean of runs that share nothing, with its 95 % interval."""
+    mean, half = mean_of_members(numbers)
+    return Value(float(mean), unit, meaning, float(mean - half), float(mean + half), "ensemble").plain()
 
 
 def poincare(model: PusherModel, done: Answers) -> Answer:

@@ -29,6 +29,7 @@ def train(model: PusherModel, done: Answers) -> Answer:
 def _cycle_table(model):
     """Everything that moves, over one turn of the carrier."""
     planet, tip, axis, rod = model.arm.planet(GRID), model.arm.point(GRID), model.arm.axis(GRID), model.pair.travel(GRID)
+    end = model.rod_end(GRID)
     speed, aligned = model.spec.drive.speed, "the same, 0 (mod 2 pi) where planet and intermediate gear are collinear"
     return Table(
         "cycle",
@@ -45,6 +46,8 @@ def _cycle_table(model):
             Column("field_x", "m", "needle tip, field frame", tip.d0.real + model.advance * GRID / TURN),
             Column("axis_x", "m", "planet axis, machine frame", axis.d0.real),
             Column("axis_y", "m", "planet axis, machine frame", axis.d0.imag),
+            Column("rod_end_x", "m", "end of the pusher rod, machine frame", end.real),
+            Column("rod_end_y", "m", "end of the pusher rod, machine frame", end.imag),
             Column("rod", "m", "travel of the pusher rod", rod.d0),
             Column("rod_velocity", "m/s", "velocity of the rod in the arm", rod.d1 * speed),
             Column("rod_acceleration", "m/s^2", "acceleration of the rod in the arm", rod.d2 * speed**2),

@@ -41,12 +41,16 @@ def scene(model: PusherModel) -> Scene:
             "rod",
             "pusher rod",
             (Shape("body", _rod_shape(model)),),
-            _poses(axis + np.exp(1j * rotation) * model.pair.travel(t).d0 * needle(model), rotation),
+            _poses(axis + np.exp(1j * rotation) * model.pair.travel(t).d0 * model.needle, rotation),
             "orange",
         ),
     )
     tip_in_arm = spec.arm.tip_distance * np.exp(1j * model.arm.start)
-    traces = (Trace("tip", "needle tip", "arm", xy(tip_in_arm)), Trace("axis", "planet axis", "arm", (0.0, 0.0)))
+    traces = (
+        Trace("tip", "needle tip", "arm", xy(tip_in_arm)),
+        Trace("axis", "planet axis", "arm", (0.0, 0.0)),
+        Trace("rod_end", "rod end", "rod", xy(model.rod_ends[1])),
+    )
     marks = ((model.arm.highest, "top"), (model.arm.lowest, "lowest"), (model.pair.start % TURN, "push"))
     return Scene(t, "carrier angle", "rad", TURN / spec.drive.speed, bodies, _frames(model, t, axis, rotation), traces, "cycle", marks)
 
@@ -102,28 +106,19 @@ def _carrier_shape(model):
 # -- arm, lever, rod: all in the frame of the arm at t = 0, origin on the planet axis ------------------------------------------------
 
 
-def needle(model: PusherModel) -> complex:
-    """Direction of needle and rod."""
-    return np.exp(1j * (model.arm.start - model.spec.arm.needle_angle))
-
-
 def pivot(model: PusherModel) -> complex:
     """Lever pivot."""
-    return model.spec.lever.pivot_distance * _outwards(model)
-
-
-def _outwards(model):
-    return model.pair.orbit * 1j * needle(model)
+    return model.spec.lever.pivot_distance * model.outwards
 
 
 def rollers(model: PusherModel) -> dict[str, complex]:
     """Roller centres with the rod in, relative to the lever pivot, by cam name."""
-    return {cam.name: -cam.arm * np.exp(-1j * model.pair.orbit * cam.side * cam.rest_angle) * _outwards(model) for cam in model.pair.cams}
+    return {cam.name: -cam.arm * np.exp(-1j * model.pair.orbit * cam.side * cam.rest_angle) * model.outwards for cam in model.pair.cams}
 
 
 def _arm_shapes(model):
     spec, tip = model.spec, model.spec.arm.tip_distance * np.exp(1j * model.arm.start)
-    back = tip - 60e-3 * needle(model)
+    back = tip - 60e-3 * model.needle
     reach = max(cam.prime_radius for cam in model.pair.cams) + spec.cams.roller_radius + 4e-3
     yield Shape("body", circle((0, 0), reach))
     yield Shape("axis", polygon([(0.0, 0.0), xy(back), xy(tip)], closed=False))
@@ -135,20 +130,11 @@ def _lever_shapes(model):
     for centre in rollers(model).values():
         yield Shape("body", capsule((0.0, 0.0), xy(centre), 3.5e-3))
         yield Shape("roller", circle(xy(centre), radius))
-    yield Shape("body", capsule((0.0, 0.0), xy(model.spec.lever.output_arm * _outwards(model)), 3.5e-3))
-
-
-def _rod_ends(model):
-    """Ends of the rod with the rod in: its front is one stroke behind the needle's tip."""
-    spec = model.spec
-    line = (spec.lever.pivot_distance + spec.lever.output_arm) * _outwards(model)
-    tip = spec.arm.tip_distance * np.exp(1j * model.arm.start)
-    front = line + ((tip * np.conj(needle(model))).real - spec.push.stroke) * needle(model)
-    return front - spec.lever.rod_length * needle(model), front
+    yield Shape("body", capsule((0.0, 0.0), xy(model.spec.lever.output_arm * model.outwards), 3.5e-3))
 
 
 def _rod_shape(model):
-    back, front = _rod_ends(model)
+    back, front = model.rod_ends
     return capsule(xy(back), xy(front), 2e-3)
 
 
@@ -157,7 +143,7 @@ def _rod_shape(model):
 
 def in_carrier(model: PusherModel) -> tuple[tuple[float, float, float], bool]:
     """(pose, mirror) that carry a cam from the frame of its formulas to the carrier's frame at t = 0, origin on the planet axis."""
-    angle = float(np.angle(_outwards(model)))
+    angle = float(np.angle(model.outwards))
     return (0.0, 0.0, angle + model.pair.orbit * np.pi / 2), model.pair.orbit < 0
 
 
@@ -220,7 +206,7 @@ def _cam_parts(model, level, here):
 def _lever_parts(model, level, axis):
     spec, here = model.spec, (*xy(axis + pivot(model)), 0.0)
     plate = spec.cams.face_width + GAP
-    slot_end = spec.lever.output_arm * _outwards(model)
+    slot_end = spec.lever.output_arm * model.outwards
     boss = partial(capsule, (0.0, 0.0))
     along = slot_end / abs(slot_end)
     slot = capsule(xy(slot_end - 4e-3 * along), xy(slot_end + 4e-3 * along), 2.1e-3)
@@ -236,7 +222,7 @@ def _lever_parts(model, level, axis):
 
 
 def _rod_part(model, level, here):
-    back, front = _rod_ends(model)
+    back, front = model.rod_ends
     return Part("rod", (Bar(xy(back), xy(front), model.spec.cams.face_width + GAP + LEVER_THICKNESS / 2, 4e-3),), here, "orange")
 
 

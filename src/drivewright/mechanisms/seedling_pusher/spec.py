@@ -146,6 +146,7 @@ class Limits(Spec):
     rod_distance: Length = Field("5 mm", gt=0, description="largest distance of the rod's line from the needle's")
     hub_wall: Length = Field("2 mm", gt=0, description="least wall between cam profile and hub")
     contact_pressure: Pressure | None = Field(None, gt=0, description="allowable Hertz pressure; the material's unless given")
+    play_force_ratio: Number = Field(2.0, ge=1, description="largest normal force with 0.1 mm of play in each roller over that without")
     rod_error: Length = Field("0.2 mm", gt=0, description="largest deviation of the rod from its programme")
 
 

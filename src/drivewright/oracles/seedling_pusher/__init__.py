@@ -6,6 +6,6 @@ rolled_motion  train, tip and rollers of a pusher by rolling and by construction
 rows           the pusher once more, by routes that share no formula with the analyses
 """
 
-from drivewright.oracles.seedling_pusher.rows import verify
+from drivewright.oracles.seedling_pusher.rows import multibody_run, verify
 
-__all__ = ["verify"]
+__all__ = ["multibody_run", "verify"]

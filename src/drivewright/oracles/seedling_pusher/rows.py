@@ -25,12 +25,16 @@ SUNK = "roller sunk on the eroded polygon along its arc"
 
 def verify(model: PusherModel, result: Result[Any]) -> tuple[Row, ...]:
     """All rows; MissingExtra without Exudyn."""
+    return (*geometry(model, result, RolledMotion(model)), *motion(model, result, multibody_run(model)))
+
+
+def multibody_run(model: PusherModel) -> MultibodyRun:
+    """One turn of the carrier with contact in Exudyn; MissingExtra without it."""
     try:
         from drivewright.oracles.seedling_pusher import exudyn_model
     except ImportError as error:
-        raise MissingExtra("verify, which runs the cam pair in Exudyn,", "peers", error) from None
-    rolled = RolledMotion(model)
-    return (*geometry(model, result, rolled), *motion(model, result, exudyn_model.simulate(model, rolled.planet)))
+        raise MissingExtra("the multibody run of the cam pair in Exudyn", "peers", error) from None
+    return exudyn_model.simulate(model, RolledMotion(model).planet)
 
 
 def geometry(model: PusherModel, result: Result[Any], rolled: RolledMotion) -> tuple[Row, ...]:
