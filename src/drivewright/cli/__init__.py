@@ -6,6 +6,7 @@ doctor           what is installed, what each extra adds, the kernel cache, a se
 gallery          the worked examples: listed, copied, run
 interruption     how the command line ends early
 plugin_commands  commands of mechanisms, from plug-ins too
+reproduced       reproduced papers: listed, and written with progress
 show             what the command line prints: results to stdout, everything else to stderr
 """
 
@@ -21,6 +22,7 @@ from drivewright.cli.interruption import ending_signals, exit_code
 from drivewright.errors import DrivewrightError, InputError
 
 INTERRUPTED = 130
+COMPLETION = "_DRIVEWRIGHT_COMPLETE"  # set by the shell where it asks for words: eval "$(_DRIVEWRIGHT_COMPLETE=source_bash drivewright)"
 GRACE = 2.0  # seconds in which a command may find out by itself that memory is used up
 
 _ended, _starved = threading.Event(), threading.Event()  # the command; a thread of it, for want of memory
@@ -44,6 +46,10 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
     try:
         from drivewright.cli.app import app, usage_errors
 
+        if COMPLETION in os.environ:
+            from typer.completion import completion_init
+
+            completion_init()
         try:
             code = app(args=arguments, prog_name="drivewright", standalone_mode=False) or 0
         except usage_errors as error:

@@ -54,6 +54,12 @@ def _refuse_both(only: str, everything: bool) -> None:
         raise InputError("--only and --all contradict each other; give one of them")
 
 
+def _paper_names(incomplete: str) -> list[str]:
+    from drivewright.reproduction import NAMES
+
+    return [name for name in NAMES if name.startswith(incomplete)]
+
+
 def _folder(path: Path, out: Path | None, several: bool = False) -> Path:
     if out is None:
         return Path("out") / path.stem
@@ -296,6 +302,26 @@ def validate(name: Annotated[str | None, typer.Argument(help="a source; default 
     if changed:
         show.note(f"{changed} verdict(s) differ from the pinned ones")
         raise typer.Exit(1)
+
+
+@app.command()
+def reproduce(
+    paper: Annotated[str | None, typer.Argument(help="name of a paper, see --list", autocompletion=_paper_names)] = None,
+    all_: Annotated[bool, typer.Option("--all", help="every paper, each in a folder of its own")] = False,
+    list_: Annotated[bool, typer.Option("--list", help="print the names of the papers and end")] = False,
+    out: Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<paper>, with --all out/papers")] = None,
+    solids: Annotated[bool, typer.Option("--solids/--no-solids", help="with what needs solid models")] = True,
+) -> None:
+    """A published paper as a page, figure by figure, printed beside ours; the same command again goes on where it stopped."""
+    from drivewright import reproduction
+    from drivewright.cli import reproduced
+
+    if list_:
+        reproduced.listing()
+        return
+    if (paper is None) == (not all_):
+        raise InputError(f"name one paper ({', '.join(reproduction.NAMES)}), or --all")
+    reproduced.write_papers(reproduction.papers(paper), out, all_, solids)
 
 
 @app.command()

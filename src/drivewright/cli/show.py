@@ -314,7 +314,19 @@ def source(published: "Source", rows: "Iterable[Row]") -> None:
         ("why", "left"),
     )
     table(
-        published.citation, header, [(r.name, r.printed, number(r.ours, r.unit), r.deviation_text(), r.verdict, r.commentary) for r in rows]
+        published.citation,
+        header,
+        [
+            (
+                r.name,
+                r.printed,
+                "" if r.ours is None else number(r.ours, r.unit, r.low, r.high),
+                r.deviation_text(),
+                r.verdict,
+                r.commentary,
+            )
+            for r in rows
+        ],
     )
 
 

@@ -2,7 +2,7 @@
 
 import json
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from drivewright.report.content import Picture, Views, content, pictures, views
 from drivewright.result import Result
 from drivewright.view.palette import ROLES
 
-TEMPLATE = Path(__file__).parent / "templates" / "report.typ"
+TEMPLATES = Path(__file__).parent / "templates"
 
 
 def write_pdf(result: Result[Any], path: str | Path, seen: Views | None = None, figures: Sequence[Picture] | None = None) -> Path:
@@ -20,23 +20,24 @@ def write_pdf(result: Result[Any], path: str | Path, seen: Views | None = None, 
 
     `seen` is a `Views` (None: what the result's mechanism shows), `figures` are pictures already drawn (None: draw them).
     """
-    typst = _typst()
+    _typst()
     seen = views(result) if seen is None else seen
     figures = pictures(result, seen) if figures is None else figures
     with tempfile.TemporaryDirectory() as folder, replacing(path) as target:
-        _lay_out(Path(folder), content(result, seen.remarks), figures)
-        target.write_bytes(typst.compile(str(Path(folder) / "report.typ"), root=folder, font_paths=[_fonts()]))
+        files = [{"file": f"{n}.svg", "title": picture.title} for n, picture in enumerate(figures)]
+        for file, picture in zip(files, figures, strict=True):
+            (Path(folder) / file["file"]).write_text(picture.svg, encoding="utf-8")
+        target.write_bytes(compile_template("report.typ", {**content(result, seen.remarks), "figures": files}, Path(folder)))
     return Path(path)
 
 
-def _lay_out(root, texts, figures):
-    """The template, its data and its figures side by side, as Typst wants them."""
-    files = [{"file": f"{n}.svg", "title": picture.title} for n, picture in enumerate(figures)]
-    data = {**texts, "figures": files, "colours": {role: light for role, (light, _) in ROLES.items()}}
-    (root / "report.typ").write_bytes(TEMPLATE.read_bytes())
-    (root / "data.json").write_text(json.dumps(data, allow_nan=False), encoding="utf-8")
-    for file, picture in zip(files, figures, strict=True):
-        (root / file["file"]).write_text(picture.svg, encoding="utf-8")
+def compile_template(name: str, data: Mapping[str, Any], folder: Path) -> bytes:
+    """The PDF of a template filled with data, in a folder that holds the figures which the data names; MissingExtra without typst."""
+    typst = _typst()
+    (folder / name).write_bytes((TEMPLATES / name).read_bytes())
+    coloured = {**data, "colours": {role: light for role, (light, _) in ROLES.items()}}
+    (folder / "data.json").write_text(json.dumps(coloured, allow_nan=False), encoding="utf-8")
+    return typst.compile(str(folder / name), root=str(folder), font_paths=[_fonts()])
 
 
 def _typst():

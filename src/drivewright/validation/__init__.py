@@ -4,8 +4,10 @@ A plug-in adds a `Source` of its own under the entry point group `drivewright.va
 
 clearance_joints    joints with play against other computations
 elliptic_gears      elliptic gears pivoted at a focus, and the planetary train made of them
+folding_contact     impact loads of the knife-folding four-bar with dry or lubricated contact in its pins
 folding_linkage     the knife-folding four-bar with play of Yuan, Liu and Wang 2011
 hyvo_paper          the Hy-Vo chain with a small rolling radius of An, Cheng, Li and Xu
+hyvo_running        the Hy-Vo paper's running chains, stress and life of their plates, computed in studies
 indexer_paper       the inner-translation indexing cam of Liu, Zhai, Li and Guo
 modified_sine_help  help page of a commercial cam program: factors of the modified sine
 motion_factors      factors of the classical motion laws as handbooks print them, and in closed form
@@ -32,7 +34,24 @@ from drivewright.validation import (
     shaft_paper,
 )
 from drivewright.validation.page import page
-from drivewright.validation.source import AGREES, EXPLAINED, KINDS, OPEN, Explanation, Printed, Row, Source, rounded
+from drivewright.validation.source import (
+    AGREES,
+    BASES,
+    CALIBRATED,
+    COMPUTED,
+    EXPLAINED,
+    KINDS,
+    NOT_COMPARED,
+    OPEN,
+    PRINT_ONLY,
+    VERDICTS,
+    Explanation,
+    Printed,
+    Row,
+    Source,
+    best_verdicts,
+    rounded,
+)
 
 OURS = (
     pusher_paper.source,
@@ -46,7 +65,27 @@ OURS = (
     hyvo_paper.source,
 )
 
-__all__ = ["AGREES", "EXPLAINED", "Explanation", "KINDS", "OPEN", "Printed", "Row", "Source", "page", "rounded", "rows_of", "sources"]
+__all__ = [
+    "AGREES",
+    "BASES",
+    "CALIBRATED",
+    "COMPUTED",
+    "EXPLAINED",
+    "Explanation",
+    "KINDS",
+    "NOT_COMPARED",
+    "OPEN",
+    "PRINT_ONLY",
+    "Printed",
+    "Row",
+    "Source",
+    "VERDICTS",
+    "best_verdicts",
+    "page",
+    "rounded",
+    "rows_of",
+    "sources",
+]
 
 
 def rows_of(

@@ -19,7 +19,7 @@ from drivewright.chains.link import design_link, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Slide, SpeedRamp, Sprocket
 from drivewright.chains.stress import rolling
 from drivewright.chains.tooth import Tooth
-from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
+from drivewright.validation.source import AGREES, EXPLAINED, NOT_COMPARED, OPEN, PRINT_ONLY, Explanation, Printed, Row, Source, rounded
 
 MM = 1e-3
 P, Z1, Z2, LINKS = 9.525 * MM, 35, 37, 82
@@ -121,6 +121,7 @@ def _table() -> Iterator[Row]:
 
 
 def _slopes() -> Iterator[Row]:
+    explained_pin: dict[str, Any] = {"pinned": EXPLAINED}
     common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "inputs": CHAIN}
     for name, curve, figure in (("e", pin_offset, "Fig. 7"), ("delta_p2", pitch_deviation, "Fig. 8")):
         values = np.array([curve(radius) for radius in NEW_RADII])
@@ -159,11 +160,12 @@ def _slopes() -> Iterator[Row]:
         "-",
         where="eq. (29)",
         explanation=partial_derivative,
-        **common | {"pinned": EXPLAINED},
+        **(common | explained_pin),
     )
 
 
 def _radii() -> Iterator[Row]:
+    in_metres: dict[str, Any] = {"unit": "m", "pinned": EXPLAINED}
     common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "inputs": CHAIN, "unit": "-"}
     reference = meshing.reference_deviation(P, Z1, Z2)
     classical = abs(meshing.pitch_deviation(P, CLASSICAL_RADIUS * MM, CLASSICAL_RADIUS * MM * np.sin(np.radians(3.667)), Z2))
@@ -196,7 +198,9 @@ def _radii() -> Iterator[Row]:
     )
     not_monotone = Explanation(
         "At r10 the deviations on the driven sprocket are equal, no more: there p'' has its greatest value between the two "
-        "seats. p'' of a matched chain grows up to the driver's seat below p/(2 cos(pi/z1))."
+        "seats. p'' of a matched chain grows up to the driver's seat below p/(2 cos(pi/z1)). So read ours is "
+        "the printed value.",
+        float(meshing.boundary_radius(P, Z1, Z2)),
     )
     yield Row(
         "radius below which p'' grows with the angle up to the seat",
@@ -204,7 +208,7 @@ def _radii() -> Iterator[Row]:
         float(meshing.monotone_radius(P, Z1)),
         explanation=not_monotone,
         where="conclusion 2",
-        **common | {"unit": "m", "pinned": EXPLAINED},
+        **(common | in_metres),
     )
 
 
@@ -256,7 +260,8 @@ def _distances() -> Iterator[Row]:
     )
     common["where"] = "section 5.2"
     apart = round(219.136037 - 219.115892, 9) * MM
-    yield Row("fluctuation from the printed extremes", rounded("0.020145 mm", "m"), apart, pinned=AGREES, **common)
+    printed = rounded("0.020145 mm", "m")
+    yield Row("fluctuation from the printed extremes", printed, apart, pinned=NOT_COMPARED, basis=PRINT_ONLY, **common)
     rest = elastic_equilibrium(CLASSICAL_RADIUS)
     common |= {
         "pinned": OPEN,
@@ -276,14 +281,16 @@ def _distances() -> Iterator[Row]:
         ("fluctuation", "0.020145", rest.fluctuation),
         ("mean centre distance", "219.1256", rest.mean),
     ):
-        yield Row(f"{name}, control group at rest", rounded(f"{printed} mm", "m"), float(ours), **common)
-    typo = Explanation("Misprint of 219.056 mm.", (219.1256 - 219.056) * MM)
+        printed_row: dict[str, Any] = common | {"where": "section 5.3" if name.startswith("mean") else "section 5.2"}
+        quantity = f"{name}, control group"
+        yield Row(f"{quantity} at rest", rounded(f"{printed} mm", "m"), float(ours), reading_of=quantity, **printed_row)
     yield Row(
-        "running deviation, 219.1256 - 19.056",
+        "running deviation, printed mean less 219.056 mm",
         rounded("0.0696 mm", "m"),
-        (219.1256 - 19.056) * MM,
-        pinned=EXPLAINED,
-        explanation=typo,
+        round(219.1256 - 219.056, 6) * MM,
+        pinned=NOT_COMPARED,
+        basis=PRINT_ONLY,
+        note="The paper subtracts 19.056, a misprint of 219.056.",
         where="section 5.3",
         kind="other code",
         inputs=DRIVE,
@@ -325,7 +332,12 @@ def _fluctuations(route: str, groups: Floats, control: float, common: dict[str, 
         ("largest fluctuation of groups 1 to 7 over control", SMALLER, groups.max() / control, _fluctuation_ratio()),
     ):
         yield Row(
-            f"{name}, {route}", claim, round(float(ours), 5), explanation=Explanation(ELASTIC_NOTE, stiff) if elastic else None, **common
+            f"{name}, {route}",
+            claim,
+            round(float(ours), 5),
+            explanation=Explanation(ELASTIC_NOTE, stiff) if elastic else None,
+            reading_of=name,
+            **common,
         )
 
 
@@ -349,7 +361,7 @@ def _deviations(route: str, groups: Floats, control: float, common: dict[str, An
             np.abs(groups - line).max() / np.ptp(groups),
         ),
     ):
-        yield Row(f"{name}, {route}", claim, round(float(ours), 5), **common)
+        yield Row(f"{name}, {route}", claim, round(float(ours), 5), reading_of=name, **common)
 
 
 # -- section 6 -----------------------------------------------------------------------------------------------------------------
@@ -364,29 +376,26 @@ def pin_stresses(radius: float) -> tuple[float, float]:
 
 
 def _pressures() -> Iterator[Row]:
-    common: dict[str, Any] = {"kind": "other code", "inputs": PINS, "assumed": FORCES, "where": "section 6.1", "pinned": EXPLAINED}
+    common: dict[str, Any] = {"kind": "other code", "inputs": PINS, "assumed": FORCES, "where": "section 6.1", "pinned": OPEN}
     new, classical = pin_stresses(1.2), pin_stresses(CLASSICAL_RADIUS)
-    coarse = Explanation(
+    coarse = (
         "The print leaves out the contact itself: elements of 0.138 mm cannot hold a contact that is 0.030 mm wide (0.074 mm for the "
         f"control group). Hertz's pressure of 200 N over 6 mm is {new[0] / 1e6:.0f} MPa for pins of 1.2 mm and {classical[0] / 1e6:.0f} "
-        "MPa for those of 7.4 mm."
+        "MPa for those of 7.4 mm. Which stress beside the contact the print shows cannot be told."
     )
     for name, printed, ours in (("group 3", "162.026855", new), ("control group", "245.183578", classical)):
-        yield Row(f"greatest stress of a pin, {name}", rounded(f"{printed} MPa", "Pa"), ours[1], "Pa", explanation=coarse, **common)
-    against_conclusion = Explanation(
-        "The contact stress falls with the root of the radius: small pins have sqrt(7.4/1.2) times as much, against "
-        "conclusion 4. Its stresses are those beside the contact.",
-        162.026855 / 245.183578,
+        yield Row(f"greatest stress of a pin, {name}", rounded(f"{printed} MPa", "Pa"), ours[1], "Pa", note=coarse, **common)
+    against_conclusion = (
+        "The contact stress falls with the root of the radius: small pins have sqrt(7.4/1.2) times as much, against conclusion 4, whose "
+        "stresses are those beside the contact."
     )
-    yield Row(
-        "greatest stress of a pin, group 3 over control", SMALLER, new[1] / classical[1], "-", explanation=against_conclusion, **common
-    )
+    yield Row("greatest stress of a pin, group 3 over control", SMALLER, new[1] / classical[1], "-", note=against_conclusion, **common)
     yield Row(
         "greatest stress of a pin over yield stress, group 3",
         Printed("162 << 835: below 0.3", 0.0, 0.3),
         new[1] / YIELD,
         "-",
-        explanation=coarse,
+        note=coarse,
         **common,
     )
 
@@ -401,32 +410,30 @@ def smooth_bar_life(stress: float) -> float:
 
 
 TURNS = 2000 * Z1 / LINKS  # revolutions of the chain in a minute
-LIFE_CASES = (
-    ("plate, new chain", "1.64", 9, 303.126221, 1.0),
-    ("plate, classical chain", "1.21", 8, 468.663269, 1.0),
-    ("pin, new chain, in min", "4.560", 11, 162.026855, TURNS),
-    ("pin, classical chain, in min", "1.164", 11, 245.183578, TURNS),
+LIFE_CASES = (  # what, printed, unit, the greatest stress printed for it [MPa], seconds for one repeat (1: repeats are counted)
+    ("plate, new chain", "1.64e9", "-", 303.126221, 1.0),
+    ("plate, classical chain", "1.21e8", "-", 468.663269, 1.0),
+    ("pin, new chain", "4.560e11 min", "s", 162.026855, 60 / TURNS),
+    ("pin, classical chain", "1.164e11 min", "s", 245.183578, 60 / TURNS),
 )
 
 
 def _lives() -> Iterator[Row]:
     common: dict[str, Any] = {
         "kind": "other code",
-        "where": "section 6",
+        "where": "section 6, lives",
         "inputs": "the greatest stresses printed, Brown and Miller",
-        "unit": "-",
     }
     note = (
         "No material curve, mean stress or unit of the plates' lives is printed. Ours is that of the printed stress, once from 0 in a "
         "revolution of the chain; beyond 1e9 it is extrapolated."
     )
-    for name, digits, power, stress, rate in LIFE_CASES:
-        _, low, high = rounded(digits, "-")
-        printed = Printed(f"{digits}e{power}", low * 10.0**power, high * 10.0**power)
-        yield Row(
-            f"life of the {name}", printed, smooth_bar_life(stress * 1e6) / rate, pinned=OPEN, assumed=MATERIAL_CARD, note=note, **common
-        )
-    yield Row("life of the plates, new over classical", rounded("13.55", "-"), 1.64e9 / 1.21e8, pinned=AGREES, **common)
+    for name, text, unit, stress, period in LIFE_CASES:
+        ours, quantity = smooth_bar_life(stress * 1e6) * period, f"life of a smooth bar at the stress printed for the {name}"
+        more: dict[str, Any] = {"pinned": OPEN, "assumed": MATERIAL_CARD, "note": note, "reading_of": f"life of the {name}"}
+        yield Row(quantity, rounded(text, unit), ours, unit, **more, **common)
+    ratio = rounded("13.55", "-")
+    yield Row("life of the plates, new over classical", ratio, 1.64e9 / 1.21e8, "-", pinned=NOT_COMPARED, basis=PRINT_ONLY, **common)
     slopes = [
         np.log(a / b) / np.log(t / s)
         for a, b, s, t in ((1.64e9, 1.21e8, 303.126221, 468.663269), (4.56e11, 1.164e11, 162.026855, 245.183578))
@@ -440,6 +447,7 @@ def _lives() -> Iterator[Row]:
         "exponent of life over stress, pins over plates",
         Printed("1, implied", 0.9, 1.1),
         float(slopes[1] / slopes[0]),
+        "-",
         pinned=OPEN,
         note=note,
         **common,

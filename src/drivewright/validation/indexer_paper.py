@@ -11,11 +11,12 @@ import numpy as np
 
 from drivewright import registry
 from drivewright.bearings import approximate_stiffness
+from drivewright.indexing import torsion_test
 from drivewright.indexing.stiffness import statics
 from drivewright.result import Result
 from drivewright.runner import build, run
 from drivewright.spec import load
-from drivewright.validation.source import AGREES, EXPLAINED, Explanation, Printed, Row, Source, rounded
+from drivewright.validation.source import AGREES, EXPLAINED, NOT_COMPARED, OPEN, PRINT_ONLY, Explanation, Printed, Row, Source, rounded
 
 ARCMIN = np.pi / 10800
 DATA = "Table 1: 12 steps, pin circle 120 mm, pin coefficient 0.6, motion over dwell 1.0, eccentricity 10 mm, modified sine"
@@ -43,12 +44,14 @@ NOT_FOLLOWING = "Does not follow from the data given: "
 
 
 def rows() -> Iterator[Row]:
-    """Section 3.2, section 2.3, section 4, equations (5), (6), (8)."""
+    """Contacts, test, simulation, equations (3) to (12), counts."""
     yield from _contacts()
     yield from _measured()
     yield from _constant()
     yield from _formulas()
     yield from _crank_loads()
+    yield from _shaft_loads()
+    yield from _test()
 
 
 @cache
@@ -73,44 +76,25 @@ def _per_arcmin(text: str) -> Printed:
 
 
 def _measured() -> Iterator[Row]:
-    common: dict[str, Any] = {"pinned": EXPLAINED, "kind": "experiment", "where": "section 2.3", "inputs": DATA, "assumed": ASSUMED}
+    common: dict[str, Any] = {"pinned": OPEN, "kind": "experiment", "where": "section 2.3", "inputs": DATA, "assumed": ASSUMED}
     ours, best = indexer_result(), indexer_result(*LARGEST)["stiffness.mean"] * ARCMIN
     why = (
         f"{NOT_FOLLOWING}with the printed bearings the stiffness is bounded by them: rigid shafts and gears and the widest "
         f"spacing that the cam leaves (122 mm) give a mean of {best:.0f} N m/arcmin. Inputs differ strongly, or the load or its unit does."
     )
-    yield Row("mean torsional stiffness", _per_arcmin("747.39"), ours["stiffness.mean"], "N m/rad", explanation=Explanation(why), **common)
-    yield Row(
-        "variation over the index period",
-        _per_arcmin("186.49"),
-        ours["stiffness.range"],
-        "N m/rad",
-        explanation=Explanation(
-            "Nearness of the numbers means nothing beside a mean that is five times ours; whether the whole range or "
-            "half of it is meant is not said."
-        ),
-        **common,
+    yield Row("mean torsional stiffness", _per_arcmin("747.39"), ours["stiffness.mean"], "N m/rad", note=why, **common)
+    near = (
+        "Nearness of the numbers means nothing beside a mean that is five times ours; whether the whole range or half of it is meant is "
+        "not said."
     )
+    yield Row("variation over the index period", _per_arcmin("186.49"), ours["stiffness.range"], "N m/rad", note=near, **common)
     shape = (
         f"{NOT_FOLLOWING}all normals pass through the pitch point e/phi' away, so bearings that yield make the drive softest where phi' is "
         "largest, at 90 deg, alike on both sides of it while pins pull as well as push. Contact in one direction alone breaks the symmetry."
     )
-    yield Row(
-        "angle of the lowest stiffness",
-        Printed("about 50 deg", np.radians(45), np.radians(55)),
-        ours["stiffness.minimum.at"],
-        "rad",
-        explanation=Explanation(shape),
-        **common,
-    )
-    yield Row(
-        "angle of the highest stiffness",
-        Printed("about 145 deg", np.radians(140), np.radians(150)),
-        _angle_of_max_stiffness(ours),
-        "rad",
-        explanation=Explanation(shape),
-        **common,
-    )
+    lowest, highest = (Printed(text, np.radians(at - 5), np.radians(at + 5)) for text, at in (("about 50 deg", 50), ("about 145 deg", 145)))
+    yield Row("angle of the lowest stiffness", lowest, ours["stiffness.minimum.at"], "rad", note=shape, **common)
+    yield Row("angle of the highest stiffness", highest, _angle_of_max_stiffness(ours), "rad", note=shape, **common)
 
 
 def _angle_of_max_stiffness(result: Result[Any]) -> float:
@@ -120,12 +104,12 @@ def _angle_of_max_stiffness(result: Result[Any]) -> float:
 
 def _constant() -> Iterator[Row]:
     common: dict[str, Any] = {
-        "pinned": EXPLAINED,
+        "pinned": OPEN,
         "kind": "other code",
         "where": "section 4, Fig. 17",
         "inputs": DATA,
         "assumed": ASSUMED + "; bearings of 450 and 120 N/um",
-        "explanation": Explanation(
+        "note": (
             f"{NOT_FOLLOWING}constant bearings give K ~ r_p^2, r_p = e/phi': about three times stiffer in the dwell than at 90 deg. A "
             "curve that follows the number of contacts needs bearings that hardly yield at all."
         ),
@@ -162,49 +146,182 @@ def _constant() -> Iterator[Row]:
 
 
 def _formulas() -> Iterator[Row]:
-    note = "It is the tangent of a power law; as a linear spring, as in the paper, it is too stiff by {} %."
-    common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "inputs": BEARINGS, "assumed": "1000 N"}
-    roller, ball = approximate_stiffness.palmgren_roller(1000.0, 14, 8.5e-3), approximate_stiffness.palmgren_ball(1000.0, 11, 4.762e-3)
-    for name, place, printed, ours, over in (
-        ("NU207E", "eq. (5)", approximate_stiffness.liu_roller(1000.0, 14, 8.5e-3), roller, 11),
-        ("61904", "eq. (6)", approximate_stiffness.liu_ball(1000.0, 11, 4.762e-3), ball, 50),
+    """The coefficients of eqs. (5), (6), in N and mm, beside those of Gargiulo, whose own are in pounds and inches."""
+    note = (
+        "Gargiulo's formula, and to 0.3 and 1.2 % the derivative of Palmgren's approach of the rings: the tangent of a power law. As a "
+        "linear spring, as in the paper, it is too stiff by {} %."
+    )
+    common: dict[str, Any] = {"pinned": AGREES, "kind": "closed form", "inputs": BEARINGS, "unit": "-"}
+    roller, ball = approximate_stiffness.gargiulo_roller(1000.0, 14, 8.5e-3), approximate_stiffness.gargiulo_ball(1000.0, 11, 4.762e-3)
+    shapes = 1000.0**0.1 * 14**0.9 * 8.5**0.8, (4.762 * 1000.0 * 11**2) ** (1 / 3)
+    for name, place, text, law, shape, over in (
+        ("cylindrical roller", "eq. (5)", "0.340e4", roller, shapes[0], 11),
+        ("ball", "eq. (6)", "0.118e4", ball, shapes[1], 50),
     ):
-        value = float(printed.value)
-        yield Row(
-            f"stiffness of the {name}, tangent of Palmgren's approach",
-            Printed(f"{place}: {value / 1e3:.0f} N/mm (+- 1.5 %)", value * 0.985, value * 1.015),
-            float(ours.tangent),
-            "N/m",
-            where=place,
-            note=note.format(over),
-            **common,
-        )
+        ours = float(law.value) * 1e-3 / shape
+        yield Row(f"coefficient of the {name} bearing's stiffness", rounded(text, "-"), ours, where=place, note=note.format(over), **common)
+
+
+UNEVEN = ('load.angle="22.5 deg"', 'contact.model="bonded"', 'shafts.front="30 mm"', 'shafts.rear="20 mm"')
+INSTANCE = f"{ASSUMED}; at 22.5 deg, front support 30 mm and rear support 20 mm from the cams"
+
+
+@cache
+def equilibrium_instance() -> tuple[Any, Any, Any]:
+    """(spec, equilibrium, contacts) of the preset at 22.5 deg, bonded, the supports at unequal distances."""
+    spec = load(registry.mechanism("indexer").presets()["default"], UNEVEN)
+    stiffness = next(a for a in registry.mechanism("indexer").analyses if a.name == "stiffness")
+    equilibrium, near = stiffness.answer(build(spec), {}).data
+    return spec, equilibrium, near
+
+
+def force_text(value: float) -> Printed:
+    """A printed formula's force [N] for the instance, to four digits."""
+    return rounded(f"{value:.1f} N", "N")
 
 
 def _crank_loads() -> Iterator[Row]:
-    """Equation (8) as printed beside the equilibrium of the same cam."""
-    changes = ('load.angle="22.5 deg"', 'contact.model="bonded"')
-    spec = load(registry.mechanism("indexer").presets()["default"], changes)
-    answer = registry.mechanism("indexer")
-    model = build(spec)
-    equilibrium, near = next(a for a in answer.analyses if a.name == "stiffness").answer(model, {}).data
+    """Equations (7) to (9) beside the equilibrium of the same cam."""
+    spec, equilibrium, near = equilibrium_instance()
     force, moment = statics.pin_resultants(equilibrium, near)
-    centre = statics.cam_centre(spec.eccentricity, equilibrium.theta)
-    printed = statics.crank_loads_printed(force[:, 0], centre, spec.shaft_spacing)
-    corrected = statics.crank_loads(force[:, 0], moment[:, 0], centre, spec.shaft_spacing)
-    common: dict[str, Any] = {"pinned": EXPLAINED, "kind": "closed form", "where": "eq. (8)", "inputs": DATA, "assumed": ASSUMED}
+    centre, spacing = statics.cam_centre(spec.eccentricity, equilibrium.theta), spec.shaft_spacing
+    common: dict[str, Any] = {"kind": "closed form", "inputs": DATA, "assumed": INSTANCE, "unit": "N"}
+    at: dict[str, Any] = {"where": "eq. (7)", "pinned": AGREES, "kind": "closed form", "inputs": DATA, "unit": "m"}
+    for name, value, printed in (("x_b", centre.real[0], "9.238795 mm"), ("y_b", centre.imag[0], "3.826834 mm")):
+        yield Row(f"{name} at 22.5 deg", rounded(printed, "m"), float(value), **at)
+    printed = statics.crank_loads_printed(force[:, 0], centre, spacing)
+    ours = [-complex(equilibrium.crank_forces[0, side, 0]) for side in range(2)]  # of the bearings on the cam
+    equal = Explanation(
+        "Statics alone leaves open how the bearings share the force along x; equal shares are an assumption, and the mean of our two is "
+        "the printed value.",
+        (ours[0].real + ours[1].real) / 2,
+    )
+    for side in range(2):
+        name, value = f"R_x{side + 1} of cam 1", force_text(printed[side].real[0])
+        yield Row(name, value, ours[side].real, where="eq. (8)", pinned=EXPLAINED, explanation=equal, **common)
+    why = (
+        "The couple of the pins, which is the output torque itself, is left out, and the moment of F_x about the cam's centre is wrong. "
+        "Without the couple, and with the terms as printed, our equilibrium gives the printed value."
+    )
+    # What the print leaves out of our equilibrium: the couple, and in R_y1 F_x y_b for F_y y_b, in R_y2 the sign of F_x y_b.
+    couple, lift = moment[0, 0] / spacing, centre.imag[0] / spacing
+    wrong = (-couple - lift * (force[0, 0].imag + force[0, 0].real), couple + 2 * lift * force[0, 0].real)
     for side, name in enumerate(("R_y1", "R_y2")):
-        size = abs(printed[side].imag[0])
-        why = "The couple of the pins, which is the output torque itself, is missing, and R_y1 has F_y y_b for F_x y_b."
-        other = abs(corrected[side].imag[0])
         yield Row(
-            f"{name} of cam 1 at 22.5 deg",
-            Printed(f"eq. (8): {size:.0f} N", 0.995 * size, 1.005 * size),
-            float(abs(equilibrium.crank_forces[0, side, 0].imag)),
-            "N",
-            explanation=Explanation(f"{why} Corrected: {other:.0f} N."),
+            f"{name} of cam 1",
+            force_text(printed[side].imag[0]),
+            ours[side].imag,
+            where="eq. (8)",
+            pinned=EXPLAINED,
+            explanation=Explanation(why, float(ours[side].imag + wrong[side])),
             **common,
         )
+    others = equilibrium.support_forces[0, 0].sum() - equilibrium.gear_forces[0, 0] - equilibrium.crank_forces[0, 0, 1]
+    for name, reaction, value in (("F_x1", ours[0].real, others.real), ("F_y1", ours[0].imag, others.imag)):
+        where = f"{name} of cam 1 on the split shaft, from the balance of that shaft"
+        yield Row(where, force_text(-reaction), float(value), where="eq. (9)", pinned=AGREES, **common)
+
+
+def _shaft_loads() -> Iterator[Row]:
+    """Equations (10) to (12), each from the forces of our equilibrium, beside that equilibrium."""
+    spec, equilibrium, _ = equilibrium_instance()
+    common: dict[str, Any] = {"kind": "closed form", "inputs": DATA, "assumed": INSTANCE, "unit": "N", "pinned": EXPLAINED}
+    first, second = (equilibrium.crank_forces[:, 0, cam] for cam in range(2))
+    gear, centre = equilibrium.gear_forces[0, 0], statics.cam_centre(spec.eccentricity, equilibrium.theta)
+    radius = 0.5 * spec.gear.module * spec.gear.teeth
+    printed = float(statics.gear_force_printed(first, second, centre, radius)[0])
+    across = float((centre.imag * (first - second).real)[0] / radius)
+    only_y = Explanation("The forces along x turn the shaft too. Without them ours is the printed value.", float(gear.imag) - across)
+    yield Row("F_H on the split gear", force_text(printed), float(gear.imag), where="eq. (10)", explanation=only_y, **common)
+    lengths = statics.ShaftLengths(spec.shafts.overhang, spec.shafts.front, spec.shafts.pitch, spec.shafts.rear)
+    yield from _support_loads(equilibrium, lengths, first, second, gear, common)
+
+
+def _support_loads(equilibrium: Any, lengths: Any, first: Any, second: Any, gear: complex, common: dict[str, Any]) -> Iterator[Row]:
+    front, rear = (complex(equilibrium.support_forces[0, 0, end]) for end in range(2))  # of the shaft on its supports
+    front, rear = -front, -rear
+    agreed: dict[str, Any] = {"pinned": AGREES}
+    a, b1, c, b2 = lengths
+    span = lengths.span
+    printed = [complex(each[0]) for each in statics.support_loads_printed(first, second, np.array([gear.imag]), lengths)]
+    outward = gear.real * (a + span) / span
+    sign = "The first line lacks a minus sign, and the gear's separating force is left out: so changed ours is the printed value."
+    swapped = "b1 stands where b2 belongs, true only where both are equal: with the two exchanged ours is the printed value."
+    separating = "The gear's separating force is left out: without it ours is the printed value."
+    shift = ((first.imag * (b1 + c) + second.imag * b1) - (first.imag * (b2 + c) + second.imag * b2))[0] / span
+    for name, place, value, our, text, other in (
+        ("R_1qx", "eq. (11)", printed[0].real, front.real, sign, -(front.real + outward)),
+        ("R_1hx", "eq. (11)", printed[1].real, rear.real, separating, rear.real - gear.real * a / span),
+        ("R_1qy", "eq. (12)", printed[0].imag, front.imag, swapped, front.imag - float(shift)),
+    ):
+        yield Row(name, force_text(value), our, where=place, explanation=Explanation(text, float(other)), **common)
+    yield Row("R_1hy", force_text(printed[1].imag), rear.imag, where="eq. (12)", **(common | agreed))
+
+
+# -- the test ------------------------------------------------------------------------------------------------------------------
+
+LOOP_STIFFNESS, LOOP_HALF_WIDTH, LOOP_TORQUE = 750 / ARCMIN, 0.1 * ARCMIN, 300.0  # N m/rad, rad, N m
+LOOP = "a loop made up of two straight branches of 750 N m/arcmin, 0.1 arcmin to either side, over -300 to 300 N m"
+
+
+@cache
+def loop_evaluation() -> Any:
+    """The torsion test's evaluation of the made-up loop."""
+    up = np.linspace(-LOOP_TORQUE, LOOP_TORQUE, 401)
+    torque = np.tile(np.concatenate([up, up[::-1]]), 3)
+    way = np.tile(np.repeat([1.0, -1.0], len(up)), 3)
+    angle = torque / LOOP_STIFFNESS - way * LOOP_HALF_WIDTH
+    return torsion_test.evaluate_loop(torsion_test.Readings(torque, angle))
+
+
+def _test() -> Iterator[Row]:
+    """Equations (1) to (4) on a made-up loop, and the counts of the test."""
+    common: dict[str, Any] = {"kind": "closed form", "inputs": LOOP}
+    found = loop_evaluation()
+    whole = LOOP_STIFFNESS / (1 + 3 * (LOOP_HALF_WIDTH * LOOP_STIFFNESS / LOOP_TORQUE) ** 2)
+    yield Row(
+        "stiffness of the loop by least squares of torque on angle",
+        rounded(f"{whole * ARCMIN:.0f} N m/arcmin", "N m/rad"),
+        found.per_branch.value,
+        "N m/rad",
+        where="eq. (3)",
+        pinned=EXPLAINED,
+        explanation=Explanation(
+            "Torque on angle over the whole loop counts the hysteresis as compliance. So evaluated ours is the printed formula's value; "
+            "the slope of the branches is the stiffness.",
+            found.whole_loop.value,
+        ),
+        **common,
+    )
+    bar, support = 3000.0, 8000.0
+    corrected = 1 / (1 / 750.0 - 1 / bar - 1 / support)
+    springs = torsion_test.SeriesSpring
+    setup = torsion_test.TorsionTestSettings(parts=(springs("bar", bar / ARCMIN), springs("support", support / ARCMIN)))
+    yield Row(
+        "stiffness without the bar and the support",
+        rounded(f"{corrected:.2f} N m/arcmin", "N m/rad"),
+        _corrected_stiffness(setup),
+        "N m/rad",
+        where="eq. (4)",
+        pinned=AGREES,
+        assumed="bar of 3000, support of 8000 N m/arcmin: the paper prints neither",
+        **common,
+    )
+    counted: dict[str, Any] = {"unit": "-", "kind": "experiment", "pinned": NOT_COMPARED, "basis": PRINT_ONLY}
+    note = "180 deg in steps of 4.5 deg are 41 positions with both ends; section 4 has 40."
+    yield Row("measuring points of the test", rounded("41", "-"), 180 / 4.5 + 1, where="section 2.2", note=note, **counted)
+    yield Row("measuring points of the simulation", rounded("40", "-"), 180 / 4.5 + 1, where="section 4", note=note, **counted)
+    angle = "Motor of 0.5 deg/s over 9 s."
+    yield Row("angle between two models, in deg", rounded("4.5", "-"), 0.5 * 9, where="section 1.2", note=angle, **counted)
+    mesh: dict[str, Any] = {"where": "section 3.3.2", "note": "A mesh of the authors; ours has another purpose.", **counted}
+    yield Row("elements of the mesh", rounded("109971", "-"), None, **mesh)
+    yield Row("nodes of the mesh", rounded("507651", "-"), None, **mesh)
+
+
+def _corrected_stiffness(setup: Any) -> float:
+    up = np.linspace(-LOOP_TORQUE, LOOP_TORQUE, 401)
+    torque = np.concatenate([up, up[::-1]])
+    return float(torsion_test.evaluate_loop(torsion_test.Readings(torque, torque / LOOP_STIFFNESS), setup).corrected.value)
 
 
 ERRATA = (

@@ -9,8 +9,9 @@ HEADER = """# Validation
 
 The numbers that others have published beside ours. `drivewright validate` computes this page; it exits with 1 when a verdict
 differs from the one pinned in the repository. A verdict is computed: *agrees* when our number rounds to the printed one or meets
-the printed limit; *differs, explained* when another reading that the source leaves open gives the printed number, or the print
-is shown to be wrong; *differs, open* otherwise.
+the printed limit (of an uncertain number also when the print lies within its 95 % interval); *differs, explained* when our number under
+another reading, which the remark names, gives the printed one; *differs, open* otherwise. What is calibrated on the print, or made of
+printed numbers alone, is *not compared*. `drivewright reproduce` shows the five papers that the package began with figure by figure.
 """
 
 
@@ -42,4 +43,4 @@ def _listed(lines: Iterable[str]) -> list[str]:
 
 def _number(row: Row) -> str:
     factor, shown = units.display(row.unit)
-    return f"{row.ours * factor:.6g}{'' if shown == '-' else ' ' + shown}"
+    return "" if row.ours is None else f"{row.ours * factor:.6g}{'' if shown == '-' else ' ' + shown}"

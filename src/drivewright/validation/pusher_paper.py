@@ -9,7 +9,7 @@ from drivewright import registry, units
 from drivewright.result import Result
 from drivewright.runner import run
 from drivewright.spec import load
-from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
+from drivewright.validation.source import AGREES, CALIBRATED, EXPLAINED, NOT_COMPARED, OPEN, Explanation, Printed, Row, Source, rounded
 
 TRAIN = "a = 16.272 mm, k = 0.985, delta0 = 89 deg, phi0 = 7 deg"
 FIRST = f"first set: {TRAIN}; alpha0 = 104 deg, S = 175 mm; push over carrier angles 65 to 86 deg, return 87 to 123 deg"
@@ -18,7 +18,9 @@ BEND = "two readings of the bend of 89 deg have rows of their own: the angle tur
 TIP = "S and the push of the first set hold for the second; alpha0 = 35 deg is counted from the first arm of the carrier"
 TIP_104 = "alpha0 = 104 deg is counted at the planet from the ray to the sun"
 NEEDLE = "needle 30.84 deg steeper than the line planet axis - tip, calibrated on the push angle; take at the top, push at the lowest point"
-CAMS = "rod by the 3-4-5 polynomial over the carrier angle, as Fig. 2 was not to be had; l = m l1 = 56 mm; the lever pivot orbits clockwise"
+LAW = "rod by the 3-4-5 polynomial over the carrier angle, as Fig. 2 was not to be had; l = m l1 = 56 mm"
+CAMS = f"{LAW}; rod at the needle"
+MIRRORED = f"{LAW}; mirrored, the rod on the far side of the planet axis"
 DRIVES = "the 'rise' of the return cam is the phase in which it drives"
 INTERIOR = 'train.bend_reading="interior"'
 
@@ -30,6 +32,7 @@ def rows() -> Iterator[Row]:
     yield from _lowest(turned, interior)
     yield from _needle(turned)
     yield from _pressure_angles(turned, interior)
+    yield from _rod_at_needle(turned)
     yield from _curvature(turned)
     yield from _lever(turned)
 
@@ -46,7 +49,8 @@ def _collinear(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
         "printed digits exclude."
     )
     for name, result in (("turned", turned), ("interior", interior)):
-        yield Row(f"planet collinear, bend {name}", rounded("253 deg", "rad"), result["train.collinear_angle"], **common)
+        quantity, ours = f"planet collinear, bend {name}", result["train.collinear_angle"]
+        yield Row(quantity, rounded("253 deg", "rad"), ours, reading_of="planet collinear", **common)
 
 
 def _lowest(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
@@ -58,7 +62,9 @@ def _lowest(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
     )
     chosen = "Several references of alpha0 were tried, so this agreement was partly selected."
     common: dict[str, Any] = {"unit": "rad", "kind": "published table", "where": "sections 2.1 and 4: the push ends at the lowest point"}
-    second, printed = {"inputs": SECOND, "assumed": TIP} | common, rounded("86 deg", "rad")
+    common["reading_of"] = "tip lowest"
+    second: dict[str, Any] = {"inputs": SECOND, "assumed": TIP} | common
+    printed = rounded("86 deg", "rad")
     common |= {"inputs": FIRST, "assumed": TIP_104}
     yield Row("tip lowest, bend turned", printed, turned["tip.lowest_angle"], pinned=EXPLAINED, explanation=timing, **second)
     yield Row("tip lowest, bend interior", printed, interior["tip.lowest_angle"], pinned=EXPLAINED, explanation=timing, **second)
@@ -96,9 +102,8 @@ def _needle(turned: Result[Any]) -> Iterator[Row]:
         explanation=Explanation(missing, push - difference),
         **common,
     )
-    yield Row(
-        "push angle", rounded("67.82 deg", "rad"), turned["needle.push_angle"], pinned=AGREES, note="By calibration: no evidence.", **common
-    )
+    calibrated: dict[str, Any] = {"pinned": NOT_COMPARED, "basis": CALIBRATED}
+    yield Row("push angle", rounded("67.82 deg", "rad"), turned["needle.push_angle"], **calibrated, **common)
 
 
 def _pressure_angles(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
@@ -107,13 +112,29 @@ def _pressure_angles(turned: Result[Any], interior: Result[Any]) -> Iterator[Row
         "No law, sense of rotation or reading of the bend gives 38.67 and 30.74 deg together; among so many combinations a "
         "near hit of one of them is likely by chance."
     )
-    other = _result("default", ("cams",), 'push.law="simple-harmonic"', 'cams.orbit="counter-clockwise"')
-    harmonic = "rod by simple harmonic motion, lever pivot orbiting counter-clockwise; l = m l1 = 56 mm"
-    cases = (("bend turned", turned, CAMS), ("bend interior", interior, CAMS), ("other law and sense", other, harmonic))
+    mirrored = _result("paper-mirrored", ("cams",))
+    other = _result("default", ("cams",), 'push.law="simple-harmonic"')
+    harmonic = "rod by simple harmonic motion at the needle; l = m l1 = 56 mm"
+    cases = (
+        ("rod at the needle", turned, CAMS),
+        ("mirrored, bend turned", mirrored, MIRRORED),
+        ("mirrored, bend interior", interior, MIRRORED),
+        ("other law", other, harmonic),
+    )
     for name, result, assumed in cases:
         for cam, text, phase in (("main", "38.67 deg", "rise"), ("return", "30.74 deg", "return")):
-            ours = result[f"cam.{cam}.max_pressure_angle.{phase}"]
-            yield Row(f"pressure angle, {cam} cam, {name}", rounded(text, "rad"), ours, assumed=f"{assumed}; {DRIVES}", **common)
+            ours, quantity = result[f"cam.{cam}.max_pressure_angle.{phase}"], f"pressure angle, {cam} cam"
+            row = Row(f"{quantity}, {name}", rounded(text, "rad"), ours, assumed=f"{assumed}; {DRIVES}", reading_of=quantity, **common)
+            yield row
+
+
+def _rod_at_needle(turned: Result[Any]) -> Iterator[Row]:
+    """Figures 1b and 10 draw the rod along the needle."""
+    common: dict[str, Any] = {"kind": "published table", "where": "Figs. 1b, 10", "inputs": SECOND, "unit": "m"}
+    mirrored = _result("paper-mirrored", ("planting",))["rod.needle_distance"]
+    note = f"With the lever pivot orbiting the other way, everything mirrored, they would be {1e3 * mirrored:.0f} mm apart."
+    printed = Printed("rod along the needle: within 5 mm", -float("inf"), 5e-3)
+    yield Row("distance of rod and needle", printed, turned["rod.needle_distance"], pinned=AGREES, assumed=TIP, note=note, **common)
 
 
 def _curvature(turned: Result[Any]) -> Iterator[Row]:
@@ -139,16 +160,24 @@ def _curvature(turned: Result[Any]) -> Iterator[Row]:
 def _lever(turned: Result[Any]) -> Iterator[Row]:
     common: dict[str, Any] = {"unit": "rad", "kind": "closed form", "inputs": SECOND}
     swing = np.degrees(np.arcsin(18 / np.hypot(18, 56)))
-    printed = rounded(f"{swing:.4f} deg", "rad")._replace(text=f"eq. (1): {swing:.4f} deg")
+    printed = rounded(f"{swing:.4f} deg", "rad")
     yield Row(
         "lever swing", printed, turned["lever.swing"], pinned=AGREES, where="eq. (1), stroke 18 mm", assumed="l = m l1 = 56 mm", **common
     )
-    root = Explanation("Misprint: the root stands over a numerator that is an area; without it the formula is the cosine rule.")
+    remark = "Misprint: the root stands over a numerator that is an area. With it, in mm, our angle becomes the printed one."
     for number, radius, cam in (("01", 29, "main"), ("02", 33, "return")):
         literal = np.degrees(np.arccos(np.sqrt(37**2 + 16**2 - radius**2) / (2 * 37 * 16)))
-        printed = rounded(f"{literal:.2f} deg", "rad")._replace(text=f"{literal:.2f} deg, literally in mm")
         ours = turned[f"cam.{cam}.rest_angle"]
-        yield Row(f"rest angle phi{number}", printed, ours, pinned=EXPLAINED, explanation=root, where="below eq. (4)", **common)
+        rooted = float(np.arccos(np.sqrt(2 * 37 * 16 * np.cos(ours)) / (2 * 37 * 16)))
+        yield Row(
+            f"rest angle phi{number}",
+            rounded(f"{literal:.2f} deg", "rad"),
+            ours,
+            pinned=EXPLAINED,
+            explanation=Explanation(remark, rooted),
+            where="below eq. (4)",
+            **common,
+        )
 
 
 ERRATA = (

@@ -3,13 +3,17 @@
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from drivewright import units
 from drivewright.errors import InputError
 
 KINDS = ("closed form", "other code", "published table", "experiment")
-AGREES, EXPLAINED, OPEN = "agrees", "differs, explained", "differs, open"
+COMPUTED, CALIBRATED, PRINT_ONLY = "computed", "calibrated", "print-only"
+BASES = (COMPUTED, CALIBRATED, PRINT_ONLY)
+AGREES, EXPLAINED, OPEN, NOT_COMPARED = "agrees", "differs, explained", "differs, open", "not compared"
+VERDICTS = (AGREES, EXPLAINED, OPEN, NOT_COMPARED)
+NUMBER = r"[+-]?\d+\.?(\d*)(?:e([+-]?\d+))?"
 
 
 class Printed(NamedTuple):
@@ -24,25 +28,27 @@ class Printed(NamedTuple):
 
 
 def rounded(text: str, unit: str) -> Printed:
-    """A printed number "50.22 deg": all that rounds to its digits.  `unit` is the SI unit of its dimension, "-" for a pure number."""
-    match = re.match(r"[+-]?\d+\.?(\d*)", text)
+    """A printed number "50.22 deg" or "4.560e11 min": all that rounds to its digits.
+
+    `unit` is the SI unit of its dimension, "-" for a pure number.
+    """
+    match = re.match(NUMBER, text)
     if match is None:
         raise InputError(f'the printed value {text!r} does not begin with a number; write e.g. "50.22 deg"')
-    number, digits = match.group(0, 1)
+    number, digits, power = match.group(0, 1, 2)
     factor = 1.0 if unit == "-" else units.BY_UNIT[unit].factor(text[len(number) :].strip())
-    half = 0.5 * 10.0 ** -len(digits) * factor
+    half = 0.5 * 10.0 ** (int(power or 0) - len(digits)) * factor
     return Printed(text, float(number) * factor - half, float(number) * factor + half)
 
 
 class Explanation(NamedTuple):
-    """Why a number differs.
+    """Why a number differs: our number [SI] under the other reading that the text names.
 
-    `value` is our number [SI] under the other reading that the text names; one that does not meet the print explains nothing.
-    None where the text shows the print itself to be wrong.
+    A reading that does not meet the print explains nothing.
     """
 
     text: str
-    value: float | None = None
+    value: float
 
 
 @dataclass(frozen=True)
@@ -51,11 +57,17 @@ class Row:
 
     `where` is the place in the source; `inputs` are as printed, `assumed` what the source leaves out; `note` is a remark that
     does not account for a difference.  `pinned` is the verdict that the repository states.
+
+    `basis` says what ours is: "computed" from the source's inputs; "calibrated", with an input chosen so that it meets the print;
+    "print-only", made of other printed numbers alone, or None where we have nothing to put beside the print.  Only a computed number is
+    compared.  `low` and `high` are the ends of its 95 % interval; None: it is exact to its printed digits.
+
+    `reading_of` names the printed number where several rows are readings of the same one.
     """
 
     name: str
     printed: Printed
-    ours: float
+    ours: float | None
     unit: str
     pinned: str
     kind: str
@@ -64,36 +76,81 @@ class Row:
     assumed: str = ""
     explanation: Explanation | None = None
     note: str = ""
+    basis: str = COMPUTED
+    low: float | None = None
+    high: float | None = None
+    reading_of: str = ""
 
     @property
-    def deviation(self) -> float:
-        """Ours minus the printed number; where a limit is printed, how far beyond it ours is."""
+    def deviation(self) -> float | None:
+        """Ours minus the printed number; where a limit is printed, how far beyond it ours is; None without a number of ours."""
+        if self.ours is None:
+            return None
         low, high = self.printed.low, self.printed.high
         if high < float("inf") and low > -float("inf"):
             return self.ours - 0.5 * (low + high)
         return min(self.ours - low, 0.0) + max(self.ours - high, 0.0)
 
     def deviation_text(self) -> str:
-        """The deviation in the unit people read; rounding noise as 0."""
+        """The deviation in the unit people read; rounding noise as 0; nothing where nothing is compared."""
+        if self.deviation is None or self.ours is None or self.basis != COMPUTED:
+            return ""
         factor, shown = units.display(self.unit)
         deviation = self.deviation if abs(self.deviation) > 1e-13 * abs(self.ours) else 0.0
         return f"{deviation * factor:+.3g}{'' if shown == '-' else ' ' + shown}"
 
     @property
     def verdict(self) -> str:
-        """Ours within what the print means, or explained, or open."""
-        if self._meets(self.ours):
+        """Ours, or its interval, within what the print means, or explained, or open; a number that is not computed is not compared."""
+        if self.basis != COMPUTED or self.ours is None:
+            return NOT_COMPARED
+        if self._meets(self.ours, self.low, self.high):
             return AGREES
-        explained = self.explanation is not None and (self.explanation.value is None or self._meets(self.explanation.value))
-        return EXPLAINED if explained else OPEN
+        return EXPLAINED if self.explanation is not None and self._meets(self.explanation.value) else OPEN
 
     @property
     def commentary(self) -> str:
-        """Explanation and remark."""
-        return " ".join(text for text in (self.explanation.text if self.explanation else "", self.note) if text)
+        """Basis where it is not computed, explanation and remark."""
+        text = self.explanation.text if self.explanation else ""
+        return " ".join(part for part in (BASIS_TEXT.get(self.basis, ""), text, self.note) if part)
 
-    def _meets(self, value: float) -> bool:
-        return self.printed.low <= value <= self.printed.high
+    def record(self, source: str) -> dict[str, Any]:
+        """Plain dictionary as in rows.json, numbers in SI; a number without interval has itself for both ends."""
+        low, high = (self.ours if end is None else end for end in (self.low, self.high))
+        return {
+            "source": source,
+            "where": self.where,
+            "quantity": self.name,
+            "printed": self.printed.text,
+            "ours": self.ours,
+            "low": low,
+            "high": high,
+            "unit": self.unit,
+            "basis": self.basis,
+            "verdict": self.verdict,
+        }
+
+    def _meets(self, value: float, low: float | None = None, high: float | None = None) -> bool:
+        """Whether the value is within what the print means, or a printed number within the value's interval; of a printed limit the
+        whole interval must keep it."""
+        within = self.printed.low <= value <= self.printed.high
+        if low is None or high is None:
+            return within
+        if self.printed.high < float("inf") and self.printed.low > -float("inf"):
+            return within or (low <= self.printed.low and self.printed.high <= high)
+        return self.printed.low <= low and high <= self.printed.high
+
+
+def best_verdicts(rows: Iterable[Row]) -> dict[str, str]:
+    """{printed number: the best verdict among its readings}, in the order of `VERDICTS`."""
+    best: dict[str, str] = {}
+    for row in rows:
+        name = row.reading_of or row.name
+        best[name] = min(best.get(name, NOT_COMPARED), row.verdict, key=VERDICTS.index)
+    return best
+
+
+BASIS_TEXT = {CALIBRATED: "By calibration: no evidence.", PRINT_ONLY: "From the print alone: no evidence."}
 
 
 @dataclass(frozen=True)

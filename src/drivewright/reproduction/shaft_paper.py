@@ -1,0 +1,216 @@
+"""The shafts of a pipe-lining machine of Li, Zhang and Chen, figure by figure."""
+
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from drivewright import registry
+from drivewright._typing import Floats
+from drivewright.reproduction.document import read_paper
+from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure, draw_chart
+from drivewright.reproduction.views import scene_figure
+from drivewright.result import Result
+from drivewright.runner import build, run
+from drivewright.shafts import solid_check
+from drivewright.spec import load
+from drivewright.studies.sweeps import sweep
+from drivewright.validation import shaft_paper as numbers
+from drivewright.view.style import new_figure, styled
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawn
+
+NANO = 1e9  # nm/N in m/N
+MM = 1e3
+SHAFTS = {"pressure-roller": ("m1", "m2"), "rubber-roller-r1": ("m3", "m4")}
+TITLES = {"pressure-roller": "pressure-roller shaft", "rubber-roller-r1": "rubber-roller shaft"}
+X_LABEL = "Position along the shaft [mm]"
+Y_LABEL = "Flexibility: deflection per unit force [nm/N]"
+BEARINGS = {
+    "deep-groove ball 61804": "61804",
+    "angular-contact ball 15°": "hypothetical-ACBB15-20x32x7",
+    "tapered roller": "hypothetical-TRB-20x32x7",
+    "cylindrical roller": "hypothetical-CRB-20x32x7",
+}
+LOAD = 500.0  # N, at the loaded mass, where bearings of an inner geometry are compared
+
+
+def places_of(preset: str) -> list[tuple[float, str]]:
+    """(x [mm], name) of the bearings and masses of a preset."""
+    spec = load(registry.mechanism("shaft").presets()[preset])
+    return sorted((MM * each.position, each.name) for each in (*spec.bearings, *spec.stations))
+
+
+def scene(preset: str) -> "Drawn":
+    """The shaft with its bearings and stations, to scale, each named."""
+    figure = scene_figure(load(registry.mechanism("shaft").presets()[preset]))
+    axis = figure.axes[0]
+    axis.set_title("")
+    for x, name in places_of(preset):
+        axis.annotate(name, (x, axis.get_ylim()[1]), ha="center", va="top", fontsize=9)
+    return figure
+
+
+@cache
+def unit_lines(preset: str, stiffness: float | None = None) -> tuple[Floats, dict[str, Floats]]:
+    """(x [mm], {mass: deflection [nm/N] by a unit force there}) after Euler and Bernoulli."""
+    table = numbers.run_preset(preset, stiffness, ("flexibility",)).tables["unit_load"]
+    return table["z"].data * MM, {mass: table[mass].data * NANO for mass in SHAFTS[preset]}
+
+
+def rigid_lines(preset: str) -> "Drawn":
+    """Figs. 8 and 10: the line under a unit force at each mass, bearings rigid, with the formulas' values."""
+    x, lines = unit_lines(preset, np.inf)
+    curves = [Curve(f"force at {mass}", x, line) for mass, line in lines.items()]
+    stated = {
+        "pressure-roller": (Stated("eq. (3)", 0.0, 89.774), Stated("eq. (4)", 245.0, 457.184)),
+        "rubber-roller-r1": (Stated("eq. (6) as printed", 53.0, 205.719),),
+    }[preset]
+    chart = Chart(Y_LABEL, curves, stated, places=places_of(preset))
+    return chart_figure(f"Deflection by a unit force, {TITLES[preset]}, bearings rigid", X_LABEL, [chart])
+
+
+def solid_line(preset: str, mass: str, stations: int = 15) -> tuple[Floats, Floats]:
+    """(x [mm], deflection [nm/N] of the solid's centre line by a unit force at a mass), on the paper's springs over bands of 7 mm."""
+    model = build(load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION,)))
+    places = sorted({*np.linspace(0.0, model.shaft.length, stations).round(4).tolist(), *model.places})
+    bands = [(support.position, 7e-3, numbers.STIFFNESS) for support in model.shaft.supports]
+    sections = [section[:4] for section in model.shaft.sections]
+    found = solid_check.solid_flexibility(sections, model.shaft.modulus, model.shaft.poisson, bands, places)
+    number = places.index(next(s.position for s in model.shaft.stations if s.name == mass))
+    return np.array(places) * MM, found.flexibility[:, number] * NANO
+
+
+def solid_and_beam(preset: str) -> "Drawn":
+    """Figs. 12 to 14: finite elements of the solid on the line of the beam."""
+    charts = []
+    sheared = run(load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION,)), ("flexibility",)).tables["unit_load"]
+    for mass in SHAFTS[preset]:
+        x, lines = unit_lines(preset)
+        curves = [
+            Curve("beam after Euler and Bernoulli, as in the paper", x, lines[mass]),
+            Curve("beam with shear, after Timoshenko", sheared["z"].data * MM, sheared[mass].data * NANO),
+            Curve("solid, finite elements", *solid_line(preset, mass), "points"),
+        ]
+        charts.append(Chart(Y_LABEL, curves, title=f"Unit force at {mass}", places=places_of(preset)))
+    return chart_figure(f"Beam and solid on the same springs, {TITLES[preset]}", X_LABEL, charts, height=2.9)
+
+
+SWEEPS = {  # length, preset, mass, its range [mm], what is held
+    "l1": ("pressure-roller", "m1", (20.0, 100.0), "A, B and m2 stay"),
+    "l3": ("pressure-roller", "m2", (50.0, 170.0), "A, B and m1 stay"),
+    "l5": ("rubber-roller-r1", "m3", (0.0, 110.0), "l5 + l6 = 135 mm"),
+    "l7": ("rubber-roller-r1", "m4", (30.0, 260.0), "l7 + l8 = 326 mm"),
+}
+
+
+def mass_positions() -> "Drawn":
+    """Flexibility of each mass under its own load over the length that places it, by the closed forms of the corrected model."""
+    charts = []
+    for length, (_, mass, (low, high), held) in SWEEPS.items():
+        values = np.linspace(low, high, 61)
+        curves = [
+            Curve(name, values, [own_flexibility(length, value / MM, stiffness) * NANO for value in values])
+            for name, stiffness in (("bearings of 3.0e7 N/m", numbers.STIFFNESS), ("bearings rigid", np.inf))
+        ]
+        nominal = {"l1": numbers.L1, "l3": numbers.L3, "l5": numbers.L5, "l7": numbers.L7}[length] * MM
+        stated = [Stated(f"Table 1: {nominal:g} mm", nominal)]
+        charts.append(Chart("Own flexibility [nm/N]", curves, stated, f"{length}: {mass} moves, {held}"))
+    return chart_figure("Flexibility of each mass over its position", "Length [mm]", charts, columns=2, height=2.7)
+
+
+def own_flexibility(length: str, value: float, k: float) -> float:
+    """Flexibility [m/N] of the mass that a length places, bearings of stiffness k [N/m]; closed form after Euler and Bernoulli."""
+    l2, span = numbers.L2, numbers.SPAN
+    if length in ("l1", "l3"):
+        arm = value
+        return arm**2 * (arm + l2) / (3 * numbers.EI) + ((1 + arm / l2) ** 2 + (arm / l2) ** 2) / k
+    if length == "l5":
+        arm = numbers.L5 + numbers.L6 - value
+        return arm**2 * (arm + span) / (3 * numbers.EI) + ((1 + arm / span) ** 2 + (arm / span) ** 2) / k
+    rest = span - value
+    return value**2 * rest**2 / (3 * numbers.EI * span) + ((rest / span) ** 2 + (value / span) ** 2) / k
+
+
+def rigid_and_elastic(preset: str, folder: Path) -> "Drawn":
+    """Figs. 15, 16: a study with "rigid" as one of its levels, and the masses' flexibility at the printed equations."""
+    study = stiffness_study(preset, folder)
+    x, _ = unit_lines(preset)
+    charts = []
+    for mass in SHAFTS[preset]:
+        curves = [
+            Curve(f"bearings of {text}" if text != "rigid" else "bearings rigid", x, unit_lines(preset, value)[1][mass])
+            for text, value in (("3.0e7 N/m", None), ("1e8 N/m", 1e8), ("rigid", np.inf))
+        ]
+        own = numbers.own_flexibility(mass, np.inf) + numbers.literal_bearing_flexibility(mass)
+        at = {name: place for place, name in places_of(preset)}[mass]
+        stated = [Stated("eqs. (16), (17) to the letter", at, own * NANO)]
+        charts.append(Chart(Y_LABEL, curves, stated, f"Unit force at {mass}", places=places_of(preset)))
+    levels = np.array([1e7, 3e7, 1e8, 1e9])
+    relative = {mass: np.asarray(study[f"flexibility.{mass}.{mass}"], float) for mass in SHAFTS[preset]}
+    shares = [Curve(f"{mass} under its own load", levels / 1e6, each[:-1] / each[-1], "both") for mass, each in relative.items()]
+    title = f"Bearings rigid and yielding, {TITLES[preset]}"
+    with styled():
+        figure = new_figure(9.2, title)
+        axes = figure.subplots(3, 1)
+        for axis, chart in zip(axes, charts, strict=False):
+            draw_chart(axis, chart)
+            axis.set_xlabel(X_LABEL)
+        axes[2].set_xscale("log")
+        draw_chart(axes[2], Chart("Flexibility over that on rigid bearings", shares, [Stated("Table 1", 30.0)]))
+        axes[2].set_xlabel("Stiffness of each bearing [N/µm]")
+    return figure
+
+
+def stiffness_study(preset: str, folder: Path) -> Any:
+    """Study of the bearings' stiffness, "rigid" as a level."""
+    spec = load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION, 'analysis.theory="euler-bernoulli"'))
+    first, second = (f"bearings.{bearing.name}.radial_stiffness" for bearing in spec.bearings)
+    vary: dict[str, Any] = {f"{first}+{second}": ["1e7 N/m", "3e7 N/m", "1e8 N/m", "1e9 N/m", "rigid"]}
+    return sweep(spec, vary, out=folder / "studies" / f"stiffness-{preset}", on="serial")
+
+
+@cache
+def on_bearings(preset: str, designation: str, mass: str) -> Result[Any]:
+    """Result of a preset on rolling bearings of a designation under `LOAD` at a mass."""
+    spec = load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION, 'analysis.theory="euler-bernoulli"'))
+    bearings = [{"name": b.name, "position": f"{b.position!r} m", "bearing": designation} for b in spec.bearings]
+    return run(spec.replace(bearings=bearings, loads=[{"station": mass, "force": f"{LOAD} N"}]), ("flexibility",))
+
+
+def bearing_types(preset: str) -> "Drawn":
+    """Figs. 17, 18: the four types of bearings under 500 N at the mass, tangent flexibility there."""
+    charts = []
+    for mass in SHAFTS[preset]:
+        x, rigid = unit_lines(preset, np.inf)
+        curves = []
+        for name, designation in BEARINGS.items():
+            table = on_bearings(preset, designation, mass).tables["unit_load"]
+            curves.append(Curve(name, table["z"].data * MM, table[mass].data * NANO))
+        curves.append(Curve("rigid, free to tilt", x, rigid[mass], "reference"))
+        charts.append(Chart(Y_LABEL, curves, title=f"500 N at {mass}", places=places_of(preset)))
+    return chart_figure(f"Four types of bearings of one size, {TITLES[preset]}", X_LABEL, charts, height=3.1)
+
+
+def figure_of(function: Any, preset: str) -> Any:
+    """A figure's function for a preset, which does not need the folder."""
+    return lambda folder: function(preset)
+
+
+FIGURES = {
+    "Fig. 5": figure_of(scene, "pressure-roller"),
+    "Fig. 6": figure_of(scene, "rubber-roller-r1"),
+    "Fig. 8": figure_of(rigid_lines, "pressure-roller"),
+    "Fig. 10": figure_of(rigid_lines, "rubber-roller-r1"),
+    "Fig. 13": figure_of(solid_and_beam, "pressure-roller"),
+    "Fig. 14": figure_of(solid_and_beam, "rubber-roller-r1"),
+    "Figs. 13, 14 over lengths": lambda folder: mass_positions(),
+    "Fig. 15": lambda folder: rigid_and_elastic("pressure-roller", folder),
+    "Fig. 16": lambda folder: rigid_and_elastic("rubber-roller-r1", folder),
+    "Fig. 17": figure_of(bearing_types, "pressure-roller"),
+    "Fig. 18": figure_of(bearing_types, "rubber-roller-r1"),
+}
+
+paper = read_paper(numbers.source, FIGURES)
