@@ -1,0 +1,87 @@
+"""The five papers as documents: complete, consistent with their rows, every equation drawable."""
+
+import re
+
+import pytest
+
+from drivewright import reproduction
+from drivewright.errors import UnknownName
+from drivewright.reproduction import document, papers
+from drivewright.reproduction.document import CORRECTED, DEFINITION, EQUATION_VERDICTS, Grid, read_paper
+from drivewright.reproduction.formulas import formula_picture
+from drivewright.validation import folding_linkage
+
+pytestmark = pytest.mark.interface
+
+PAPERS = papers()
+EQUATIONS = {"shaft-paper": 21, "indexer-paper": 12, "hyvo-paper": 31, "folding-linkage": 11, "pusher-paper": 10}
+QUICK = ("shaft-paper", "indexer-paper", "pusher-paper")  # whose rows take seconds
+
+
+def numbers_in(text):
+    """Whole numbers of '(18), (19)' or '(6), (7)'; none of 'below (4)'."""
+    return [] if text.startswith("below") else [int(each) for each in re.findall(r"\d+", text)]
+
+
+def test_names_are_those_of_validate_in_the_papers_order():
+    assert reproduction.NAMES == ("shaft-paper", "indexer-paper", "hyvo-paper", "folding-linkage", "pusher-paper")
+    assert tuple(paper.name for paper in PAPERS) == reproduction.NAMES
+    assert [paper.name for paper in papers("hyvo-paper")] == ["hyvo-paper"]
+    with pytest.raises(UnknownName, match="no paper is called 'hyvo'"):
+        papers("hyvo")
+
+
+@pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
+def test_every_equation_of_the_paper_has_a_verdict(paper):
+    equations = [equation for section in paper.sections for equation in section.equations]
+    found = [number for equation in equations for number in numbers_in(equation.number)]
+    assert sorted(found) == list(range(1, EQUATIONS[paper.name] + 1))
+    for equation in equations:
+        assert equation.verdict in EQUATION_VERDICTS
+        assert bool(equation.right) == (equation.verdict in (CORRECTED, document.UNDECIDED)) or equation.verdict == document.UNDECIDED
+        assert equation.remark or equation.verdict not in (CORRECTED, document.UNDECIDED), equation.number
+        assert not (equation.verdict == DEFINITION and equation.right)
+
+
+@pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
+def test_every_equation_is_drawn_as_outlines(paper):
+    for section in paper.sections:
+        for equation in section.equations:
+            for lines in filter(None, (equation.printed, equation.right)):
+                picture = formula_picture(lines)
+                assert "<path" in picture and "<text" not in picture
+
+
+@pytest.mark.parametrize("paper", PAPERS, ids=lambda paper: paper.name)
+def test_figures_sections_and_inputs_are_told_apart(paper):
+    names = [figure.number for figure in paper.figures]
+    assert len(set(names)) == len(names) and all(figure.caption.endswith(".") for figure in paper.figures)
+    places = [place for section in paper.sections for place in section.places]
+    assert len(set(places)) == len(places)
+    assert {True, False} == {each.printed for each in paper.inputs}
+    assert all(section.claims for section in paper.sections)
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_every_row_has_its_section_and_every_place_its_rows(name):
+    paper = papers(name)[0]
+    wheres = {row.where for row in paper.source.rows()}
+    assert {where: paper.section_of(where) for where in wheres if not paper.section_of(where)} == {}
+    assert {place for section in paper.sections for place in section.places} == wheres
+
+
+def test_cells_of_a_grid_are_rows_of_the_paper(monkeypatch):
+    monkeypatch.setattr(folding_linkage, "load_coefficients", lambda points: [1.0] * len(points))
+    paper = papers("folding-linkage")[0]
+    grids = [grid for section in paper.sections for grid in section.grids]
+    assert [len(grid.rows) * len(grid.columns) for grid in grids] == [11, 55, 55, 55]
+    names = {name for grid in grids if "dry" not in grid.title for _, cells in grid.rows for name in cells}
+    assert names <= {row.name for row in paper.source.rows()}
+
+
+def test_text_and_figures_must_name_the_same_figures():
+    source = papers("shaft-paper")[0].source
+    with pytest.raises(ValueError, match="disagree about.*no section"):
+        read_paper(source, {figure.number: figure.draw for figure in PAPERS[0].figures}, grids={"no section": (Grid("", "", (), ()),)})
+    with pytest.raises(KeyError, match=r"Fig\. 5"):
+        read_paper(source, {})
