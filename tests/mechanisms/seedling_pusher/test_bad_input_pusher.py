@@ -160,7 +160,7 @@ def test_there_is_no_switch_that_allows_it():
 def test_undercut_is_a_failed_check_of_a_complete_result():
     result = computed()
     failed = result.check("undercut.return")
-    assert not failed.ok and failed.geometry and failed.value == pytest.approx(0.8623, abs=2e-4) and failed.limit == 1.0
+    assert not failed.ok and failed.geometry and failed.value == pytest.approx(0.9035, abs=2e-4) and failed.limit == 1.0
     assert result.check("undercut.main").ok and result["cam.return.lost_motion"] > 0
     assert any("return cam is undercut" in finding for finding in result.findings)
 

@@ -62,21 +62,48 @@ def test_the_tip_and_the_axis_are_those_of_the_model(drawn):
         assert path[:, 0] + 1j * path[:, 1] == pytest.approx(jet.d0, abs=1e-15)
 
 
+def test_the_rod_end_is_on_its_line_beside_the_needle_and_moves_by_the_travel(drawn):
+    """In the frame of the arm, by the needle: rod.needle_distance from its line, from one stroke behind its tip to one level with it."""
+    model, made, bodies = drawn
+    distance = dw.run(model.spec, only=("planting",), model=model)["rod.needle_distance"]
+    t = made.cycle
+    rotation, tip = model.arm.rotation(t).d0, model.arm.point(t).d0
+    along = np.exp(1j * rotation) * model.needle
+    off = (model.rod_end(t) - tip) * np.conj(along)  # behind the tip, and across
+    assert np.abs(off.imag) == pytest.approx(np.full(len(t), distance), abs=1e-12)
+    assert off.real == pytest.approx(model.pair.travel(t).d0 - model.spec.push.stroke, abs=1e-12)
+    assert np.angle(along) == pytest.approx(np.angle(np.exp(-1j * model.needle_angle(t))), abs=1e-12)
+    drawn_end = next(trace for trace in made.traces if trace.name == "rod_end")
+    path = np.array([place(np.array([drawn_end.point]), pose)[0] for pose in bodies[drawn_end.body].poses])
+    assert path[:, 0] + 1j * path[:, 1] == pytest.approx(model.rod_end(t), abs=1e-14)
+    shape = polygon(bodies["rod"], "body", 0)
+    assert shape.exterior.distance(shapely.Point(*path[0])) == pytest.approx(2e-3, abs=1e-5), "the round end of a rod of 4 mm"
+
+
+def test_the_table_holds_the_rod_end(drawn):
+    model, _, _ = drawn
+    table = dw.run(model.spec, only=("train",), model=model).tables["cycle"]
+    end = model.rod_end(table["carrier_angle"].data)
+    assert (table["rod_end_x"].data, table["rod_end_y"].data) == (pytest.approx(end.real, abs=1e-15), pytest.approx(end.imag, abs=1e-15))
+    back, front = model.rod_ends
+    assert abs(front - back) == pytest.approx(model.spec.lever.rod_length, rel=1e-12)
+
+
 def test_the_rod_moves_along_the_needle_by_its_travel(drawn):
     model, made, bodies = drawn
     for frame in FRAMES:
         arm, rod = bodies["arm"].poses[frame], bodies["rod"].poses[frame]
         moved = complex(*(rod - arm)[:2]) * np.exp(-1j * arm[2])
-        assert moved == pytest.approx(model.pair.travel(made.cycle[frame]).d0 * pusher_scene.needle(model), abs=1e-15)
+        assert moved == pytest.approx(model.pair.travel(made.cycle[frame]).d0 * model.needle, abs=1e-15)
 
 
 def test_the_lever_reaches_the_rod(drawn):
     """The rod's line is at the end of the output arm, which swings by atan(travel / arm)."""
     model, made, bodies = drawn
-    back, front = pusher_scene._rod_ends(model)
+    back, front = model.rod_ends
     for frame in FRAMES:
         lever, rod = bodies["lever"].poses[frame], bodies["rod"].poses[frame]
-        arm = pusher_scene._outwards(model) * np.exp(1j * lever[2])
+        arm = model.outwards * np.exp(1j * lever[2])
         ends = place(np.array([[z.real, z.imag] for z in (back, front)]), rod)
         line = shapely.LineString(ends + (ends - ends.mean(axis=0)) * 5)
         far = complex(*lever[:2]) + arm * model.spec.lever.output_arm / np.cos(model.pair.swing(made.cycle[frame]).d0)

@@ -27,7 +27,12 @@ def rod_error(model):
 
 @pytest.mark.parametrize(
     ("preset", "changes"),
-    [("default", []), ("design-b", ["cams.orbit=counter-clockwise"]), ("design-c", ["drive.speed=40 rpm", "push.law=modified-sine"])],
+    [
+        ("default", []),
+        ("paper-mirrored", []),
+        ("design-b", ["cams.orbit=counter-clockwise"]),
+        ("design-c", ["drive.speed=40 rpm", "push.law=modified-sine"]),
+    ],
 )
 def test_the_rod_follows_its_programme(preset, changes):
     model = model_of(preset, *changes)
@@ -46,15 +51,19 @@ def test_a_cam_for_another_stroke_is_seen():
     assert -0.6e-3 < error.min() < -0.4e-3
 
 
-def test_an_undercut_cam_lets_the_rod_fall_behind_by_what_it_has_lost():
-    """Main cam undercut: lost motion over leverage is a swing, times l / cos^2(swing) a travel of the rod."""
-    model = model_of("default", "train.start=far")
+@pytest.mark.parametrize("preset", ["default", "paper-mirrored"])
+def test_an_undercut_cam_lets_the_rod_fall_behind_by_what_it_has_lost(preset):
+    """Main cam undercut: lost motion over leverage is a swing, times l / cos^2(swing) a travel of the rod.
+
+    So slowly that the resistance of the push holds the roller on its cam while the programme slows the rod down.
+    """
+    model = model_of(preset, "train.start=far", "drive.speed=100 rpm")
     main, error = model.pair.cams[0], rod_error(model)[1]
     t = np.linspace(model.pair.start, model.pair.start + 2 * np.pi, 4001)
     swing = curves.profile_gap(model.pair.trimmed["main"], t) / (main.arm * np.cos(model.pair.pressure_angle(main, t).d0))
     behind = np.max(swing * model.spec.lever.output_arm / np.cos(model.pair.swing(t).d0) ** 2)
     assert behind > 1e-3
-    assert -error.min() == pytest.approx(behind, abs=0.1e-3)
+    assert -error.min() == pytest.approx(behind, abs=0.03e-3)
 
 
 def test_our_own_contact_model_agrees():

@@ -23,6 +23,7 @@ PUSHER = registry.mechanism("seedling-pusher")
 ONLY = ("train", "planting", "cams")
 CASES = [
     pytest.param(("paper-interior", []), id="interior"),
+    pytest.param(("default", []), id="default"),
     pytest.param(("design-b", ["cams.orbit=counter-clockwise"]), id="other sense", marks=pytest.mark.slow),
     pytest.param(("default", ["train.start=far"]), id="far", marks=pytest.mark.slow),
     pytest.param(
@@ -70,14 +71,14 @@ NOTICED = {
 
 @pytest.fixture(scope="module")
 def other_numbers():
-    """Rows of the published design: what its independent route says."""
-    model = PUSHER.build(load(PUSHER.presets()["default"]))
+    """Rows of the published design, mirrored: what its independent route says."""
+    model = PUSHER.build(load(PUSHER.presets()["paper-mirrored"]))
     return rows(model, run(model.spec, ONLY, model=model))
 
 
 @pytest.mark.parametrize("change", NOTICED)
 def test_the_result_of_another_design_is_noticed(other_numbers, change):
-    wrong = run(load(PUSHER.presets()["default"], [change]), ONLY)
+    wrong = run(load(PUSHER.presets()["paper-mirrored"], [change]), ONLY)
     named = [row._replace(ours=wrong[row.name]) for row in other_numbers if row.name in wrong.values]
     assert len(named) == 19
     assert NOTICED[change] <= {row.name for row in named if not row.ok}
@@ -172,5 +173,5 @@ def without_exudyn(monkeypatch):
 def test_without_exudyn_the_extra_is_named(monkeypatch):
     without_exudyn(monkeypatch)
     path = PUSHER.presets()["default"]
-    with pytest.raises(MissingExtra, match=r"Exudyn, needs the extra 'peers'.*pip install 'drivewright\[peers\]'"):
+    with pytest.raises(MissingExtra, match=r"in Exudyn needs the extra 'peers'.*pip install 'drivewright\[peers\]'"):
         PUSHER.verify(PUSHER.build(load(path)), None)
