@@ -187,6 +187,28 @@ def test_a_hinge_s_hole_takes_forces_all_around():
         assert worst(found, loads).stress > 20e6
 
 
+def test_a_small_force_off_the_seat_acts_at_its_end():
+    """Below 5 % of the greatest force, in full, at the end that is nearer; one prepared direction carries it."""
+    ready = basis().directions[1]
+    turns = np.array([0.3, ready[-1] + 0.4, ready[0] - 0.2, np.pi - 1e-3])
+    sizes = np.array([200.0, 9.9, 7.0, 1e-3])
+    share = bearing.shares(turns, ready, sizes)
+    assert share[1:] == pytest.approx(
+        np.array([[0.0] * (len(ready) - 1) + [9.9], [7.0] + [0.0] * (len(ready) - 1), [0.0] * len(ready)]), abs=2e-3
+    )
+    assert share[3, -1] == pytest.approx(1e-3, rel=1e-12) and np.count_nonzero(share[1:] > 1e-12) == 3
+    within = bearing.shares(np.clip(turns, ready[0], ready[-1]), ready, sizes)
+    assert share == pytest.approx(within, rel=1e-12, abs=1e-12)
+
+
+def test_a_force_off_the_seat_of_more_than_a_twentieth_is_refused():
+    ready = basis().directions[1]
+    turns = np.array([0.0, ready[-1] + 0.4])
+    assert bearing.shares(turns, ready, np.array([200.0, 9.99])).shape == (2, len(ready))
+    with pytest.raises(InputError, match=r"at 1 of 2 instants a pin's force points away from its seat, worst at instant 1: 10\.01 N"):
+        bearing.shares(turns, ready, np.array([200.0, 10.01]))
+
+
 def test_messages():
     slack = Loads(np.array([[[-100.0, 0.0], [100.0, 0.0]], [[-1.0, 0.0], [-30.0, 2.0]]]), np.zeros((2, 2)), np.zeros((2, 2)))
     with pytest.raises(InputError, match=r"1 of 2 instants .* worst at instant 1: 30\.\d+ N at 176.* deg .* slack there"):

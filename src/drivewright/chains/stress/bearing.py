@@ -99,8 +99,8 @@ def shares(turns: Floats, seat_directions: Floats, size: Floats) -> Floats:
     left = np.clip(np.searchsorted(seat_directions, turns, side="right") - 1, 0, len(seat_directions) - 2)
     low, high = seat_directions[left], seat_directions[left + 1]
     amounts, rows = np.zeros((len(turns), len(seat_directions))), np.arange(len(turns))
-    amounts[rows, left] = np.where(outside, 0.0, size) * np.sin(high - turns) / np.sin(high - low)
-    amounts[rows, left + 1] = np.where(outside, 0.0, size) * np.sin(turns - low) / np.sin(high - low)
+    amounts[rows, left] = size * np.sin(high - turns) / np.sin(high - low)
+    amounts[rows, left + 1] = size * np.sin(turns - low) / np.sin(high - low)
     return amounts
 
 
