@@ -25,7 +25,8 @@ SUNK = "roller sunk on the eroded polygon along its arc"
 
 def verify(model: PusherModel, result: Result[Any]) -> tuple[Row, ...]:
     """All rows; MissingExtra without Exudyn."""
-    return (*geometry(model, result, RolledMotion(model)), *motion(model, result, multibody_run(model)))
+    made = multibody_run(model)  # first, so that a missing extra is said before anything is computed
+    return (*geometry(model, result, RolledMotion(model)), *motion(model, result, made))
 
 
 def multibody_run(model: PusherModel) -> MultibodyRun:
