@@ -24,6 +24,7 @@ from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 GRID = 4096
 ENSEMBLE = 8  # runs behind a number with play
+SEPARATION = "share of the turn without contact"
 WIDEST = 0.1e-3  # m: the largest play that the study of it looks at
 TURNS, DISCARD = 48, 16  # of the carrier in the Poincare section, and those of them that are left out
 STILL = 1e-3  # of the rod's range: the damper's force jumps at a touch, which costs digits
@@ -77,9 +78,9 @@ def clearance_study(model: PusherModel, done: Answers) -> Answer:
     forces, separations = (np.array([getattr(run, name) for run in loose]) for name in ("peak_force", "separation"))
     values = {
         "clearance.peak_force.tight": Value(tight, "N", "largest normal force without play"),
-        "clearance.peak_force": _mean(forces, "N", f"largest normal force {many}, mean"),
-        "clearance.force_ratio": _mean(forces / tight, "-", f"largest normal force {many} over that without, mean"),
-        "clearance.separation": _mean(separations, "-", f"share of the turn in which neither roller touches, {many}, mean"),
+        "clearance.peak_force": _mean(forces, "N", f"largest normal force {many}, mean", "largest normal force with play"),
+        "clearance.force_ratio": _mean(forces / tight, "-", f"largest normal force {many} over that without, mean", "force ratio by play"),
+        "clearance.separation": _mean(separations, "-", f"share of the turn in which neither roller touches, {many}, mean", SEPARATION),
     }
     message = f"largest normal force {many} over that without: impacts decide the life of rollers and cams"
     limit = model.spec.limits.play_force_ratio
@@ -100,10 +101,10 @@ def _loose_runs(model: PusherModel, first: LeverRun) -> list[LeverRun]:
     return [first, *(simulate(model, WIDEST * (1 + 1e-6 * number)) for number in range(1, ENSEMBLE))]
 
 
-def _mean(numbers: Floats, unit: str, meaning: str) -> Value:
+def _mean(numbers: Floats, unit: str, meaning: str, label: str) -> Value:
     """Mean of runs that share nothing, with its 95 % interval."""
     mean, half = mean_of_members(numbers)
-    return Value(float(mean), unit, meaning, float(mean - half), float(mean + half), "ensemble").plain()
+    return Value(float(mean), unit, meaning, float(mean - half), float(mean + half), "ensemble", label=label).plain()
 
 
 def poincare(model: PusherModel, done: Answers) -> Answer:
