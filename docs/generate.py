@@ -1,4 +1,4 @@
-"""Fill the pages that are made from the code: home, theory of each mechanism, motion-law peaks, gallery, worked studies, reference."""
+"""Fill the pages that are made from the code: home, theory, motion-law peaks, gallery, worked studies, papers, reference."""
 
 import shutil
 import tempfile
@@ -139,6 +139,35 @@ def _head(path):
     return ["```text", *(line.removeprefix("#").removeprefix(" ") for line in lines[:end]), "```"]
 
 
+def reproduced_papers():
+    """The papers as pages of their own, with a table of what agrees.  They are computed in out/papers: some ten minutes once, a moment again."""
+    from drivewright.reproduction import papers
+    from drivewright.reproduction.page import counts, reproduce
+    from drivewright.validation import VERDICTS
+
+    lines = ["# Papers", "", "Five papers, each as a page in its own order: `drivewright reproduce NAME`.", ""]
+    lines += [f"| paper | page | PDF | {' | '.join(VERDICTS)} |", f"|---|---|---|{'---:|' * len(VERDICTS)}"]
+    for paper in papers():
+        began = time.perf_counter()
+        print(f"{paper.name} ...", end=" ", flush=True)
+        page, computed = reproduce(paper, DOCS.parent / "out" / "papers" / paper.name)
+        print(f"{len(computed.rows)} rows, {time.perf_counter() - began:.1f} s", flush=True)
+        target = DOCS / "papers" / paper.name
+        shutil.rmtree(target, ignore_errors=True)
+        target.mkdir(parents=True)
+        for file in ("index.html", "rows.json", "paper.pdf"):
+            if (page.parent / file).is_file():
+                shutil.copyfile(page.parent / file, target / file)
+        found = counts(computed.rows)
+        links = f"[page](papers/{paper.name}/index.html) | [PDF](papers/{paper.name}/paper.pdf)"
+        lines.append(f"| {paper.title} | {links} | {' | '.join(str(found[verdict]) for verdict in VERDICTS)} |")
+    lines += [
+        "",
+        "Counted are printed numbers and claims, each by the best of its readings; what is calibrated or from the print alone is not compared.",
+    ]
+    return "\n".join(lines) + "\n"
+
+
 def main():
     text = (DOCS.parent / "README.md").read_text(encoding="utf-8").replace("](docs/", "](")
     (DOCS / "index.md").write_text(text, encoding="utf-8")
@@ -148,6 +177,7 @@ def main():
     (DOCS / "theory" / "motion.md").write_text(text, encoding="utf-8")
     (DOCS / "gallery.md").write_text(gallery(), encoding="utf-8")
     (DOCS / "worked-studies.md").write_text(worked_studies(), encoding="utf-8")
+    (DOCS / "papers.md").write_text(reproduced_papers(), encoding="utf-8")
     (DOCS / "reference.md").write_text(
         "# Reference\n\n" + "\n\n".join(f"::: drivewright.{name}" for name in PAGES) + "\n", encoding="utf-8"
     )
