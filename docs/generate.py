@@ -140,7 +140,7 @@ def _head(path):
 
 
 def reproduced_papers():
-    """The papers as pages of their own, with a table of what agrees.  They are computed in out/papers: some ten minutes once, a moment again."""
+    """The papers as pages of their own, with a table of what agrees; computed in out/papers: some ten minutes once, a moment again."""
     from drivewright.reproduction import papers
     from drivewright.reproduction.page import counts, reproduce
     from drivewright.validation import VERDICTS
@@ -161,10 +161,8 @@ def reproduced_papers():
         found = counts(computed.rows)
         links = f"[page](papers/{paper.name}/index.html) | [PDF](papers/{paper.name}/paper.pdf)"
         lines.append(f"| {paper.title} | {links} | {' | '.join(str(found[verdict]) for verdict in VERDICTS)} |")
-    lines += [
-        "",
-        "Counted are printed numbers and claims, each by the best of its readings; what is calibrated or from the print alone is not compared.",
-    ]
+    counted = "Counted are printed numbers and claims, each by the best of its readings"
+    lines += ["", f"{counted}; what is calibrated or from the print alone is not compared."]
     return "\n".join(lines) + "\n"
 
 

@@ -316,6 +316,8 @@ class Plot(NamedTuple):
     rings: tuple[tuple[float, str], ...] = ()  # (radius, label) of circles about the origin, in the unit of x
     meaning: str = ""  # a sentence on what it shows, where the title is not enough; the title is its label
     places: tuple[tuple[float, str], ...] = ()  # (x, name) of what stands along the x axis, bearings of a shaft for instance
+    unit: str = ""  # of the y axis, where another one than usual is meant: "arcmin"
+    whole: bool = False  # everything is shown, however far beyond the limits
 
 
 AnalysisData: TypeAlias = Any  # whatever an analysis hands to those that need it; they know what it is

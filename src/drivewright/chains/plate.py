@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.chains.link import Link, seat_height
-from drivewright.chains.plate_holes import Pins, default_pins
+from drivewright.chains.plate_holes import Pins, RockerPins, default_pins
 from drivewright.chains.plate_outline import Moments, Pieces, area_moments, mirrored, outline, rounded
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError
@@ -188,7 +188,10 @@ class Plate:
     def drawing(self, name: str = "plate") -> Drawing:
         """Drawing for manufacture: profile and holes."""
         shapes = (Shape("profile", self.outline), *(Shape("hole", hole) for hole in self.holes))
-        title = f"chain plate, pitch {self.link.pitch * 1e3:.5g} mm, hole pitch {self.link.hole_pitch * 1e3:.5g} mm"
+        joint = f"hole pitch {self.link.hole_pitch * 1e3:.5g} mm"
+        if isinstance(self.pins, RockerPins):  # whose arcs have their centres far outside the plate
+            joint = f"rocker arcs of {self.link.radius * 1e3:.5g} mm"
+        title = f"chain plate, pitch {self.link.pitch * 1e3:.5g} mm, {joint}"
         return Drawing(name, title, shapes, self.thickness, milled=False)
 
 

@@ -132,9 +132,9 @@ def _style(plot, places):
 def _curves_of(curve, label, common, first):
     """Series of a design: its curve, then what that is compared with, which the legend names once."""
     place = _place(curve.x, common)
-    own = series_of(curve.line.column, _role(curve), ends=curve.line.ends)
+    own = series_of(curve.line.column, _role(curve), ends=curve.line.ends, unit=curve.plot.unit)
     own = own._replace(name=label, label=label, x=place, marker=line_marker(curve.design))
-    compared = [series_of(column, _role(curve), dashed=True) for column in curve.line.references]
+    compared = [series_of(column, _role(curve), dashed=True, unit=curve.plot.unit) for column in curve.line.references]
     return [own, *(each._replace(label=each.label if first else "", x=place) for each in compared)]
 
 

@@ -17,7 +17,7 @@ from drivewright.result import Column, Plot, Result, Table
 from drivewright.view.axis_names import axis_name
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.palette import MARKERS, SERIES
-from drivewright.view.text import axis_label, display_unit, number, quantity, sentence, with_unit
+from drivewright.view.text import axis_label, display_unit, number, quantity, sentence, shown_unit, with_unit
 
 REACH = 8.0  # a panel with a limit shows at most so many times the limit: beyond it (a pole of a radius) the line leaves the panel
 DECADES = 6  # powers of ten that a logarithmic axis shows at most
@@ -121,7 +121,7 @@ def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
         panel_of(
             plot,
             series_of(x),
-            _coloured(chunk, roles),
+            _coloured(chunk, roles, plot.unit),
             _label(table, plot, chunk, len(groups) == 1),
             () if n else limits_of(result, plot),
             shade,
@@ -171,12 +171,12 @@ def _groups(by: Column) -> tuple[list[str], NDArray[np.int64]]:
     return names, np.minimum(place, len(names) - 1)
 
 
-def _coloured(chunk: Sequence[Line], roles: Iterator[str]) -> list[Series]:
+def _coloured(chunk: Sequence[Line], roles: Iterator[str], unit: str) -> list[Series]:
     """Series of some lines, each line in its colour."""
     series = []
     for line in chunk:
-        role = next(roles)
-        series += [series_of(line.column, role, ends=line.ends), *(series_of(column, "ink", dashed=True) for column in line.references)]
+        references = (series_of(column, "ink", dashed=True, unit=unit) for column in line.references)
+        series += [series_of(line.column, next(roles), ends=line.ends, unit=unit), *references]
     return _with_distinct_labels(series)
 
 
@@ -208,14 +208,17 @@ def panel_of(
     shade: tuple[tuple[float, float], ...] = (),
 ) -> Panel:
     """The panel of some series in the style of a plot; `label` (name, SI unit) of the y axis, `limits` (value [SI], name)."""
-    factor, text = display_unit(label[1])
+    factor, text = shown_unit(label[1], plot.unit)
     limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits)
     rings = tuple((radius * factor, limit_text(radius * factor, label, text)) for radius, label in plot.rings)
     lines, values = [each for s in series for each in (s.data, *s.ends)], [value for value, _ in limits]
     if plot.style == "bars":
         data, ends = [s.data for s in series], series[0].ends if len(series) == 1 else ()
         lines = [np.maximum(data, 0.0).sum(axis=0), np.minimum(data, 0.0).sum(axis=0), *ends]
-    low, high = log_span(lines, values) if plot.log else span(lines, values + [0.0] * (plot.style in ("stems", "grouped")))
+    if plot.log:
+        low, high = log_span(lines, values)
+    else:
+        low, high = span(lines, values + [0.0] * (plot.style in ("stems", "grouped")), np.inf if plot.whole else REACH)
     return Panel(
         sentence(plot.title),
         axis_label(sentence(label[0]), text),
@@ -254,9 +257,9 @@ def _map_panel(result: Result[Any], plot: Plot, table: Table) -> Panel:
     return Panel(sentence(plot.title), label, series_of(table[plot.x]), (up, tint), limits, low, high, False, "map", plot.log)
 
 
-def series_of(column: Column, role: str = "ink", dashed: bool = False, ends: Sequence[Column] = ()) -> Series:
-    """A column in the unit people read; `ends` are the columns of its intervals."""
-    factor, text = display_unit(column.unit)
+def series_of(column: Column, role: str = "ink", dashed: bool = False, ends: Sequence[Column] = (), unit: str = "") -> Series:
+    """A column in the unit people read, or in another `unit`; `ends` are the columns of its intervals."""
+    factor, text = shown_unit(column.unit, unit)
     data = np.asarray(column.data)
     # Whole numbers stay whole, so that their axis has whole ticks.
     if data.dtype.kind in "fb" or (data.dtype.kind in "iu" and factor != 1):
@@ -289,13 +292,13 @@ def _with_distinct_labels(series: list[Series]) -> list[Series]:
     return [s._replace(label=f"{s.label} · {'.'.join(name)}") for s, name in zip(series, names, strict=True)]
 
 
-def span(lines: Sequence[ArrayLike], limits: Sequence[float] = ()) -> tuple[float, float]:
-    """(low, high) that shows the finite part of all lines and the limits, with a little air; poles are cut at `REACH` times the limit."""
+def span(lines: Sequence[ArrayLike], limits: Sequence[float] = (), reach: float = REACH) -> tuple[float, float]:
+    """(low, high) that shows the finite part of all lines and the limits, with a little air; poles are cut at `reach` times the limit."""
     data = np.concatenate([np.ravel(line) for line in lines]).astype(float)
     data = data[np.isfinite(data)]
     if limits:
-        reach = REACH * max(abs(value) for value in limits)
-        data = np.concatenate([np.clip(data, -reach, reach) if reach > 0 else data, limits])
+        largest = max(abs(value) for value in limits)
+        data = np.concatenate([np.clip(data, -reach * largest, reach * largest) if largest > 0 else data, limits])
     if not len(data):
         return -1.0, 1.0
     low, high = float(data.min()), float(data.max())

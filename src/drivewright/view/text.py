@@ -65,17 +65,22 @@ def _grouped(text: str) -> str:
 
 
 def unit_text(unit: str) -> str:
-    """A unit as printed: 'm/s^2' -> 'm/s²', 'deg' -> '°', none for a pure number."""
+    """A unit as printed: 'm/s^2' -> 'm/s²', 'um/kN' -> 'µm/kN', 'deg' -> '°', none for a pure number."""
     if unit in ("-", "", "1"):
         return ""
     raised = re.sub(r"\^(-?\d+)", lambda match: match[1].translate(SUPERSCRIPT), unit)
-    return re.sub(r"\bdeg\b", "°", raised).replace(" ", SOLID)
+    return re.sub(r"\bum\b", "µm", re.sub(r"\bdeg\b", "°", raised)).replace(" ", SOLID)
 
 
 def display_unit(unit: str) -> tuple[float, str]:
     """(factor, printed unit) that turn an SI number into the one people read."""
     factor, text = display(unit)
     return factor, unit_text(text)
+
+
+def shown_unit(unit: str, wanted: str = "") -> tuple[float, str]:
+    """The same for a `wanted` unit of its dimension, e.g. "arcmin", instead of the usual one."""
+    return (1 / BY_UNIT[unit].factor(wanted), unit_text(wanted)) if wanted and unit in BY_UNIT else display_unit(unit)
 
 
 def with_unit(text: str, unit: str) -> str:

@@ -27,5 +27,6 @@ def _all(result: Result[Any]) -> Iterator[Plot]:
         angles = tuple(column.name for column in result.tables["contacts"].columns if column.name.startswith("pressure_angle"))
         yield Plot("pressure_angle", "Pressure angle", "contacts", "angle", angles, (("pressure_angle", "limit"),))
     title = "Free rotation of the wheel, the input standing still"
-    yield Plot("play", title, "play", "angle", ("forward", "backward"), (("play.forward", "limit"),))
+    ways, limit = ("forward", "backward"), (("play.forward", "limit"),)
+    yield Plot("play", title, "play", "angle", ways, limit, unit="arcmin", whole=True)
     yield from stiffness_plots(result.tables)

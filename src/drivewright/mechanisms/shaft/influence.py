@@ -37,6 +37,11 @@ def flexibility(model: ShaftModel, done: Answers) -> Answer:
         findings.append(f"array 'stiffness' is absent: {error}")
     if any(support.law is not None for support in model.shaft.supports):
         findings.append("bearings are not linear: flexibility and stiffness are tangents at the equilibrium of the given loads")
+    if any(is_rolling(bearing) and "tilt" not in bearing.free for bearing in model.spec.bearings):
+        findings.append(
+            "rolling bearings also hold the slope of the shaft, which the rigid supports of the comparison (dashed, '.rigid') leave free: "
+            "a curve on real bearings may lie below the one on rigid supports"
+        )
     off = shafts.unit_imbalance(found, model.shaft, model.places, model.direction)
     message = "forces and moments that do not balance under a unit force at a station, the largest"
     check = Check("equilibrium.unit_loads", off, BALANCED, "<=", "-", message, ("shaft",))
