@@ -193,6 +193,7 @@ def test_one_rolling_bearing_alone_holds_a_shaft_by_its_tilting_stiffness():
 def test_tapered_bearings_that_both_push_the_same_way():
     tables = copy.deepcopy(BASE)
     tables["bearings"] = [
-        {"name": n, "position": z, "bearing": "hypothetical-TRB-20x32x7"} for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))
+        {"name": n, "position": z, "bearing": "hypothetical-TRB-20x32x7", "carries": "right"}
+        for n, z in (("A", "56.5 mm"), ("B", "136.5 mm"))
     ]
     has_no_statics(dw.Shaft(**tables), "push it to the left, and none of them takes an axial force to the left.*carries")

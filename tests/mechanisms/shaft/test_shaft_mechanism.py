@@ -280,14 +280,55 @@ def test_a_spring_behind_a_sliding_ring_keeps_its_preload():
     assert dw.run(spec).tables["reactions"]["reaction_z"].data == pytest.approx([-200.0, 200.0], rel=1e-6)
 
 
-def test_bearings_the_wrong_way_round_leave_an_axial_force_to_nobody():
-    tapered = {"rollers": 15, "roller_diameter": "4 mm", "roller_length": "8 mm", "pitch_diameter": "30 mm", "contact_angle": "14 deg"}
-    spec = dw.Shaft(
+TAPERED = {"rollers": 15, "roller_diameter": "4 mm", "roller_length": "8 mm", "pitch_diameter": "30 mm", "contact_angle": "14 deg"}
+PLACES = {"A": "50 mm", "B": "150 mm"}
+
+
+def on_tapered(*carries, names="AB", axial="-100 N", more=()):
+    """Tapered bearings in the order of `names`, carrying what is given, or nothing said (None)."""
+    held = [
+        {"name": name, "position": PLACES[name], "roller_geometry": TAPERED} | ({"carries": way} if way else {})
+        for name, way in zip(names, carries, strict=True)
+    ]
+    return dw.Shaft(
         segments=[{"length": "200 mm", "diameter": "20 mm"}],
-        bearings=[{"name": n, "position": z, "roller_geometry": tapered} for n, z in (("A", "50 mm"), ("B", "150 mm"))],
-        loads=[{"position": "180 mm", "axial_force": "-100 N"}],
+        bearings=[*held, *more],
+        loads=[{"position": "180 mm", "force": "500 N", "axial_force": axial}],
     )
-    result = dw.run(spec)
+
+
+@pytest.mark.parametrize("axial", ["-100 N", "80 N"])
+@pytest.mark.parametrize(
+    ("names", "said", "given"),
+    [
+        ("AB", (None, None), ("right", "left")),
+        ("BA", (None, None), ("left", "right")),  # by place on the shaft, not by place in the spec
+        ("AB", ("right", None), ("right", "left")),
+        ("AB", (None, "left"), ("right", "left")),
+    ],
+)
+def test_tapered_bearings_take_axial_forces_in_turn_unless_it_is_given(names, said, given, axial):
+    open_to_the_rule, as_given = (dw.run(on_tapered(*carries, names=names, axial=axial)) for carries in (said, given))
+    assert open_to_the_rule.outcome == "complete"
+    assert {name: value.value for name, value in open_to_the_rule.values.items()} == {n: v.value for n, v in as_given.values.items()}
+    table = open_to_the_rule.tables["reactions"]["reaction_z"].data
+    assert table.sum() == pytest.approx(-float(axial.split()[0]), rel=1e-6)
+    assert np.array_equal(table, as_given.tables["reactions"]["reaction_z"].data)
+
+
+def test_what_is_given_is_not_turned_round_by_the_rule():
+    ways = [[s.mirrored for s in dw.build(on_tapered(*carries)).shaft.supports] for carries in (("left", "right"), ("left", None))]
+    assert ways == [[True, False], [True, True]], "the second in turn carries left, whatever the first is told"
+
+
+def test_a_bearing_without_a_contact_angle_does_not_count_in_the_turn():
+    ball = {"name": "M", "position": "100 mm", "bearing": "61804"}
+    supports = dw.build(on_tapered(None, None, more=[ball])).shaft.supports
+    assert {s.name: s.mirrored for s in supports} == {"A": False, "B": True, "M": False}
+
+
+def test_bearings_the_wrong_way_round_leave_an_axial_force_to_nobody():
+    result = dw.run(on_tapered("right", "right"))
     assert result.outcome == "partial" and any("no bearing that takes a force to the left" in finding for finding in result.findings)
 
 

@@ -7,7 +7,7 @@ from places import EXAMPLES
 import drivewright as dw
 from drivewright import registry
 from drivewright.validation import AGREES, EXPLAINED, OPEN, shaft_paper
-from drivewright.validation.shaft_paper import L1, L2, L3, L5, L6, L7, SPAN, flexibility, literal_bearing_flexibility, own_flexibility
+from drivewright.validation.shaft_paper import L1, L2, L3, L5, L6, L7, L8, SPAN, flexibility, literal_bearing_flexibility, own_flexibility
 
 pytestmark = pytest.mark.analytical
 
@@ -120,14 +120,31 @@ def test_conclusion_3_at_any_stiffness(mass):
     ("name", "printed", "ours", "verdict"),
     [
         ("second moment of area of 20 mm, in mm^4", "7854", 7853.98, AGREES),
-        ("slope at A, force at m1, in urad/N", "eq. (1): 0.931235", 0.931235, AGREES),
+        ("slope at A, force at m1, in urad/N", "0.931235", 0.931235, AGREES),
         ("moment at A over the force at m1, in m", "0.0565", 0.0565, AGREES),
-        ("flexibility of m1, bearings rigid", "eq. (3): 89.7739 um/kN", 8.97739e-8, AGREES),
-        ("flexibility of m2, bearings rigid", "eq. (4): 457.184 um/kN", 4.57184e-7, AGREES),
-        ("slope at C, force at m3, in urad/N", "eq. (5): 1.12346", 5.50747, EXPLAINED),
-        ("flexibility of m3, bearings rigid", "eq. (6): 205.719 um/kN", 5.65208e-7, EXPLAINED),
-        ("slope at C, force at m3, in urad/N, corrected", "l6 (l7 + l8)/(3 EI): 5.50747", 5.50747, AGREES),
-        ("flexibility of m3, bearings rigid, corrected", "l6^2 (l6 + l7 + l8)/(3 EI): 565.208 um/kN", 5.65208e-7, AGREES),
+        ("flexibility of m1, bearings rigid", "89.7739 um/kN", 8.97739e-8, AGREES),
+        ("flexibility of m2, bearings rigid", "457.184 um/kN", 4.57184e-7, AGREES),
+        ("slope at C, force at m3, in urad/N", "1.12346", 5.50747, EXPLAINED),
+        ("flexibility of m3, bearings rigid", "205.719 um/kN", 5.65208e-7, EXPLAINED),
+        ("deflection between m1 and A, pressure-roller shaft", "63.1794 um/kN", 6.31794e-8, AGREES),
+        ("deflection between A and B, pressure-roller shaft", "-40.793 um/kN", -4.07930e-8, AGREES),
+        ("deflection between B and m2, pressure-roller shaft", "204.511 um/kN", 2.04511e-7, AGREES),
+        ("deflection right end, pressure-roller shaft", "890.802 um/kN", 1.067443e-6, EXPLAINED),
+        ("deflection at m3, rubber-roller shaft", "232.657 um/kN", 3.034064e-7, EXPLAINED),
+        ("deflection between m3 and C, rubber-roller shaft", "83.2084 um/kN", 1.304040e-7, EXPLAINED),
+        ("deflection between C and m4, rubber-roller shaft", "-50.9441 um/kN", -5.291647e-8, EXPLAINED),
+        ("deflection at m4, rubber-roller shaft", "-144.487 um/kN", -7.360128e-8, EXPLAINED),
+        ("displacement in bearing A, force at m1", "56.875 um/kN", 5.6875e-8, AGREES),
+        ("displacement in bearing B, force at m2", "78.5417 um/kN", 7.85417e-8, AGREES),
+        ("displacement in bearing C, force at m3", "41.7178 um/kN", 4.17178e-8, AGREES),
+        ("what yielding bearings add at m1", "23.5417 um/kN", 1.136693e-7, EXPLAINED),
+        ("what yielding bearings add at m2", "-300.443 um/kN", 2.463776e-7, EXPLAINED),
+        ("what yielding bearings add at m3", "41.7178 um/kN", 5.432020e-8, EXPLAINED),
+        ("what yielding bearings add at m4", "-6.79959 um/kN", 2.250822e-8, EXPLAINED),
+        ("flexibility of m2 as the sum of beam and bearings", "703.562 um/kN", 7.035621e-7, AGREES),
+        ("flexibility of m2 on bearings that yield", "156.742 um/kN", 7.035621e-7, EXPLAINED),
+        ("flexibility of m4 on bearings that yield", "-193.817 um/kN", 2.107088e-7, EXPLAINED),
+        ("stiffness of m1, m2 held, from the inverse", "5.15821 kN/mm", 5.158209e6, AGREES),
         ("rank of the flexibility with indices 31, 32; 41, 42", "2, implied by its inverse K2", 0, EXPLAINED),
     ],
 )
@@ -135,6 +152,14 @@ def test_printed_formulas(rows, name, printed, ours, verdict):
     row = rows[name]
     assert (str(row.printed), row.verdict) == (printed, verdict)
     assert row.ours == pytest.approx(ours, rel=2e-6)
+
+
+def test_corrected_equations_5_and_6():
+    """l6 (l7 + l8)/(3 EI) and l6^2 (l6 + l7 + l8)/(3 EI): the span of the bearings C and D is l7 + l8."""
+    slope, own = L6 * (L7 + L8) / (3 * EI), L6**2 * (L6 + L7 + L8) / (3 * EI)
+    assert (slope, own) == pytest.approx((5.50747e-6, 5.65208e-7), rel=2e-6)
+    assert shaft_paper.value_per_newton(RUBBER, "m3", "bearings.C.slope") == pytest.approx(slope, rel=1e-6)
+    assert own_flexibility("m3", np.inf) == pytest.approx(own, rel=1e-6)
 
 
 @pytest.mark.parametrize(("name", "factor"), [("slope at C, force at m3, in urad/N", 4.9), ("flexibility of m3, bearings rigid", 2.75)])
@@ -177,14 +202,141 @@ def test_two_constants_and_equal_signs_of_the_loads(preset, loads, bearings, end
     assert abs(macaulay(end, forces, reactions, (1.0, -1.0)) - beam[-1]) > 0.05 * np.abs(beam).max()
 
 
+# -- eqs. (7) to (21) by a second route ------------------------------------------------------------------------------------------
+
+ON_1, ON_2 = (L1, L1 + L2), (L5 + L6, L5 + L6 + SPAN)  # bearings of both shafts
+MASSES = {"m1": 0.0, "m2": L1 + L2 + L3, "m3": L5, "m4": L5 + L6 + L7}
+BEARINGS = {"m1": ON_1, "m2": ON_1, "m3": ON_2, "m4": ON_2}
+K = 3.0e7
+
+
+def reactions_of(loads, bearings):
+    """((place, force against the loads), ...) of two bearings under (place, force) loads: moments about the first."""
+    (first, second), total = bearings, sum(force for _, force in loads)
+    last = sum(force * (place - first) for place, force in loads) / (second - first)
+    return ((first, total - last), (second, last))
+
+
+def deflection(x, loads, bearings):
+    return macaulay(x, loads, reactions_of(loads, bearings), [1.0] * len(loads))
+
+
+def by_macaulay(mass, other):
+    """Flexibility (mass, other) on rigid bearings."""
+    return deflection(MASSES[mass], [(MASSES[other], 1.0)], BEARINGS[other])
+
+
+def by_bearings(mass, other):
+    """What springs K add: the sum of the products of both reactions over K."""
+    at, to = (reactions_of([(MASSES[name], 1.0)], BEARINGS[name]) for name in (mass, other))
+    return sum(one * two for (_, one), (_, two) in zip(at, to, strict=True)) / K
+
+
+@pytest.mark.parametrize(
+    ("name", "x", "masses"),
+    [
+        ("between m1 and A, pressure-roller shaft", L1 / 2, ("m1", "m2")),
+        ("between A and B, pressure-roller shaft", L1 + L2 / 2, ("m1", "m2")),
+        ("between B and m2, pressure-roller shaft", L1 + L2 + L3 / 2, ("m1", "m2")),
+        ("right end, pressure-roller shaft", 0.340, ("m1", "m2")),
+        ("at m3, rubber-roller shaft", L5, ("m3", "m4")),
+        ("between m3 and C, rubber-roller shaft", L5 + L6 / 2, ("m3", "m4")),
+        ("between C and m4, rubber-roller shaft", L5 + L6 + L7 / 2, ("m3", "m4")),
+        ("at m4, rubber-roller shaft", L5 + L6 + L7, ("m3", "m4")),
+    ],
+)
+def test_deflections_of_eqs_7_to_14_are_the_beams(rows, name, x, masses):
+    """Ours by Macaulay's bracket under both unit forces."""
+    loads = [(MASSES[mass], 1.0) for mass in masses]
+    assert rows[f"deflection {name}"].ours == pytest.approx(deflection(x, loads, BEARINGS[masses[0]]), rel=2e-5)
+
+
+def test_printed_eq_10_is_the_beam_with_f2_turned_round_behind_m2(rows):
+    """Right up to m2, so both constants come from the right line; past m2 the printed sign of F2's cubic bends it up."""
+    row, loads = rows["deflection right end, pressure-roller shaft"], [(MASSES["m1"], 1.0), (MASSES["m2"], 1.0)]
+    made = macaulay(0.340, loads, reactions_of(loads, ON_1), (1.0, -1.0))
+    assert row.printed.low <= made <= row.printed.high
+    assert row.explanation.value == pytest.approx(made, rel=2e-5)
+    assert row.ours / made == pytest.approx(1.198, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("number", "name", "x"),
+    [(11, "at m3", 0.0), (12, "between m3 and C", 0.0475), (13, "between C and m4", 0.095 + 0.053 + 0.041), (14, "at m4", 0.230)],
+)
+def test_printed_eqs_11_to_14_are_those_of_an_older_shaft(rows, number, name, x):
+    """m3 at 0, C at 95, D at 148 and m4 at 230 mm, m4 pulled up where m3 is pressed down."""
+    row = rows[f"deflection {name}, rubber-roller shaft"]
+    assert row.where == f"eq. ({number})"
+    made = deflection(x, [(0.0, 1.0), (0.230, -1.0)], (0.095, 0.148))
+    assert row.printed.low - 1e-15 <= made <= row.printed.high + 1e-15
+    assert row.explanation.value == pytest.approx(made, rel=2e-5)
+
+
+@pytest.mark.parametrize(("bearing", "mass"), [("A", "m1"), ("B", "m2"), ("C", "m3")])
+def test_displacement_in_the_bearing_beside_a_load(rows, bearing, mass):
+    """Eq. (15): reaction over stiffness, by moments about the other bearing."""
+    row = rows[f"displacement in bearing {bearing}, force at {mass}"]
+    own = dict(zip("ABCD", (*reactions_of([(MASSES[mass], 1.0)], BEARINGS[mass]),) * 2, strict=True))[bearing][1]
+    assert row.ours == pytest.approx(abs(own) / K, rel=1e-6) and row.where == "eq. (15)"
+
+
+@pytest.mark.parametrize("mass", ["m1", "m2", "m3", "m4"])
+def test_what_yielding_bearings_add_is_the_sum_of_squares_of_their_reactions(rows, mass):
+    """Of which eqs. (16) and (17) give another, at m2 and m4 of the wrong sign."""
+    row = rows[f"what yielding bearings add at {mass}"]
+    assert row.ours == pytest.approx(by_bearings(mass, mass), rel=1e-5)
+    assert row.explanation.value == pytest.approx(literal_bearing_flexibility(mass), rel=1e-12)
+    assert (row.explanation.value < 0) == (mass in ("m2", "m4"))
+
+
+def test_flexibilities_are_beam_and_bearings_together(rows):
+    """Eqs. (18) to (20)."""
+    for mass, names in (("m2", ("as the sum of beam and bearings", "on bearings that yield")), ("m4", ("on bearings that yield",))):
+        whole = by_macaulay(mass, mass) + by_bearings(mass, mass)
+        assert [rows[f"flexibility of {mass} {name}"].ours for name in names] == pytest.approx([whole] * len(names), rel=1e-5)
+
+
+def test_printed_eqs_19_and_20_by_hand(rows):
+    """(19): rigid beam, and eq. (16) at m2.  (20): the older shaft's m4 pulled up, and eq. (17) at m4."""
+    rigid, literal = by_macaulay("m2", "m2"), literal_bearing_flexibility("m2")
+    old = -deflection(0.230, [(0.230, 1.0)], (0.095, 0.148))
+    for name, value in (("m2", rigid + literal), ("m4", old + literal_bearing_flexibility("m4"))):
+        row = rows[f"flexibility of {name} on bearings that yield"]
+        assert row.printed.low - 1e-15 <= value <= row.printed.high + 1e-15
+        assert row.explanation.value == pytest.approx(value, rel=1e-5)
+
+
+def test_stiffness_is_the_inverse_of_the_flexibility(rows):
+    """Eq. (21), K1, of beam and bearings by hand."""
+    names = ("m1", "m2")
+    made = np.array([[by_macaulay(one, two) + by_bearings(one, two) for two in names] for one in names])
+    assert rows["stiffness of m1, m2 held, from the inverse"].ours == pytest.approx(np.linalg.inv(made)[0, 0], rel=2e-5)
+    assert flexibility("pressure-roller") == pytest.approx(made, rel=2e-5)
+
+
 @pytest.mark.parametrize(
     ("mass", "flexibility", "percent"), [("m1", "37.16", "-59"), ("m2", "263.2", "-42"), ("m3", "113.6", "-80"), ("m4", "30.56", "-84")]
 )
 def test_fixed_supports(rows, mass, flexibility, percent):
-    assert 1e9 * rows[f"flexibility of {mass}, bearings clamped"].ours == near(flexibility)
+    preset, _, place = shaft_paper.LAYOUT[mass]
+    assert 1e9 * shaft_paper.clamped_flexibility(preset)[place, place] == near(flexibility)
     row = rows[f"flexibility of {mass}, clamped over simply supported"]
     assert 100 * (row.ours - 1) == near(percent)
     assert row.verdict == OPEN and "cannot be told" in row.commentary
+
+
+@pytest.mark.parametrize(("mass", "length"), [("m1", L1), ("m2", L3), ("m3", L6)])
+def test_beyond_a_fixed_support_a_mass_hangs_on_a_cantilever(mass, length):
+    """l^3/(3 EI), from the support to the mass."""
+    preset, _, place = shaft_paper.LAYOUT[mass]
+    assert shaft_paper.clamped_flexibility(preset)[place, place] == pytest.approx(length**3 / (3 * EI), rel=1e-6)
+
+
+def test_between_fixed_supports_a_mass_hangs_on_a_beam_built_in_at_both_ends():
+    """a^3 b^3/(3 EI L^3) for m4 between C and D."""
+    made = (L7 * (SPAN - L7) / SPAN) ** 3 / (3 * EI)
+    assert shaft_paper.clamped_flexibility(RUBBER)[1, 1] == pytest.approx(made, rel=1e-6)
 
 
 @pytest.mark.parametrize("preset", ["pressure-roller", RUBBER])
