@@ -6,7 +6,23 @@ import pytest
 
 from drivewright import plugins, validation
 from drivewright.errors import InputError, UnitError, UnknownName
-from drivewright.validation import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
+from drivewright.validation import (
+    AGREES,
+    BASES,
+    CALIBRATED,
+    COMPUTED,
+    EXPLAINED,
+    NOT_COMPARED,
+    OPEN,
+    PRINT_ONLY,
+    VERDICTS,
+    Explanation,
+    Printed,
+    Row,
+    Source,
+    best_verdicts,
+    rounded,
+)
 
 pytestmark = pytest.mark.analytical
 
@@ -26,12 +42,22 @@ def row(ours, printed="50.22 deg", unit="rad", **more):
         ("-23.15", "-", -23.155, -23.145),
         ("60.0", "-", 59.95, 60.05),
         ("+3 kN", "N", 2500, 3500),
+        ("4.560e11 min", "s", 4.5595e11 * 60, 4.5605e11 * 60),
+        ("-1.5e-3 m", "m", -1.55e-3, -1.45e-3),
+        ("3e2", "-", 250, 350),
+        ("0.340e4", "-", 3395, 3405),
+        ("2.0e+3", "-", 1950, 2050),
     ],
 )
 def test_a_printed_number_is_all_that_rounds_to_it(text, unit, low, high):
     printed = rounded(text, unit)
     assert (printed.low, printed.high) == pytest.approx((low, high), rel=1e-12)
     assert str(printed) == text
+
+
+def test_a_text_that_does_not_begin_with_a_number_is_refused():
+    with pytest.raises(InputError, match=r"the printed value 'about 3 N' does not begin with a number; write e\.g\."):
+        rounded("about 3 N", "N")
 
 
 def test_a_printed_number_in_the_wrong_unit_is_refused():
@@ -47,8 +73,127 @@ def test_verdict_without_an_explanation(degrees, verdict):
 def test_an_explanation_must_give_the_printed_number():
     assert row(48.0 * DEGREE, explanation=Explanation("another reading", 50.22 * DEGREE)).verdict == EXPLAINED
     assert row(48.0 * DEGREE, explanation=Explanation("another reading", 50.3 * DEGREE)).verdict == OPEN
-    assert row(48.0 * DEGREE, explanation=Explanation("a misprint")).verdict == EXPLAINED
+    assert row(48.0 * DEGREE, explanation=Explanation("another reading", math.nan)).verdict == OPEN
     assert row(50.22 * DEGREE, explanation=Explanation("another reading", 0.0)).verdict == AGREES
+
+
+def test_a_text_alone_is_no_explanation():
+    with pytest.raises(TypeError, match="missing 1 required positional argument: 'value'"):
+        Explanation("a misprint")
+
+
+def test_an_explanation_cannot_lean_on_the_interval_of_our_number():
+    """Ours is far off and certain to 0.1 deg; the other reading has no interval to hide in."""
+    spread = {"low": 47.95 * DEGREE, "high": 48.05 * DEGREE}
+    assert row(48.0 * DEGREE, explanation=Explanation("another reading", 50.2 * DEGREE), **spread).verdict == OPEN
+    assert row(48.0 * DEGREE, explanation=Explanation("another reading", 50.22 * DEGREE), **spread).verdict == EXPLAINED
+
+
+# -- what a number rests on ------------------------------------------------------------------------------------------------------
+
+
+def test_bases_and_verdicts():
+    assert BASES == (COMPUTED, CALIBRATED, PRINT_ONLY) == ("computed", "calibrated", "print-only")
+    assert VERDICTS == (AGREES, EXPLAINED, OPEN, NOT_COMPARED) == ("agrees", "differs, explained", "differs, open", "not compared")
+
+
+@pytest.mark.parametrize("degrees", [50.22, 48.0])
+@pytest.mark.parametrize("basis", [CALIBRATED, PRINT_ONLY])
+def test_only_a_computed_number_is_compared(basis, degrees):
+    """Not even an explanation or an interval make evidence of it."""
+    made = row(degrees * DEGREE, basis=basis, explanation=Explanation("another reading", 50.22 * DEGREE), low=0.0, high=3.0)
+    assert (made.verdict, made.deviation_text()) == (NOT_COMPARED, "")
+    assert "no evidence" in made.commentary and made.commentary.endswith("another reading")
+    assert row(50.22 * DEGREE, basis=COMPUTED).verdict == AGREES
+
+
+def test_nothing_beside_the_print_is_not_compared():
+    nothing = row(None, basis=PRINT_ONLY, note="A mesh of others.")
+    assert (nothing.verdict, nothing.deviation, nothing.deviation_text()) == (NOT_COMPARED, None, "")
+    assert (row(None).verdict, row(None).deviation_text()) == (NOT_COMPARED, "")
+    page = validation.page([Source("mine", "A book", lambda: [nothing])])
+    assert "| quantity | table 1 | published table | 50.22 deg |  |  | not compared [1] |" in page
+    assert "- [1] From the print alone: no evidence. A mesh of others." in page
+
+
+# -- intervals -------------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("ours", "low", "high", "verdict"),
+    [
+        (51.0, 50.0, 52.0, AGREES),  # the printed number lies inside
+        (51.0, 50.2149, 52.0, AGREES),  # all that rounds to it
+        (51.0, 50.22, 52.0, OPEN),  # only a part of what the print means
+        (51.0, 50.5, 51.5, OPEN),
+        (50.22, 50.219, 50.221, AGREES),  # narrower than the print's rounding
+        (50.0, 49.0, 50.2249, OPEN),
+    ],
+)
+def test_a_printed_number_agrees_where_it_lies_in_the_interval(ours, low, high, verdict):
+    assert row(ours * DEGREE, low=low * DEGREE, high=high * DEGREE).verdict == verdict
+
+
+@pytest.mark.parametrize(
+    ("limit", "ours", "low", "high", "verdict"),
+    [
+        (Printed("below 1", -math.inf, 1.0), 0.8, 0.6, 0.99, AGREES),
+        (Printed("below 1", -math.inf, 1.0), 0.8, 0.6, 1.01, OPEN),  # the number keeps it, its interval does not
+        (Printed("above 1", 1.0, math.inf), 1.2, 1.01, 1.4, AGREES),
+        (Printed("above 1", 1.0, math.inf), 1.2, 0.99, 1.4, OPEN),
+        (Printed("above 1", 1.0, math.inf), 0.9, 0.5, 1.3, OPEN),
+    ],
+)
+def test_an_interval_keeps_a_printed_limit_as_a_whole(limit, ours, low, high, verdict):
+    assert Row("ratio", limit, ours, "-", AGREES, "other code", "here", low=low, high=high).verdict == verdict
+
+
+def test_half_an_interval_is_none():
+    assert row(51.0 * DEGREE, low=50.0 * DEGREE).verdict == OPEN
+    assert row(51.0 * DEGREE, high=52.0 * DEGREE).verdict == OPEN
+
+
+# -- readings and records --------------------------------------------------------------------------------------------------------
+
+
+def named(name, degrees, reading_of="", **more):
+    return Row(name, rounded("50.22 deg", "rad"), degrees * DEGREE, "rad", AGREES, "experiment", "here", reading_of=reading_of, **more)
+
+
+def test_the_best_verdict_among_the_readings_of_a_printed_number():
+    other = Explanation("another reading", 50.22 * DEGREE)
+    readings = [
+        named("one", 48.0, "angle"),
+        named("two", 48.0, "angle", explanation=other),
+        named("three", 50.22, "angle", basis=CALIBRATED),
+    ]
+    assert best_verdicts(readings) == {"angle": EXPLAINED}
+    assert best_verdicts(readings[::-1]) == {"angle": EXPLAINED}
+    assert best_verdicts([*readings, named("angle", 50.22)]) == {"angle": AGREES}, "a row without reading_of is its own number"
+    assert best_verdicts([readings[2], named("height", 48.0)]) == {"angle": NOT_COMPARED, "height": OPEN}
+    assert best_verdicts([]) == {}
+
+
+def test_a_record_has_the_keys_of_rows_json_and_no_others():
+    made = row(48.0 * DEGREE, low=47.0 * DEGREE, high=49.0 * DEGREE)
+    assert made.record("mine") == {
+        "source": "mine",
+        "where": "table 1",
+        "quantity": "quantity",
+        "printed": "50.22 deg",
+        "ours": 48.0 * DEGREE,
+        "low": 47.0 * DEGREE,
+        "high": 49.0 * DEGREE,
+        "unit": "rad",
+        "basis": "computed",
+        "verdict": "differs, open",
+    }
+
+
+def test_a_record_of_an_exact_number_has_itself_for_both_ends_and_of_none_none():
+    exact, nothing = row(48.0 * DEGREE).record("mine"), row(None, basis=PRINT_ONLY).record("mine")
+    assert exact["low"] == exact["ours"] == exact["high"] == 48.0 * DEGREE
+    assert (nothing["ours"], nothing["low"], nothing["high"], nothing["verdict"]) == (None, None, None, NOT_COMPARED)
 
 
 def test_a_note_explains_nothing():

@@ -149,7 +149,7 @@ def _curvature(turned: Result[Any]) -> Iterator[Row]:
     radius, other = (result["cam.return.min_convex_radius"] for result in (turned, parabolic))
     unchecked = Explanation(
         "The paper does not check curvature: the roller of 6 mm is larger than the sharpest convex radius of the pitch curve, "
-        f"{1e3 * radius:.2f} mm, and undercuts the cam. Of the laws without a jump of velocity only the parabolic one just fits.",
+        f"{1e3 * radius:.2f} mm, and undercuts the cam. Of the laws without a jump of velocity only the parabolic one spares both cams.",
         other / roller,
     )
     implied = Printed(">= 1, implied", 1.0, float("inf"))
