@@ -50,6 +50,20 @@ def status(*headers, **more):
     return first.get("status", first["type"])
 
 
+def grows_less(work, part, whole, times):
+    """Whether the whole takes less than so many times the part's time: the least of several, on any machine."""
+
+    def least(value, count):
+        seconds = []
+        for _ in range(count):
+            since = time.perf_counter()
+            work(value)
+            seconds.append(time.perf_counter() - since)
+        return min(seconds)
+
+    return least(whole, 3) < times * least(part, 10)
+
+
 # -- hosts and origins ---------------------------------------------------------------------------------------------------------
 
 
@@ -159,9 +173,12 @@ def test_a_proxy_of_this_machine_may_say_who_asks_and_how_and_nobody_else():
     assert scope["client"][0] == "192.0.2.7" and scope["scheme"] == "https"
     scope = _passed_on(*told, client=("192.0.2.9", 5))
     assert scope["client"][0] == "192.0.2.9" and scope["scheme"] == "http"
-    since = time.perf_counter()
-    _passed_on((b"x-forwarded-for", b"1," * 30_000), client=("127.0.0.1", 5))  # five seconds where each one is parsed
-    assert time.perf_counter() - since < 0.5
+
+
+def test_a_long_list_of_proxies_is_not_parsed_one_by_one():
+    """Five seconds for 30,000 where each one is parsed from the left."""
+    fifth, whole = (b"1," * count for count in (6_000, 30_000))
+    assert grows_less(lambda value: _passed_on((b"x-forwarded-for", value), client=("127.0.0.1", 5)), fifth, whole, 15)
 
 
 def test_frameworks_see_no_cookies():
@@ -216,17 +233,16 @@ def test_a_token_opens_once_by_address_and_then_by_cookie():
 
 
 @pytest.mark.parametrize(
-    "value", ['a="' + "\\" * 64_000, f"{COOKIE}=" + '"\\"' * 16_000, "a=1;" * 16_000, ";" * 64_000, "= " * 32_000, f"{COOKIE}=x;" * 3_000]
+    ("begin", "part"), [('a="', "\\"), (f"{COOKIE}=", '"\\"'), ("", "a=1;"), ("", ";"), ("", "= "), ("", f"{COOKIE}=x;")]
 )
-def test_no_cookie_keeps_the_loop(value):
-    """Python's SimpleCookie takes ten seconds for the first of these."""
+def test_no_cookie_keeps_the_loop(begin, part):
+    """Python's SimpleCookie takes ten seconds for the first of these: a hundred times as long for ten times the text."""
 
-    def seconds():
-        since = time.perf_counter()
+    def refuse(value):
         assert status(OTHER, (b"cookie", f'{value}"'.encode()), token=TOKEN) == 401
-        return time.perf_counter() - since
 
-    assert min(seconds() for _ in range(5)) < 0.05
+    tenth, whole = (begin + part * (length // len(part)) for length in (6_400, 64_000))
+    assert grows_less(refuse, tenth, whole, 40)
 
 
 def test_the_cookie_stays_with_the_browser_and_goes_over_tls_only_where_there_is_tls():
@@ -360,7 +376,7 @@ def test_a_body_that_does_not_arrive_is_waited_for_a_while_only(monkeypatch):
 
 
 def heard(*texts, **more):
-    """(messages that reach the application, seconds) of a websocket that sends texts at once."""
+    """Messages that reach the application from a websocket that sends texts at once."""
     waiting, got = [*texts], []
 
     async def receive():
@@ -376,32 +392,32 @@ def heard(*texts, **more):
             if message["type"] == "websocket.disconnect":
                 return
 
-    since = time.monotonic()
     loops.run(AccessControl(inner)({"type": "websocket", "path": "/_nicegui_ws/socket.io/", "headers": [OWN]}, receive, None))
-    return got, time.monotonic() - since
+    return got
 
 
 @pytest.mark.parametrize("text", [b"4", b"", "451-[]", '461-["x"]', "b4AAAA"])
 def test_a_websocket_sends_no_binary_data(text):
-    assert heard("2", text, "3")[0] == ["2", "websocket.disconnect"]
+    assert heard("2", text, "3") == ["2", "websocket.disconnect"]
 
 
 def test_a_long_message_is_one_long_text():
     text = '42["event",{"args":["' + 'a = 1, [b], \\"c\\", ' * 50_000 + '"]}]'
-    assert heard(text)[0] == [text, "websocket.disconnect"]
+    assert heard(text) == [text, "websocket.disconnect"]
     for many in ('42["event",[' + "[]," * 300_000 + "0]]", '42["event",[' + '"",' * 300_000 + "0]]", '42["event","' + "x" * 100_000):
-        assert heard(many)[0] == ["websocket.disconnect"]
+        assert heard(many) == ["websocket.disconnect"]
 
 
 @pytest.mark.parametrize("begin", ['42["event",', '42["event",1'])
 @pytest.mark.parametrize("part", ['""', '"",', '\\"', '"\\', '\\\\"', '"\n', '"\\\n', "[", "\\u0022"])
 def test_a_long_message_is_looked_at_in_no_time(begin, part):
-    """Texts in JSON that never end were once looked for from each of their quotation marks on."""
-    text = begin + part * (2_000_000 // len(part))
-    assert min(heard(text)[1] for _ in range(5)) < 0.05
+    """Texts in JSON that never end were once looked for from each of their quotation marks on: a hundred times for ten times the text."""
+    tenth, whole = (begin + part * (length // len(part)) for length in (200_000, 2_000_000))
+    assert grows_less(heard, tenth, whole, 40)
 
 
 def test_a_flood_of_messages_waits_in_its_own_connection():
     texts = ["2"] * (FRAMES * 2 + 10)
-    got, seconds = heard(*texts)
-    assert len(got) == len(texts) + 1 and 1.5 < seconds < 10
+    since = time.monotonic()
+    got = heard(*texts)
+    assert len(got) == len(texts) + 1 and time.monotonic() - since > 1.5
