@@ -22,8 +22,8 @@ PINNED = {
     "yoke_cam": {"min_convex_radius": 0.042, "min_half_face": 0.01613085562113285},
     "seedling_pusher": {
         "tip.track_height": 0.18232325075379263,
-        "cam.max_pressure_angle": 0.5415328447258717,
-        "contact.peak_force": 602.777,
+        "cam.max_pressure_angle": 0.7693077366704577,
+        "contact.peak_force": 671.705,
     },
     "four_bar": {"rocker.max_angular_acceleration": 799.6856085336536, "drive.max_torque": 0.675338618892054},
     "jansen_leg": {"foot.max_acceleration": 9.374857905206746, "drive.max_torque": 0.03531556050871491},

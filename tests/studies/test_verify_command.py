@@ -72,4 +72,4 @@ def test_verify_without_its_extra_exits_with_2(capsys, monkeypatch):
     monkeypatch.delattr("drivewright.oracles.seedling_pusher.exudyn_model", raising=False)
     code, out, err = run(capsys, "verify", PRESET)
     assert (code, out) == (2, "")
-    assert "drivewright: verify, which runs the cam pair in Exudyn, needs the extra 'peers'" in err and "Traceback" not in err
+    assert "drivewright: the multibody run of the cam pair in Exudyn needs the extra 'peers'" in err and "Traceback" not in err

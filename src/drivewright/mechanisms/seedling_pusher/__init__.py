@@ -47,7 +47,7 @@ PLOTS = (
     Plot("hertz", "Hertz pressure, quasi-static", "load", "carrier_angle", ("main.pressure", "return.pressure")),
     Plot("contact_force", "Contact force, dynamic, last turn", "contact", "carrier_angle", ("main.force", "return.force")),
     Plot("rod_error", "Rod error, last turn", "contact", "carrier_angle", ("rod_error",)),
-    Plot("play_force", "Largest normal force over the play of the rollers", "play", "clearance", ("peak_force",)),
+    Plot("play_force", "Largest normal force over play", "play", "clearance", ("peak_force",)),
     Plot("track", "Needle tip, machine frame", "cycle", "tip_x", ("tip_y",), equal=True),
     Plot("axis_track", "Planet axis, machine frame", "cycle", "axis_x", ("axis_y",), equal=True),
     Plot("rod_track", "End of the pusher rod, machine frame", "cycle", "rod_end_x", ("rod_end_y",), equal=True),
