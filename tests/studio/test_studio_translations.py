@@ -26,7 +26,7 @@ EXAMPLES = SOURCE.parents[1] / "examples"
 KINDS = [kind for kind in registry.kinds() if (registry.mechanism(kind).folder / "zh.toml").is_file()]
 CHINESE = re.compile(r"[\u4e00-\u9fff]")
 SAME = {"* · *", "*（*）", "*／*", "LuGre", "Ambrósio", "Kelvin-Voigt"}  # texts that are the same in both languages
-LATIN = {"mm", "kN", "Hz", "von", "Mises", "Hy", "Vo", "max", "ds", "cos"}  # units and names inside Chinese texts
+LATIN = {"mm", "kN", "Hz", "arcmin", "von", "Mises", "Hy", "Vo", "max", "ds", "cos"}  # units and names inside Chinese texts
 OURS = {"cam", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"}
 
 
