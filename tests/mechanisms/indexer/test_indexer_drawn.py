@@ -7,7 +7,7 @@ import drivewright as dw
 from drivewright import registry
 from drivewright.curves.touching import touches
 from drivewright.indexing.drawing import cam_poses
-from drivewright.mechanisms.indexer.scene import parts, plates, scene
+from drivewright.mechanisms.indexer.scene import drawings, parts, plates, scene
 from drivewright.runner import build
 
 pytestmark = pytest.mark.property
@@ -86,3 +86,75 @@ def test_pins_reach_from_the_disc_through_the_last_cam():
         assert top <= low + 1e-15 and len(pins) == model.drive.pins * len(model.drive.levels)
         assert all(pin.z <= top + 1e-15 for pin in pins)
         assert max(pin.z + pin.thickness for pin in pins) >= high - 1e-15
+
+
+# -- the gear of input and split shafts --------------------------------------------------------------------------------------------
+
+
+def gear_drawing(*changes, preset="default"):
+    found = [drawing for drawing in drawings(model_of(*changes, preset=preset)) if drawing.name == "gear"]
+    return found[0] if found else None
+
+
+def radius_over_turn(outline):
+    """(polar angle, radius) of a dense polygon along a closed outline, by angle."""
+    points = outline.points(1e-7)
+    at = points[:, 0] + 1j * points[:, 1]
+    order = np.argsort(np.angle(at))
+    return np.angle(at)[order], np.abs(at)[order]
+
+
+@pytest.mark.parametrize(
+    ("changes", "module", "teeth", "pressure_angle"),
+    [((), 2.5e-3, 22, 20.0), (("gear.teeth=31", 'gear.module="2 mm"', 'gear.pressure_angle="14.5 deg"'), 2e-3, 31, 14.5)],
+)
+def test_the_gear_has_its_teeth_and_tip_diameter(changes, module, teeth, pressure_angle):
+    """z teeth, tips at m (z + 2)/2, roots at m (z - 2.5)/2, and half a pitch of tooth on the pitch circle."""
+    drawing = gear_drawing(*changes)
+    angle, radius = radius_over_turn(drawing.on("profile")[0])
+    assert 2 * radius.max() == pytest.approx(module * (teeth + 2), rel=1e-6)
+    assert 2 * radius.min() == pytest.approx(module * (teeth - 2.5), rel=1e-4)
+    pitch = 0.5 * module * teeth
+    outside = radius > pitch
+    assert np.count_nonzero(outside & ~np.roll(outside, 1)) == teeth
+    crossings = np.flatnonzero(outside[1:] != outside[:-1])
+    share = (pitch - radius[crossings]) / (radius[crossings + 1] - radius[crossings])
+    places = angle[crossings] + share * (angle[crossings + 1] - angle[crossings])
+    assert np.diff(places)[::2].mean() == pytest.approx(np.pi / teeth, rel=2e-3)
+    base = pitch * np.cos(np.radians(pressure_angle))
+    normal = involute_normal(drawing.on("profile")[0], pitch)
+    assert normal == pytest.approx(base, rel=2e-3), "normals of the flanks touch the base circle"
+    assert f"{teeth} teeth, module {1e3 * module:g} mm" in drawing.title and not drawing.milled
+
+
+def involute_normal(outline, pitch):
+    """Mean distance from the axis of the normals of the outline near the pitch circle."""
+    points = outline.points(1e-8)
+    at = points[:, 0] + 1j * points[:, 1]
+    middle, along = 0.5 * (at[1:] + at[:-1]), np.diff(at)
+    near = np.abs(np.abs(middle) - pitch) < 0.01 * pitch
+    return float(np.mean(np.abs((middle * np.conj(along / np.abs(along))).real[near])))
+
+
+def test_the_gear_sits_on_the_first_diameter_of_its_shaft():
+    centre, radius = centre_and_radius(gear_drawing().on("hole")[0])
+    assert (centre, radius) == (0, pytest.approx(0.010, rel=1e-12))
+
+
+def test_a_pinion_as_slim_as_its_shaft_has_no_bore_and_stops_no_drawing():
+    names = [drawing.name for drawing in drawings(model_of("gear.teeth=9"))]
+    assert names == [drawing.name for drawing in drawings(model_of())] and not gear_drawing("gear.teeth=9").on("hole")
+
+
+@pytest.mark.parametrize("change", [("gear.teeth=4",), ('gear.pressure_angle="40 deg"',), ("gear.teeth=301", 'gear.module="0.1 mm"')])
+def test_a_gear_that_no_standard_rack_cuts_stops_no_drawing_of_the_cams(change):
+    assert [drawing.name for drawing in drawings(model_of(*change))] == ["cam"]
+
+
+@pytest.mark.parametrize("preset", ["cycloid", "parallel", "globoidal", "barrel"])
+def test_without_a_table_of_the_gear_none_is_drawn(preset):
+    assert gear_drawing(preset=preset) is None
+
+
+def test_a_drive_with_a_gear_still_draws_its_cams():
+    assert [drawing.name for drawing in drawings(model_of())] == ["cam", "gear"]

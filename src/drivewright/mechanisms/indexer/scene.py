@@ -2,6 +2,9 @@
 
 from dataclasses import replace
 
+import numpy as np
+
+from drivewright.errors import InputError, SolverError
 from drivewright.gears import EllipticGearPair, Rack, cut_gear
 from drivewright.indexing import roller_gear
 from drivewright.indexing.motion import TURN
@@ -9,6 +12,7 @@ from drivewright.indexing.plate_views import CamHoles, PlateDrive, plate_drawing
 from drivewright.mechanisms.indexer.build import IndexerModel
 from drivewright.scene import Drawing, Part, Scene
 
+MOST_TEETH = 300  # of a gear that is drawn: cutting them takes seconds
 SHOWN_PERIOD = 4.0  # s a turn of the input takes on screen where no speed is given
 
 
@@ -34,13 +38,20 @@ def drawings(model: IndexerModel) -> tuple[Drawing, ...]:
 
 
 def input_gear(model: IndexerModel) -> tuple[Drawing, ...]:
-    """The gear that input and split shafts have alike, with involute teeth cut by a standard rack; none without a [gear] table."""
+    """The gear that input and split shafts have alike, with involute teeth cut by a standard rack; none without a [gear] table.
+
+    Nor one with teeth that such a rack does not cut, or with more than `MOST_TEETH`: the cams are drawn all the same.
+    """
     given, shafts = model.spec.gear, model.spec.shafts
-    if given is None or not model.flat:
+    if given is None or not model.flat or given.teeth > MOST_TEETH:
         return ()
-    pair = EllipticGearPair(0.0, given.module * given.teeth / 2)
-    gear = cut_gear(pair, 1, given.teeth, Rack(pressure_angle=given.pressure_angle))
-    drawn = gear.drawing("gear", shafts.diameters[0] if shafts else 0.0)
+    try:
+        pair = EllipticGearPair(0.0, given.module * given.teeth / 2)
+        gear = cut_gear(pair, 1, given.teeth, Rack(pressure_angle=given.pressure_angle))
+    except (InputError, SolverError):
+        return ()
+    seat, root = shafts.diameters[0] if shafts else 0.0, 2 * np.min(np.abs(gear.profile.chain.z))
+    drawn = gear.drawing("gear", seat if seat < root else 0.0)  # a pinion as slim as its shaft is one piece with it
     title = f"gear of input and split shafts, {drawn.title}"
     return (replace(drawn, title=title, milled=False),)  # an end mill does not fit into the tooth spaces
 
