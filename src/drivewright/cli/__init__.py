@@ -47,9 +47,9 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
         from drivewright.cli.app import app, usage_errors
 
         if COMPLETION in os.environ:
-            from typer.completion import completion_init
+            from typer.completion import get_completion_inspect_parameters
 
-            completion_init()
+            get_completion_inspect_parameters()
         try:
             code = app(args=arguments, prog_name="drivewright", standalone_mode=False) or 0
         except usage_errors as error:

@@ -58,6 +58,15 @@ class Grid(NamedTuple):
     rows: tuple[tuple[str, tuple[str, ...]], ...]
 
 
+class Listing(NamedTuple):
+    """A table of ours where the paper has a figure: `make(folder)` gives (heads, rows) of texts, the first column names the row."""
+
+    name: str
+    title: str
+    make: Callable[[Path], tuple[tuple[str, ...], list[list[str]]]]
+    caption: str
+
+
 class Section(NamedTuple):
     """A section of the paper.  `claims` are what it says, in our words; `places` are the places of the numbers that belong here.
 
@@ -71,6 +80,7 @@ class Section(NamedTuple):
     figures: tuple[Figure, ...] = ()
     grids: tuple[Grid, ...] = ()
     missing: tuple[str, ...] = ()
+    listings: tuple[Listing, ...] = ()
 
 
 class Input(NamedTuple):
@@ -120,6 +130,11 @@ class Paper:
         """Every figure, in the paper's order."""
         return tuple(figure for section in self.sections for figure in section.figures)
 
+    @property
+    def listings(self) -> tuple[Listing, ...]:
+        """Every table of ours, in the paper's order."""
+        return tuple(listing for section in self.sections for listing in section.listings)
+
     def section_of(self, where: str) -> str:
         """Title of the section to which a place in the paper belongs, "" where none names it."""
         return next((section.title for section in self.sections if where in section.places), "")
@@ -131,22 +146,24 @@ def read_paper(
     long_rows: tuple[LongRows, ...] = (),
     studies: tuple[PaperStudy, ...] = (),
     grids: Mapping[str, tuple[Grid, ...]] = {},
+    listings: Mapping[str, tuple[Listing, ...]] = {},
 ) -> Paper:
-    """The paper of a source: its text from `texts`, `draw` the function of each figure by its number, `grids` by the title of a section.
+    """The paper of a source: its text from `texts`, `draw` the function of each figure by its number, `grids` and `listings` by the title
+    of a section.
 
     ValueError where the text and the functions do not name the same figures or sections.
     """
     text = tomllib.loads((TEXTS / f"{source.name.replace('-', '_')}.toml").read_text(encoding="utf-8"))
     inputs = tuple(Input(**each) for each in text["inputs"])
-    sections = tuple(_section(each, draw, grids.get(each["title"], ())) for each in text["sections"])
+    sections = tuple(_section(each, draw, grids.get(each["title"], ()), listings.get(each["title"], ())) for each in text["sections"])
     paper = Paper(source, text["title"], text["summary"], inputs, sections, long_rows, studies)
-    wrong = {*draw} ^ {figure.number for figure in paper.figures} | {*grids} - {section.title for section in sections}
+    wrong = {*draw} ^ {figure.number for figure in paper.figures} | {*grids, *listings} - {section.title for section in sections}
     if wrong:
         raise ValueError(f"{source.name}: text and figures disagree about {sorted(wrong)}")
     return paper
 
 
-def _section(text: Mapping[str, Any], draw: Mapping[str, Draw], grids: tuple[Grid, ...]) -> Section:
+def _section(text: Mapping[str, Any], draw: Mapping[str, Draw], grids: tuple[Grid, ...], listings: tuple[Listing, ...]) -> Section:
     equations = tuple(
         Equation(each["number"], tuple(each["printed"]), each["verdict"], each.get("remark", ""), tuple(each.get("right", ())))
         for each in text.get("equations", ())
@@ -156,4 +173,4 @@ def _section(text: Mapping[str, Any], draw: Mapping[str, Draw], grids: tuple[Gri
         for each in text.get("figures", ())
     )
     claims, places, missing = (tuple(text.get(key, ())) for key in ("claims", "places", "missing"))
-    return Section(text["title"], claims, places, equations, figures, grids, missing)
+    return Section(text["title"], claims, places, equations, figures, grids, missing, listings)

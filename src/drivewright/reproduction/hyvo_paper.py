@@ -10,6 +10,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.chains import meshing
 from drivewright.chains.stress import rolling
+from drivewright.report.comparison import compare
 from drivewright.reproduction.document import Draw, LongRows, PaperStudy, read_paper
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import drawing_of, scene_figure
@@ -100,6 +101,14 @@ def time_history(name: str, radius: float | None = None) -> tuple[Floats, Floats
     groups = (*running.OUTLINE, *running.MASSES, f'joint.rolling_radius="{radius} mm"') if radius else ()
     table = run(running.preset(name, *groups, *running.RUN, "dynamics.ensemble=1"), ("dynamics",)).tables["running"]
     return table["time"].data, table["centre_distance"].data * MM
+
+
+def rigid_groups() -> "Drawn":
+    """Fig. 10 without dynamics: the eight groups over a tooth, plates rigid."""
+    groups = [run(running.preset("default", *running.OUTLINE, f'joint.rolling_radius="{radius} mm"'), ("closure",)) for radius in NEW_RADII]
+    control = run(running.preset("classical"), ("closure",))
+    labels = [*(f"group {number}" for number in range(1, 8)), "control"]
+    return compare([*groups, control], labels).plot("centre_distance")
 
 
 def fluctuations_in_time() -> "Drawn":
@@ -220,6 +229,7 @@ FIGURES: dict[str, Draw] = {
     "Fig. 4": still(meshing_scene),
     "Fig. 7": still(offsets),
     "Fig. 8": still(deviations),
+    "Fig. 10, rigid": still(rigid_groups),
     "Fig. 10": still(fluctuations_in_time),
     "Fig. 11": fluctuation_over_radius,
     "Figs. 12, 13": means_over_radius,

@@ -139,6 +139,11 @@ def _section(section: Section, computed: Computed, remarks: list[str]) -> Conten
         "rows": [row_content(row, remarks) for row in rows.values() if row.name not in in_grids],
         "figures": [_figure(figure, computed) for figure in section.figures],
         "missing": list(section.missing),
+        "listings": [
+            {"title": listing.title, "caption": listing.caption, **computed.listings[listing.name]}
+            for listing in section.listings
+            if listing.name in computed.listings
+        ],
     }
 
 

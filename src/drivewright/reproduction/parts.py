@@ -6,8 +6,8 @@ and a finished one is written again in a moment.
 
 import json
 import re
-from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
@@ -21,12 +21,12 @@ from drivewright.validation.source import Explanation, Printed, Row
 from drivewright.view import svg
 
 Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what is computed)
-ROWS, FIGURE, STUDY = "rows", "figure", "study"
+ROWS, FIGURE, STUDY, LISTING = "rows", "figure", "study", "table"
 QUICK = "source"  # name of the part with the rows that `validate` shows
 
 
 class Part(NamedTuple):
-    """One part: what it is (rows, figure or study), its name, and whether it needs solid models."""
+    """One part: what it is (rows, figure, table or study), its name, and whether it needs solid models."""
 
     kind: str
     name: str
@@ -46,6 +46,7 @@ class Computed:
     pictures: dict[str, Picture]
     missing: dict[str, str]  # name of a part -> reason
     left_out: frozenset[str] = frozenset()  # of those, what was not wanted
+    listings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # name of a table -> {"heads", "rows"}
 
 
 def parts_of(paper: Paper) -> tuple[Part, ...]:
@@ -55,6 +56,7 @@ def parts_of(paper: Paper) -> tuple[Part, ...]:
         Part(ROWS, QUICK),
         *(Part(ROWS, each.name, each.solids) for each in paper.long_rows),
         *(Part(FIGURE, figure.number, figure.solids) for figure in paper.figures),
+        *(Part(LISTING, listing.name) for listing in paper.listings),
     )
 
 
@@ -103,7 +105,7 @@ def compute_part(paper_name: str, part: Part, folder: str, digest: str) -> str:
 
     paper, place = papers(paper_name)[0], Path(folder)
     try:
-        record = _rows(paper, part, place) if part.kind == ROWS else _figure(paper, part, place)
+        record = MAKERS[part.kind](paper, part, place)
     except DrivewrightError as error:  # such as an extra that is not installed; the rest of the page does not need it
         return str(error)
     write_part(place / "parts" / part.file, record, digest)
@@ -122,6 +124,14 @@ def _figure(paper: Paper, part: Part, folder: Path) -> dict[str, Any]:
     figure = next(each for each in paper.figures if each.number == part.name)
     drawn = figure.draw(folder)
     return {"svg": drawn.svg if isinstance(drawn, Picture) else svg(drawn)}
+
+
+def _listing(paper: Paper, part: Part, folder: Path) -> dict[str, Any]:
+    heads, rows = next(each for each in paper.listings if each.name == part.name).make(folder)
+    return {"heads": list(heads), "rows": rows}
+
+
+MAKERS = {ROWS: _rows, FIGURE: _figure, LISTING: _listing}
 
 
 def write_part(path: Path, record: dict[str, Any], digest: str) -> None:
@@ -145,17 +155,19 @@ def sources_digest() -> str:
 
 def _collected(paper: Paper, kept: Path, missing: dict[str, str]) -> Computed:
     """Everything that is there, in the paper's order."""
-    rows, pictures = [], {}
+    rows, pictures, listings = [], {}, {}
     for part in parts_of(paper):
         record = None if part.name in missing else read_part(kept / part.file)
         if record is None or part.kind == STUDY:
             continue
         if part.kind == ROWS:
             rows += [row_of(each) for each in record["rows"]]
+        elif part.kind == LISTING:
+            listings[part.name] = {"heads": record["heads"], "rows": record["rows"]}
         else:
             title = next(figure.title for figure in paper.figures if figure.number == part.name)
             pictures[part.name] = Picture(part.file.removesuffix(".json"), title, record["svg"])
-    return Computed(tuple(rows), pictures, missing)
+    return Computed(tuple(rows), pictures, missing, listings=listings)
 
 
 def row_of(record: dict[str, Any]) -> Row:

@@ -10,6 +10,7 @@ from drivewright import registry
 from drivewright.mechanisms.seedling_pusher.dynamics import simulate
 from drivewright.numerics.ensemble import mean_of_members
 from drivewright.oracles import seedling_pusher as oracle
+from drivewright.report.comparison import compare
 from drivewright.reproduction.document import Draw, read_paper
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import drawing_of, scene_figure
@@ -111,16 +112,17 @@ def pressure_angles() -> "Drawn":
     return chart_figure("Pressure angles", CARRIER, charts, height=2.8)
 
 
+DESIGNS = {"as published": "default", **{f"design {letter.upper()}": f"design-{letter}" for letter in "abcd"}}
+
+
 def repaired() -> "Drawn":
-    """Curvature of the return cam, published and improved."""
-    curves = []
-    for label, preset in (("as published", "default"), *((f"design {letter.upper()}", f"design-{letter}") for letter in "abcd")):
-        table = result(preset).tables["cams"]
-        angle, ratio = np.degrees(table["carrier_angle"].data), table["return.convex_ratio"].data
-        shown = (angle >= 50) & (angle <= 170)
-        curves.append(Curve(label, angle[shown], np.clip(ratio[shown], 0.0, 2.0)))
-    chart = Chart("Roller radius times convex curvature of the return cam", curves, [Stated("undercut above 1", y=1.0)])
-    return chart_figure("Before and after: curvature of the return cam", CARRIER, [chart], height=3.4)
+    """Curvature of both cams: the published design and those that repair it."""
+    return compare([result(preset) for preset in DESIGNS.values()], list(DESIGNS)).plot("convexity")
+
+
+def optimised() -> "Drawn":
+    """Pressure angles before and after the search."""
+    return compare([result(), result("design-d")], ["as published", "design D, found by the search"]).plot("pressure_angle")
 
 
 def static_tracks() -> "Drawn":
@@ -173,7 +175,8 @@ DRAW: dict[str, Callable[[], Any]] = {
     "Fig. 9, main cam": cam("main"),
     "Fig. 9, return cam": cam("return"),
     "Pressure angles": pressure_angles,
-    "Before and after": repaired,
+    "Designs A to D": repaired,
+    "Before and after": optimised,
     "Fig. 10a": static_tracks,
     "Fig. 10b": prototype,
     "Play": play,

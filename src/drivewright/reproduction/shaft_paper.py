@@ -8,7 +8,8 @@ import numpy as np
 
 from drivewright import registry
 from drivewright._typing import Floats
-from drivewright.reproduction.document import read_paper
+from drivewright.report.comparison import compare
+from drivewright.reproduction.document import Listing, read_paper
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure, draw_chart
 from drivewright.reproduction.views import scene_figure
 from drivewright.result import Result
@@ -18,6 +19,7 @@ from drivewright.spec import load
 from drivewright.studies.sweeps import sweep
 from drivewright.validation import shaft_paper as numbers
 from drivewright.view.style import new_figure, styled
+from drivewright.view.text import quantity
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure as Drawn
@@ -177,21 +179,30 @@ def on_bearings(preset: str, designation: str, mass: str) -> Result[Any]:
     """Result of a preset on rolling bearings of a designation under `LOAD` at a mass."""
     spec = load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION, 'analysis.theory="euler-bernoulli"'))
     bearings = [{"name": b.name, "position": f"{b.position!r} m", "bearing": designation} for b in spec.bearings]
-    return run(spec.replace(bearings=bearings, loads=[{"station": mass, "force": f"{LOAD} N"}]), ("flexibility",))
+    return run(spec.replace(bearings=bearings, loads=[{"station": mass, "force": f"{LOAD} N"}]), ("flexibility", "rolling"))
+
+
+LOADED = {"pressure-roller": "m2", "rubber-roller-r1": "m3"}  # the mass that carries `LOAD` where bearings are compared
 
 
 def bearing_types(preset: str) -> "Drawn":
-    """Figs. 17, 18: the four types of bearings under 500 N at the mass, tangent flexibility there."""
-    charts = []
-    for mass in SHAFTS[preset]:
-        x, rigid = unit_lines(preset, np.inf)
-        curves = []
-        for name, designation in BEARINGS.items():
-            table = on_bearings(preset, designation, mass).tables["unit_load"]
-            curves.append(Curve(name, table["z"].data * MM, table[mass].data * NANO))
-        curves.append(Curve("rigid, free to tilt", x, rigid[mass], "reference"))
-        charts.append(Chart(Y_LABEL, curves, title=f"500 N at {mass}", places=places_of(preset)))
-    return chart_figure(f"Four types of bearings of one size, {TITLES[preset]}", X_LABEL, charts, height=3.1)
+    """Figs. 17, 18: the four types of bearings under 500 N at one mass, tangent flexibility there; dashed: rigid, free to tilt."""
+    return compare([on_bearings(preset, each, LOADED[preset]) for each in BEARINGS.values()], list(BEARINGS)).plot("unit_load")
+
+
+def bearing_table() -> tuple[tuple[str, ...], list[list[str]]]:
+    """Flexibility of each mass under its own load, and the bearings' stiffness, for the four types and rigid supports."""
+    heads, rows = ("", *BEARINGS, "rigid, free to tilt"), []
+    for preset, masses in SHAFTS.items():
+        for mass in masses:
+            own = [on_bearings(preset, each, LOADED[preset])[f"flexibility.{mass}.{mass}"] for each in BEARINGS.values()]
+            values = [*own, numbers.own_flexibility(mass, np.inf)]
+            rows.append([f"flexibility of {mass} under its own load", *(quantity(value, "m/N", 4) for value in values)])
+    for preset, mass in LOADED.items():
+        for support in load(registry.mechanism("shaft").presets()[preset]).bearings:
+            found = [on_bearings(preset, each, mass)[f"bearings.{support.name}.stiffness.tangent"] for each in BEARINGS.values()]
+            rows.append([f"tangent stiffness of {support.name}", *(quantity(value, "N/m", 4) for value in found), "∞"])
+    return heads, rows
 
 
 def figure_of(function: Any, preset: str) -> Any:
@@ -213,4 +224,18 @@ FIGURES = {
     "Fig. 18": figure_of(bearing_types, "rubber-roller-r1"),
 }
 
-paper = read_paper(numbers.source, FIGURES)
+paper = read_paper(
+    numbers.source,
+    FIGURES,
+    listings={
+        "5.3 Influence of the bearings": (
+            Listing(
+                "four types of bearings",
+                "Four types of bearings of one size",
+                lambda folder: bearing_table(),
+                "Under 500 N at m2 and at m3; tapered and angular-contact bearings stand back to back without preload. A bearing's "
+                "stiffness is that at its own load.",
+            ),
+        )
+    },
+)
