@@ -432,6 +432,20 @@ def _lives() -> Iterator[Row]:
         ours, quantity = smooth_bar_life(stress * 1e6) * period, f"life of a smooth bar at the stress printed for the {name}"
         more: dict[str, Any] = {"pinned": OPEN, "assumed": MATERIAL_CARD, "note": note, "reading_of": f"life of the {name}"}
         yield Row(quantity, rounded(text, unit), ours, unit, **more, **common)
+    for name, text in (("group 3", "303.126221 MPa"), ("control group", "468.663269 MPa")):
+        yield Row(
+            f"greatest stress printed for the plate, {name}",
+            rounded(text, "Pa"),
+            None,
+            "Pa",
+            pinned=NOT_COMPARED,
+            basis=PRINT_ONLY,
+            kind="other code",
+            where="section 6.2",
+            inputs="F1 = 200 N, F0 = 50 N, 2000 rpm, 1 x 2, 2 mm",
+            note="Neither plate is drawn. What running chains with plates drawn by us give stands in the page of the paper.",
+            reading_of=f"greatest stress of the plate, {name}",
+        )
     ratio = rounded("13.55", "-")
     yield Row("life of the plates, new over classical", ratio, 1.64e9 / 1.21e8, "-", pinned=NOT_COMPARED, basis=PRINT_ONLY, **common)
     slopes = [

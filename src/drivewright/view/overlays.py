@@ -12,7 +12,7 @@ from drivewright.view.axis_names import common_phrase
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.markers import line_marker
 from drivewright.view.palette import SERIES
-from drivewright.view.panels import Panel, Series, drawable, find_plot, known_plots, limits_of, panel_of, panels, series_of
+from drivewright.view.panels import Panel, Series, drawable, find_plot, known_plots, limits_of, panel_of, panels, places_along, series_of
 from drivewright.view.text import display_unit
 
 MOST_PANELS = 12  # quantities of one plot that are drawn
@@ -121,7 +121,14 @@ def _panel(results, labels, curves, common):
     plot = first.plot._replace(style=style, rings=tuple(_told(_all_rings(curves, labels))))
     x = series_of(first.x) if names is None else series_of(first.x)._replace(data=names)
     column = first.line.column
-    return panel_of(plot, x, series, (_meaning(results, curves), column.unit), _limits(results, labels, curves))
+    drawn = panel_of(plot, x, series, (_meaning(results, curves), column.unit), _limits(results, labels, curves))
+    return drawn._replace(places=_shared_places(curves))
+
+
+def _shared_places(curves):
+    """What stands at the same place along x in all designs, by the same name."""
+    each = [places_along(curve.plot, curve.x.unit) for curve in curves]
+    return tuple(place for place in each[0] if all(place in other for other in each[1:]))
 
 
 def _style(plot, places):

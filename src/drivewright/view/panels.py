@@ -116,7 +116,6 @@ def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
     chunks = [group[i : i + most] for group in groups.values() for i in range(0, len(group), most)]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade]) if plot.shade else ()
-    places = tuple((place * display_unit(x.unit)[0], name) for place, name in plot.places)
     return tuple(
         panel_of(
             plot,
@@ -125,7 +124,7 @@ def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
             _label(table, plot, chunk, len(groups) == 1),
             () if n else limits_of(result, plot),
             shade,
-        )._replace(places=places)
+        )._replace(places=places_along(plot, x.unit))
         for n, chunk in enumerate(chunks)
     )
 
@@ -197,6 +196,11 @@ def limits_of(result: Result[Any], plot: Plot) -> Iterator[tuple[float, str]]:
             yield value, label
         elif (name := value.removeprefix("-")) in known:
             yield (-known[name] if value.startswith("-") else known[name]), label
+
+
+def places_along(plot: Plot, unit: str) -> tuple[tuple[float, str], ...]:
+    """(x, name) of what stands along the x axis, x in the unit people read."""
+    return tuple((place * display_unit(unit)[0], name) for place, name in plot.places)
 
 
 def panel_of(
