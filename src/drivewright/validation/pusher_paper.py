@@ -19,9 +19,9 @@ TIP = "S and the push of the first set hold for the second; alpha0 = 35 deg is c
 TIP_104 = "alpha0 = 104 deg is counted at the planet from the ray to the sun"
 NEEDLE = "needle 30.84 deg steeper than the line planet axis - tip, calibrated on the push angle; take at the top, push at the lowest point"
 WANTED_ANGLES = (  # what seedlings need [deg]; "about" is as wide as the paper takes it when it calls its own 50.22 deg that
-    ("take angle, 5 to 25 deg", 5.0, 25.0),
-    ("push angle, 60 to 80 deg", 60.0, 80.0),
-    ("difference about 55 deg", 50.0, 60.0),
+    ("5 to 25 deg", 5.0, 25.0),
+    ("60 to 80 deg", 60.0, 80.0),
+    ("about 55 deg", 50.0, 60.0),
 )
 LAW = "rod by the 3-4-5 polynomial over the carrier angle, as Fig. 2 was not to be had; l = m l1 = 56 mm"
 CAMS = f"{LAW}; rod at the needle"
@@ -112,7 +112,7 @@ def _needle(turned: Result[Any]) -> Iterator[Row]:
     take, push, about = (Printed(text, *np.radians(ends)) for text, *ends in WANTED_ANGLES)
     yield Row("take angle within what seedlings need", take, turned["needle.take_angle"], pinned=AGREES, **common)
     yield Row("push angle within what seedlings need", push, turned["needle.push_angle"], **calibrated, **common)
-    yield Row("angle between take and push, about", about, turned["needle.angle_difference"], pinned=OPEN, **common)
+    yield Row("difference of the angles within what seedlings need", about, turned["needle.angle_difference"], pinned=OPEN, **common)
 
 
 def _pressure_angles(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
