@@ -260,7 +260,7 @@ def differ_by_rounding(one, two):
     (ours, unit), (other, unit2) = ((*cells[OURS].split(" "), "")[:2] for cells in (one, two))
     move, least = abs(float(ours) - float(other)), 1e-8 * abs(float(ours))
     step = max(last_digit(ours), last_digit(other))
-    deviations = [cells[DEVIATION].split(" ")[0] for cells in (one, two)]
+    deviations = [cells[DEVIATION].split(" ")[0] or "0" for cells in (one, two)]  # none where nothing is compared
     apart = abs(float(deviations[0]) - float(deviations[1]))
     return unit == unit2 and move <= 1.01 * step and apart <= 1.01 * max(move, least, *map(last_digit, deviations))
 
@@ -283,3 +283,6 @@ def test_a_row_may_differ_by_rounding_and_no_more():
     assert differ_by_rounding(wide, [*row[:OURS], "251.365 deg", "-1.63 deg", row[-1]])
     assert not differ_by_rounding(wide, [*row[:OURS], "251.366 deg", "-1.64 deg", row[-1]])
     assert not differ_by_rounding(wide, [*row[:OURS], "251.364 deg", "-1.5 deg", row[-1]])
+    bare = [*row[:OURS], "67.8179 deg", "", "not compared [5]"]
+    assert differ_by_rounding(bare, [*row[:OURS], "67.8180 deg", "", "not compared [5]"])
+    assert not differ_by_rounding(bare, [*row[:OURS], "67.8182 deg", "", "not compared [5]"])
