@@ -166,3 +166,20 @@ def test_the_axis_has_the_words_that_all_designs_have_for_it(plots):
 
     (panel,) = overlay([mode("mode 1, 38.8 Hz"), mode("mode 1, 39.8 Hz")], ["A", "B"], "p").panels
     assert panel.label == "Mode 1 [N]"
+
+
+def test_what_stands_along_the_x_axis_is_named_where_it_is_at_one_place_in_all_designs(monkeypatch):
+    """Bearings at 0 and 0.2 m of one shaft, at 0 and 0.3 m of the other: in millimetres, by the name of the one that does not move."""
+
+    def shaft(end):
+        x = np.linspace(0.0, end, 50)
+        lines = Table("t", "T", (Column("position", "m", "distance", x), Column("force", "N", "force", x)))
+        return Result(None, "nothing", str(end), "", {}, {"t": lines}, (), (), {})
+
+    def plots_of(design):
+        return (Plot("p", "P", "t", "position", ("force",), places=((0.0, "A"), (design.tables["t"]["position"].data[-1], "B"))),)
+
+    monkeypatch.setattr(registry, "is_known", lambda kind: True)
+    monkeypatch.setattr(registry, "mechanism", lambda kind: type("Kind", (), {"plots": staticmethod(plots_of)}))
+    assert overlay([shaft(0.2), shaft(0.3)], ["one", "two"], "p").panels[0].places == ((0.0, "A"),)
+    assert overlay([shaft(0.2), shaft(0.2)], ["one", "two"], "p").panels[0].places == ((0.0, "A"), (pytest.approx(200.0), "B"))
