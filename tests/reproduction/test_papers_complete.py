@@ -85,3 +85,11 @@ def test_text_and_figures_must_name_the_same_figures():
         read_paper(source, {figure.number: figure.draw for figure in PAPERS[0].figures}, grids={"no section": (Grid("", "", (), ()),)})
     with pytest.raises(KeyError, match=r"Fig\. 5"):
         read_paper(source, {})
+
+
+def test_a_formula_stands_in_the_middle_of_its_line():
+    """The foot of a letter without depth lies below the middle by half its height, of which x has less than half a line."""
+    picture = formula_picture(["x"])
+    height = float(re.search(r'viewBox="0 0 [\d.]+ ([\d.]+)"', picture)[1])
+    foot = float(re.search(r"translate\(0 ([\d.]+)\) scale", picture)[1])
+    assert height / 2 < foot < 0.75 * height

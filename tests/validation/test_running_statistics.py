@@ -87,3 +87,21 @@ def test_one_worn_pin_has_the_only_play():
 def test_a_spec_of_the_folder_takes_other_pins():
     spec = folding_linkage.folding_spec(28800, "0.20", 0.0, {"model": "dry", "friction": 0.1}, turns=12)
     assert {joint.model for joint in spec.joints if joint.name != "O2"} == {"dry"} and spec.simulate.turns == 12
+
+
+def test_the_running_deviation_counts_from_the_distance_at_rest():
+    """219.1256 mm running less 0.0696 mm, as printed."""
+    assert pytest.approx(0.2191256 - 0.0000696, abs=1e-12) == hyvo_running.INITIAL
+
+
+def test_a_cell_of_impact_loads_has_the_interval_of_its_starts_where_there_is_one(tmp_path, monkeypatch):
+    def table(folder, spec):
+        values, nothing = [float(n) for n in range(len(folding_contact.PLAYS))], float("nan")
+        low, high = [nothing, *(value - 0.5 for value in values[1:])], [nothing, *(value + 0.5 for value in values[1:])]
+        columns = {"coefficient": values, "coefficient.low": low, "coefficient.high": high}
+        return type("Table", (), {"to_pydict": lambda self: columns})()
+
+    monkeypatch.setattr(folding_contact, "impact_loads", table)
+    rows = list(folding_contact.dry_rows(tmp_path))
+    assert len(rows) == 55 and all((row.low, row.high) == (row.ours - 0.5, row.ours + 0.5) for row in rows if row.ours)
+    assert {(row.low, row.high) for row in rows if not row.ours} == {(None, None)}

@@ -181,5 +181,5 @@ def test_what_stands_along_the_x_axis_is_named_where_it_is_at_one_place_in_all_d
 
     monkeypatch.setattr(registry, "is_known", lambda kind: True)
     monkeypatch.setattr(registry, "mechanism", lambda kind: type("Kind", (), {"plots": staticmethod(plots_of)}))
-    assert overlay([shaft(0.2), shaft(0.3)], ["one", "two"], "p").panels[0].places == ((0.0, "A"),)
+    assert overlay([shaft(0.2), shaft(0.2), shaft(0.3)], ["one", "two", "three"], "p").panels[0].places == ((0.0, "A"),)
     assert overlay([shaft(0.2), shaft(0.2)], ["one", "two"], "p").panels[0].places == ((0.0, "A"), (pytest.approx(200.0), "B"))
