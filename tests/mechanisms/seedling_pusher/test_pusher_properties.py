@@ -214,3 +214,14 @@ def test_a_material_without_an_allowable_pressure_leaves_the_check_out():
     assert result["cam.main.max_contact_pressure"] > 0
     limited = dw.run(dw.load(EXAMPLE, ["contact.material=C45", "limits.contact_pressure=900 MPa"]), only="load")
     assert limited.check("contact_pressure.main").limit == 900e6
+
+
+def test_the_hole_is_as_wide_as_the_track_over_the_field_below_the_surface():
+    """Of the table's 720 points; the tip goes back while the machine advances, so the hole is narrower than the advance."""
+    done = dw.run(dw.load(EXAMPLE), only=["planting", "train"])
+    cycle = done.tables["cycle"]
+    inside = cycle["tip_y"].data < cycle["tip_y"].data.min() + done.spec.field.mouth_height
+    over_field = float(np.ptp(cycle["field_x"].data[inside]))
+    advance = done.spec.field.spacing * np.ptp(cycle["carrier_angle"].data[inside]) / (2 * np.pi)
+    assert over_field == pytest.approx(done["planting.mouth_width"], abs=5e-4)
+    assert over_field < advance
