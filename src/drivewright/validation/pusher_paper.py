@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright import registry, units
+from drivewright import registry
 from drivewright.result import Result
 from drivewright.runner import run
 from drivewright.spec import load
@@ -79,10 +79,11 @@ def _lowest(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
 
 def _needle(turned: Result[Any]) -> Iterator[Row]:
     events = ('events.take="angle"', 'events.take_angle="256.02 deg"', 'events.push="push-start"')
-    difference, push = _result("default", ("planting",), *events)["needle.angle_difference"], units.to_si("67.82 deg", "angle")
+    difference = _result("default", ("planting",), *events)["needle.angle_difference"]
     missing = (
-        "The events are not printed: with the push counted at its start and the take 4.8 deg of carrier turn after the top the "
-        f"difference is {np.degrees(difference):.2f} deg. Two free inputs, two independent numbers: no evidence either way."
+        "The events are not printed. With the push counted at its start and the take 4.8 deg of carrier turn after the top the "
+        f"difference is {np.degrees(difference):.2f} deg, but both are chosen for it: "
+        "two free inputs, two independent numbers, no evidence either way."
     )
     common: dict[str, Any] = {
         "unit": "rad",
@@ -91,28 +92,15 @@ def _needle(turned: Result[Any]) -> Iterator[Row]:
         "inputs": SECOND,
         "assumed": f"{TIP}; {NEEDLE}",
     }
-    yield Row(
-        "push minus take angle",
-        rounded("50.22 deg", "rad"),
-        turned["needle.angle_difference"],
-        pinned=EXPLAINED,
-        explanation=Explanation(missing, difference),
-        **common,
-    )
-    yield Row(
-        "take angle",
-        rounded("17.6 deg", "rad"),
-        turned["needle.take_angle"],
-        pinned=EXPLAINED,
-        explanation=Explanation(missing, push - difference),
-        **common,
-    )
+    between, take_angle = turned["needle.angle_difference"], turned["needle.take_angle"]
+    yield Row("push minus take angle", rounded("50.22 deg", "rad"), between, pinned=OPEN, note=missing, **common)
+    yield Row("take angle", rounded("17.6 deg", "rad"), take_angle, pinned=OPEN, note=missing, **common)
     calibrated: dict[str, Any] = {"pinned": NOT_COMPARED, "basis": CALIBRATED}
     yield Row("push angle", rounded("67.82 deg", "rad"), turned["needle.push_angle"], **calibrated, **common)
     take, push, about = (Printed(text, *np.radians(ends)) for text, *ends in WANTED_ANGLES)
-    yield Row("take angle within what seedlings need", take, turned["needle.take_angle"], pinned=AGREES, **common)
+    yield Row("take angle within what seedlings need", take, take_angle, pinned=AGREES, **common)
     yield Row("push angle within what seedlings need", push, turned["needle.push_angle"], **calibrated, **common)
-    yield Row("difference of the angles within what seedlings need", about, turned["needle.angle_difference"], pinned=OPEN, **common)
+    yield Row("difference of the angles within what seedlings need", about, between, pinned=OPEN, **common)
 
 
 def _pressure_angles(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
