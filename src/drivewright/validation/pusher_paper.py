@@ -196,7 +196,8 @@ ERRATA = (
 source = Source(
     "pusher-paper",
     "Chen Jianneng, Wang Ying, Zhao Xiong, Zhao Yun: Reverse design and simulation of walking-type rice transplanter's "
-    "seedling-pushing device based on conjugate cam. Transactions of the CSAM 42(12), 2011, 78-82 (in Chinese; text read, figures not).",
+    "seedling-pushing device based on conjugate cam. Transactions of the CSAM 42(12), 2011, 78-82 (in Chinese; text read; "
+    "Figs. 1b and 10 by description only).",
     rows,
     ERRATA,
 )
