@@ -119,7 +119,7 @@ def test_no_two_rows_share_a_name(sources, rows):
         ("tip lowest, bend turned", "86 deg", 87.71, EXPLAINED),
         ("tip lowest, bend interior", "86 deg", 86.90, EXPLAINED),
         ("tip lowest, first set, bend turned", "86 deg", 86.97, EXPLAINED),
-        ("tip lowest, first set, bend interior", "86 deg", 85.96, AGREES),
+        ("tip lowest, first set, bend interior", "86 deg", 85.96, NOT_COMPARED),
         ("push minus take angle", "50.22 deg", 48.18, OPEN),
         ("take angle", "17.6 deg", 19.64, OPEN),
         ("push angle", "67.82 deg", 67.82, NOT_COMPARED),
