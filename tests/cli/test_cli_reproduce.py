@@ -46,7 +46,7 @@ def test_bad_input_is_one_message(arguments, words, capsys):
 def test_a_folder_of_others_is_refused_before_anything_is_computed(tmp_path, capsys):
     (tmp_path / "mine.txt").write_text("x", encoding="utf-8")
     assert command("indexer-paper", "--out", tmp_path) == 2
-    assert "holds no reproduced paper" in capsys.readouterr().err
+    assert "is no reproduced paper" in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["mine.txt"]
 
 

@@ -2,14 +2,16 @@
 
 import re
 
+import numpy as np
 import pytest
 
 from drivewright import reproduction
 from drivewright.errors import UnknownName
-from drivewright.reproduction import document, papers
+from drivewright.reproduction import document, papers, shaft_paper
 from drivewright.reproduction.document import CORRECTED, DEFINITION, EQUATION_VERDICTS, Grid, read_paper
 from drivewright.reproduction.formulas import formula_picture
 from drivewright.validation import folding_linkage
+from drivewright.validation import shaft_paper as numbers_of_shafts
 
 pytestmark = pytest.mark.interface
 
@@ -66,7 +68,7 @@ def test_figures_sections_and_inputs_are_told_apart(paper):
 def test_every_row_has_its_section_and_every_place_its_rows(name):
     paper = papers(name)[0]
     wheres = {row.where for row in paper.source.rows()}
-    assert {where: paper.section_of(where) for where in wheres if not paper.section_of(where)} == {}
+    assert set(wheres) - {place for section in paper.sections for place in section.places} == set()
     assert {place for section in paper.sections for place in section.places} == wheres
 
 
@@ -93,3 +95,12 @@ def test_a_formula_stands_in_the_middle_of_its_line():
     height = float(re.search(r'viewBox="0 0 [\d.]+ ([\d.]+)"', picture)[1])
     foot = float(re.search(r"translate\(0 ([\d.]+)\) scale", picture)[1])
     assert height / 2 < foot < 0.75 * height
+
+
+@pytest.mark.parametrize("length", ["l1", "l3", "l5", "l7"])
+@pytest.mark.parametrize("stiffness", [3.0e7, np.inf])
+def test_a_moved_mass_at_its_printed_length_is_that_of_the_shaft_itself(length, stiffness):
+    """The closed form of the figure over lengths against the beam of the preset, at the one length that both have."""
+    moved = shaft_paper.MOVED[length]
+    found = shaft_paper.own_flexibility(moved, np.array([moved.printed]), stiffness)
+    assert found[0] == pytest.approx(numbers_of_shafts.own_flexibility(moved.mass, stiffness), rel=1e-6)

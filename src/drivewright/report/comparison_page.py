@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from drivewright import registry
-from drivewright.errors import InputError
 from drivewright.execution.helper import Map
 from drivewright.report.comparison import DesignComparison, difference_text, distinct, value_text
 from drivewright.report.content import Content, Picture, Sketch, Views, draw_sketch, failing_sketch, program, scene_phase, summary
-from drivewright.report.folder import file_name
+from drivewright.report.folder import file_name, refuse_other
 from drivewright.report.html import embedded, page, template_text
 from drivewright.report.moving import Place, recover, replacing_folder
 from drivewright.report.pack import pack_scene
@@ -66,14 +65,7 @@ def recover_comparison(out: str | Path) -> Path:
 
 def refuse_foreign(out: Path) -> None:
     """InputError where writing to `out` would take the place of something that is no comparison."""
-    if out.exists() and not out.is_dir():
-        raise InputError(f"{out}: is a file, a comparison cannot take its place; choose another --out")
-    inside = sorted(path.name for path in out.iterdir()) if out.is_dir() else []
-    if inside and not _is_comparison(out):
-        raise InputError(
-            f"{out}: is not empty and is no comparison (it holds {', '.join(inside[:3])} ... but no {RECORD}); nothing was written. "
-            "Choose another --out, or empty it first"
-        )
+    refuse_other(out, "comparison", _is_comparison, RECORD)
 
 
 def _is_comparison(folder: Path) -> bool:

@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
@@ -47,15 +47,20 @@ def is_run_folder(path: str | Path) -> bool:
 
 def refuse_foreign(out: Path) -> None:
     """InputError where writing to `out` would take the place of something that is no run folder."""
-    inside = sorted(path.name for path in out.iterdir()) if out.is_dir() else []
-    if inside and inside != ["cad"] and not is_run_folder(out):
-        first = inside[:3]
-        raise InputError(
-            f"{out}: is not empty and is no run folder (it holds {', '.join(first)} ... but no result.json of a run); "
-            "nothing was written. Choose another --out, or empty it first"
-        )
+    if not (out.is_dir() and [path.name for path in out.iterdir()] == ["cad"]):
+        refuse_other(out, "run folder", is_run_folder, "result.json of a run")
+
+
+def refuse_other(out: Path, thing: str, is_one: Callable[[Path], bool], mark: str) -> None:
+    """InputError where `out` is a file, or a folder that is not empty and no such thing; `mark` names what would prove it."""
     if out.exists() and not out.is_dir():
-        raise InputError(f"{out}: is a file, a run folder cannot take its place; choose another --out")
+        raise InputError(f"{out}: is a file, a {thing} cannot take its place; choose another --out")
+    inside = sorted(path.name for path in out.iterdir()) if out.is_dir() else []
+    if inside and not is_one(out):
+        raise InputError(
+            f"{out}: is not empty and is no {thing} (it holds {', '.join(inside[:3])} ... but no {mark}); nothing was written. "
+            "Choose another --out, or empty it first"
+        )
 
 
 def record_text(result: Result[Any]) -> str:

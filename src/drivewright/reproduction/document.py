@@ -22,6 +22,11 @@ EQUATION_VERDICTS = (AS_PRINTED, CORRECTED, UNDECIDED, DEFINITION)
 Draw: TypeAlias = "Callable[[Path], Drawn | Picture]"  # called with a folder for what takes long, which goes on where it stopped
 
 
+def still(function: "Callable[..., Drawn | Picture]", *given: str) -> Draw:
+    """A figure's function that does not need the folder, called with what is given."""
+    return lambda folder: function(*given)
+
+
 class Equation(NamedTuple):
     """An equation of the paper: its number, its lines as printed (mathtext), and whether it holds.
 
@@ -134,10 +139,6 @@ class Paper:
     def listings(self) -> tuple[Listing, ...]:
         """Every table of ours, in the paper's order."""
         return tuple(listing for section in self.sections for listing in section.listings)
-
-    def section_of(self, where: str) -> str:
-        """Title of the section to which a place in the paper belongs, "" where none names it."""
-        return next((section.title for section in self.sections if where in section.places), "")
 
 
 def read_paper(

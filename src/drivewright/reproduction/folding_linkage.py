@@ -1,6 +1,5 @@
 """The knife-folding four-bar with play of Yuan, Liu and Wang, figure by figure."""
 
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +8,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.mechanisms.linkage.spec import LinkageSpec
-from drivewright.reproduction.document import Draw, Grid, LongRows, PaperStudy, read_paper
+from drivewright.reproduction.document import Draw, Grid, LongRows, PaperStudy, read_paper, still
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import scene_figure
 from drivewright.result import Result
@@ -163,11 +162,6 @@ def wear() -> "Drawn":
         table = run(wear_spec(cycles), ("wear",)).tables["wear.A"]
         curves.append(Curve(f"{cycles / 1e6:.0f} million turns", np.degrees(table["angle"].data), table["last"].data * 1e6))
     return chart_figure("Wear of the bearing of A", "Place around the bearing [deg]", [Chart("Depth worn off [µm]", curves)], height=3.0)
-
-
-def still(function: Callable[[], Any]) -> Draw:
-    """A figure's function that does not need the folder."""
-    return lambda folder: function()
 
 
 FIGURES: dict[str, Draw] = {

@@ -1,6 +1,5 @@
 """The Hy-Vo chain with a small rolling radius of An, Cheng, Li and Xu, figure by figure."""
 
-from collections.abc import Callable
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,7 +10,7 @@ from drivewright._typing import Floats
 from drivewright.chains import meshing
 from drivewright.chains.stress import rolling
 from drivewright.report.comparison import compare
-from drivewright.reproduction.document import Draw, LongRows, PaperStudy, read_paper
+from drivewright.reproduction.document import Draw, LongRows, PaperStudy, read_paper, still
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import drawing_of, scene_figure
 from drivewright.result import Result
@@ -183,10 +182,8 @@ def pin_stress() -> "Drawn":
     for name, radius, printed in (("group 3, pins of 1.2 mm", 1.2, 162.027), ("control group, arcs of 7.4 mm", CLASSICAL_RADIUS, 245.184)):
         contact = rolling.rolling_contact(200.0, 6e-3, (radius * 1e-3, radius * 1e-3), numbers.MODULUS, numbers.POISSON)
         depth = np.linspace(0.0, 6.0, 241)
-        sx, sz, sxz = rolling.line_stresses(np.zeros_like(depth), depth)
-        sy = numbers.POISSON * (np.asarray(sx) + np.asarray(sz))
-        mises = np.sqrt(0.5 * ((sx - sy) ** 2 + (sy - sz) ** 2 + (sz - sx) ** 2) + 3 * np.asarray(sxz) ** 2)
-        stress = mises * float(contact.pressure) / 1e6
+        mises = rolling.equivalent(rolling.line_stresses(0.0, depth), numbers.POISSON, "mises")
+        stress = np.asarray(mises) * float(contact.pressure) / 1e6
         curves = [Curve("von Mises stress below the line of contact", depth * float(contact.half_width) * MICRO, stress)]
         stated = [Stated(f"greatest stress printed, {printed:.2f} MPa", y=printed), Stated("yield stress, 835 MPa", y=835.0)]
         if 6 * float(contact.half_width) * MICRO > 138.0:
@@ -208,19 +205,14 @@ def plate_in_time() -> "Drawn":
     for label, name in (("group 3", "paper-load"), ("control group", "classical")):
         table = loaded(name).tables["plate_history"]
         curves.append(Curve(label, table["time"].data * 1e3, table["mises"].data / 1e6))
-    stated = [Stated("group 3 as printed, 303.13 MPa", y=303.126), Stated("control as printed, 468.66 MPa", y=468.663)]
+    stated = [Stated(f"{name} as printed, {stress:.2f} MPa", y=stress) for name, stress in numbers.PLATE_STRESSES.items()]
     title = "Stress of a plate at its most stressed point over a revolution of the chain"
     return chart_figure(title, "Time [ms]", [Chart("Von Mises stress [MPa]", curves, stated)], height=3.2)
 
 
-def plate_picture(name: str, plot: str) -> Draw:
+def plate_picture(name: str, plot: str) -> "Drawn":
     """Figs. 21, 24: the field of a plate."""
-    return lambda folder: loaded(name).plot(plot)
-
-
-def still(function: Callable[[], Any]) -> Draw:
-    """A figure's function that does not need the folder."""
-    return lambda folder: function()
+    return loaded(name).plot(plot)
 
 
 FIGURES: dict[str, Draw] = {
@@ -234,11 +226,11 @@ FIGURES: dict[str, Draw] = {
     "Fig. 11": fluctuation_over_radius,
     "Figs. 12, 13": means_over_radius,
     "Figs. 16, 17": still(pin_stress),
-    "Fig. 21, group 3": plate_picture("paper-load", "plate_stress"),
-    "Fig. 21, control group": plate_picture("classical", "plate_stress"),
+    "Fig. 21, group 3": still(plate_picture, "paper-load", "plate_stress"),
+    "Fig. 21, control group": still(plate_picture, "classical", "plate_stress"),
     "Fig. 22": still(plate_in_time),
-    "Fig. 24, group 3": plate_picture("paper-load", "life_map"),
-    "Fig. 24, control group": plate_picture("classical", "life_map"),
+    "Fig. 24, group 3": still(plate_picture, "paper-load", "life_map"),
+    "Fig. 24, control group": still(plate_picture, "classical", "life_map"),
 }
 
 paper = read_paper(

@@ -10,7 +10,7 @@ from drivewright import registry
 from drivewright._typing import Floats
 from drivewright.bearings import approximate_stiffness
 from drivewright.indexing import torsion_test
-from drivewright.reproduction.document import Draw, read_paper
+from drivewright.reproduction.document import read_paper, still
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import drawing_of, scene_figure
 from drivewright.result import Result, Table
@@ -237,11 +237,6 @@ def budget() -> "Drawn":
     names = ("support", "torsion", "crank", "bending", "pin", "gear")
     curves = [Curve(name, degrees(table), table[name].data * TO_ARCMIN * 1e3) for name in names]
     return chart_figure("Compliance by groups of parts", ANGLE, [Chart("Compliance [arcmin/(kN m)]", curves)], height=3.4)
-
-
-def still(function: Callable[[], Any]) -> Draw:
-    """A figure's function that does not need the folder."""
-    return lambda folder: function()
 
 
 DRAW: dict[str, Callable[[], Any]] = {

@@ -10,13 +10,14 @@ from typing import Any, TypeAlias
 
 from drivewright import atomic
 from drivewright.digits import EXACT
-from drivewright.errors import InputError, MissingExtra
+from drivewright.errors import MissingExtra
 from drivewright.report.content import Picture, program
+from drivewright.report.folder import refuse_other
 from drivewright.report.html import embedded, page
 from drivewright.report.pdf import compile_template
 from drivewright.reproduction.document import AS_PRINTED, CORRECTED, DEFINITION, UNDECIDED, Equation, Figure, Grid, Paper, Section
 from drivewright.reproduction.formulas import formula_picture
-from drivewright.reproduction.parts import Computed, Progress, compute_parts, parts_of, read_part
+from drivewright.reproduction.parts import Computed, Progress, compute_parts
 from drivewright.validation.source import AGREES, CALIBRATED, EXPLAINED, NOT_COMPARED, OPEN, PRINT_ONLY, VERDICTS, Row, best_verdicts
 from drivewright.view.text import SUPERSCRIPT, quantity, sentence, uncertain
 
@@ -66,21 +67,9 @@ def write_pages(paper: Paper, computed: Computed, out: Path) -> None:
     atomic.write_text(out / PAGE, page("paper.html.j2", embedded_content(texts)))
 
 
-def is_finished(paper: Paper, out: Path, solids: bool = True) -> bool:
-    """Whether every part of a page is there."""
-    return all(read_part(out / "parts" / part.file) is not None for part in parts_of(paper) if solids or not part.solids)
-
-
 def refuse_foreign(out: Path) -> None:
     """InputError where `out` is a file or a folder that holds something else than a page of a paper."""
-    if out.exists() and not out.is_dir():
-        raise InputError(f"{out}: is a file, a folder cannot take its place; choose another --out")
-    inside = sorted(path.name for path in out.iterdir()) if out.is_dir() else []
-    if inside and "parts" not in inside:
-        raise InputError(
-            f"{out}: is not empty and holds no reproduced paper ({', '.join(inside[:3])} ...); nothing was written. "
-            "Choose another --out, or empty it first"
-        )
+    refuse_other(out, "reproduced paper", lambda folder: (folder / "parts").is_dir(), "folder of its parts")
 
 
 # -- what the page says --------------------------------------------------------------------------------------------------------
@@ -110,12 +99,12 @@ def content(paper: Paper, computed: Computed) -> Content:
         "inputs": [each._asdict() for each in paper.inputs],
         "sections": [_section(section, computed, remarks) for section in paper.sections],
         "remarks": [f"{name}: {reason}" for name, reason in computed.missing.items()],
-        "readings": f"{len(computed.rows)} rows for {len(best_verdicts(computed.rows))} printed numbers and claims; of several readings of "
-        "one number the best counts.",
+        "readings": f"{len(computed.rows)} rows for {len(best_verdicts(computed.rows))} printed numbers and claims, printed equations "
+        "evaluated for the inputs among them; of several readings of one number the best counts.",
         "footnotes": remarks,
         "errata": list(paper.source.errata),
         "equations": [f"{count} {name}" for name, count in Counter(e.verdict for s in paper.sections for e in s.equations).items()],
-        "command": f"drivewright reproduce {paper.name} --out DIR",
+        "command": f"drivewright reproduce {paper.name}{' --no-solids' if computed.left_out else ''} --out DIR",
     }
 
 
@@ -124,7 +113,7 @@ def verdict(rows: Sequence[Row]) -> dict[str, str]:
     found = counts(rows)
     compared = sum(found.values()) - found[NOT_COMPARED]
     state = "good" if found[AGREES] == compared else "warn"
-    return {"state": state, "text": f"{found[AGREES]} of {compared} printed numbers and claims agree"}
+    return {"state": state, "text": f"{found[AGREES]} of {compared} compared numbers and claims agree"}
 
 
 def _section(section: Section, computed: Computed, remarks: list[str]) -> Content:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from drivewright import registry
-from drivewright.mechanisms.seedling_pusher.dynamics import simulate
+from drivewright.mechanisms.seedling_pusher.dynamics import runs_with_play
 from drivewright.numerics.ensemble import mean_of_members
 from drivewright.oracles import seedling_pusher as oracle
 from drivewright.report.comparison import compare
-from drivewright.reproduction.document import Draw, read_paper
+from drivewright.reproduction.document import read_paper, still
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import drawing_of, scene_figure
 from drivewright.result import Result
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 MM = 1e3
 CARRIER = "Carrier angle [deg]"
 SIDES = {"rod at the needle": "default", "mirrored": "paper-mirrored"}
-STARTS = 8
 
 
 def spec(preset: str = "default") -> MechanismSpec:
@@ -75,12 +74,12 @@ def tracks() -> "Drawn":
     found = result()
     table = found.tables["cycle"]
     tip, axis = (np.array([table[f"{name}_x"].data, table[f"{name}_y"].data]) * MM for name in ("tip", "axis"))
-    moved = model().advance * np.linspace(0.0, 1.0, tip.shape[1]) * MM
+    field = table["field_x"].data * MM
     curves = [
         Curve("tip, machine", *tip),
         Curve("planet axis, machine", *axis),
-        Curve("tip, field", tip[0] + moved, tip[1]),
-        Curve("planet axis, field", axis[0] + moved, axis[1]),
+        Curve("tip, field", field, tip[1]),
+        Curve("planet axis, field", axis[0] + field - tip[0], axis[1]),
     ]
     stated = []
     for name, event, printed in (("G, printed 17.6°", "take", "needle.take_angle"), ("H, printed 67.82°", "push", "needle.push_angle")):
@@ -156,15 +155,9 @@ def play() -> "Drawn":
     curves = []
     for label, preset in SIDES.items():
         shown = model(preset)
-        forces = np.array([[simulate(shown, value * (1 + 1e-6 * start)).peak_force for value in plays] for start in range(STARTS)])
-        mean, half = mean_of_members(forces)
+        mean, half = mean_of_members(np.array([[each.peak_force for each in runs_with_play(shown, value)] for value in plays]).T)
         curves.append(Curve(label, plays * MM, mean, "both", mean - half, mean + half))
     return chart_figure("Largest normal force on a roller", "Play of each roller [mm]", [Chart("Force [N]", curves, from_zero=True)])
-
-
-def still(function: Callable[[], Any]) -> Draw:
-    """A figure's function that does not need the folder."""
-    return lambda folder: function()
 
 
 DRAW: dict[str, Callable[[], Any]] = {

@@ -1,20 +1,21 @@
 """The shafts of a pipe-lining machine of Li, Zhang and Chen, figure by figure."""
 
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from drivewright import registry
 from drivewright._typing import Floats
 from drivewright.report.comparison import compare
-from drivewright.reproduction.document import Listing, read_paper
+from drivewright.reproduction.document import Listing, read_paper, still
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure, draw_chart
 from drivewright.reproduction.views import scene_figure
 from drivewright.result import Result
 from drivewright.runner import build, run
-from drivewright.shafts import solid_check
+from drivewright.shafts import closed_form, solid_check
 from drivewright.spec import load
 from drivewright.studies.sweeps import sweep
 from drivewright.validation import shaft_paper as numbers
@@ -100,40 +101,43 @@ def solid_and_beam(preset: str) -> "Drawn":
     return chart_figure(f"Beam and solid on the same springs, {TITLES[preset]}", X_LABEL, charts, height=2.9)
 
 
-SWEEPS = {  # length, preset, mass, its range [mm], what is held
-    "l1": ("pressure-roller", "m1", (20.0, 100.0), "A, B and m2 stay"),
-    "l3": ("pressure-roller", "m2", (50.0, 170.0), "A, B and m1 stay"),
-    "l5": ("rubber-roller-r1", "m3", (0.0, 110.0), "l5 + l6 = 135 mm"),
-    "l7": ("rubber-roller-r1", "m4", (30.0, 260.0), "l7 + l8 = 326 mm"),
+class MovedMass(NamedTuple):
+    """A mass that a length places: where that is, from the left of the bearings that stand `span` apart [m]."""
+
+    mass: str
+    printed: float  # the length in Table 1 [m]
+    span: float
+    place: Callable[[Floats], Floats]
+    ends: tuple[float, float]  # of the length [mm]
+    held: str
+
+
+MOVED = {
+    "l1": MovedMass("m1", numbers.L1, numbers.L2, lambda length: -length, (20.0, 100.0), "A, B and m2 stay"),
+    "l3": MovedMass("m2", numbers.L3, numbers.L2, lambda length: numbers.L2 + length, (50.0, 170.0), "A, B and m1 stay"),
+    "l5": MovedMass("m3", numbers.L5, numbers.SPAN, lambda length: length - numbers.L5 - numbers.L6, (0.0, 110.0), "l5 + l6 = 135 mm"),
+    "l7": MovedMass("m4", numbers.L7, numbers.SPAN, lambda length: length, (30.0, 260.0), "l7 + l8 = 326 mm"),
 }
 
 
 def mass_positions() -> "Drawn":
-    """Flexibility of each mass under its own load over the length that places it, by the closed forms of the corrected model."""
+    """Flexibility of each mass under its own load over the length that places it, by the closed form."""
     charts = []
-    for length, (_, mass, (low, high), held) in SWEEPS.items():
-        values = np.linspace(low, high, 61)
+    for length, moved in MOVED.items():
+        values = np.linspace(*moved.ends, 61)
         curves = [
-            Curve(name, values, [own_flexibility(length, value / MM, stiffness) * NANO for value in values])
+            Curve(name, values, own_flexibility(moved, values / MM, stiffness) * NANO)
             for name, stiffness in (("bearings of 3.0e7 N/m", numbers.STIFFNESS), ("bearings rigid", np.inf))
         ]
-        nominal = {"l1": numbers.L1, "l3": numbers.L3, "l5": numbers.L5, "l7": numbers.L7}[length] * MM
-        stated = [Stated(f"Table 1: {nominal:g} mm", nominal)]
-        charts.append(Chart("Own flexibility [nm/N]", curves, stated, f"{length}: {mass} moves, {held}"))
+        stated = [Stated(f"Table 1: {moved.printed * MM:g} mm", moved.printed * MM)]
+        charts.append(Chart("Own flexibility [nm/N]", curves, stated, f"{length}: {moved.mass} moves, {moved.held}"))
     return chart_figure("Flexibility of each mass over its position", "Length [mm]", charts, columns=2, height=2.7)
 
 
-def own_flexibility(length: str, value: float, k: float) -> float:
-    """Flexibility [m/N] of the mass that a length places, bearings of stiffness k [N/m]; closed form after Euler and Bernoulli."""
-    l2, span = numbers.L2, numbers.SPAN
-    if length in ("l1", "l3"):
-        arm = value
-        return arm**2 * (arm + l2) / (3 * numbers.EI) + ((1 + arm / l2) ** 2 + (arm / l2) ** 2) / k
-    if length == "l5":
-        arm = numbers.L5 + numbers.L6 - value
-        return arm**2 * (arm + span) / (3 * numbers.EI) + ((1 + arm / span) ** 2 + (arm / span) ** 2) / k
-    rest = span - value
-    return value**2 * rest**2 / (3 * numbers.EI * span) + ((rest / span) ** 2 + (value / span) ** 2) / k
+def own_flexibility(moved: MovedMass, lengths: Floats, stiffness: float) -> Floats:
+    """Flexibility [m/N] of a mass under its own load for lengths [m], after Euler and Bernoulli, both bearings of a stiffness [N/m]."""
+    stations = moved.place(lengths)[:, None]
+    return closed_form.flexibility(stations, (0.0, moved.span), (stiffness, stiffness), numbers.EI)[:, 0, 0]
 
 
 def rigid_and_elastic(preset: str, folder: Path) -> "Drawn":
@@ -205,23 +209,18 @@ def bearing_table() -> tuple[tuple[str, ...], list[list[str]]]:
     return heads, rows
 
 
-def figure_of(function: Any, preset: str) -> Any:
-    """A figure's function for a preset, which does not need the folder."""
-    return lambda folder: function(preset)
-
-
 FIGURES = {
-    "Fig. 5": figure_of(scene, "pressure-roller"),
-    "Fig. 6": figure_of(scene, "rubber-roller-r1"),
-    "Fig. 8": figure_of(rigid_lines, "pressure-roller"),
-    "Fig. 10": figure_of(rigid_lines, "rubber-roller-r1"),
-    "Fig. 13": figure_of(solid_and_beam, "pressure-roller"),
-    "Fig. 14": figure_of(solid_and_beam, "rubber-roller-r1"),
-    "Figs. 13, 14 over lengths": lambda folder: mass_positions(),
+    "Fig. 5": still(scene, "pressure-roller"),
+    "Fig. 6": still(scene, "rubber-roller-r1"),
+    "Fig. 8": still(rigid_lines, "pressure-roller"),
+    "Fig. 10": still(rigid_lines, "rubber-roller-r1"),
+    "Fig. 13": still(solid_and_beam, "pressure-roller"),
+    "Fig. 14": still(solid_and_beam, "rubber-roller-r1"),
+    "Figs. 13, 14 over lengths": still(mass_positions),
     "Fig. 15": lambda folder: rigid_and_elastic("pressure-roller", folder),
     "Fig. 16": lambda folder: rigid_and_elastic("rubber-roller-r1", folder),
-    "Fig. 17": figure_of(bearing_types, "pressure-roller"),
-    "Fig. 18": figure_of(bearing_types, "rubber-roller-r1"),
+    "Fig. 17": still(bearing_types, "pressure-roller"),
+    "Fig. 18": still(bearing_types, "rubber-roller-r1"),
 }
 
 paper = read_paper(

@@ -410,9 +410,10 @@ def smooth_bar_life(stress: float) -> float:
 
 
 TURNS = 2000 * Z1 / LINKS  # revolutions of the chain in a minute
+PLATE_STRESSES = {"group 3": 303.126221, "control group": 468.663269}  # printed, MPa
 LIFE_CASES = (  # what, printed, unit, the greatest stress printed for it [MPa], seconds for one repeat (1: repeats are counted)
-    ("plate, new chain", "1.64e9", "-", 303.126221, 1.0),
-    ("plate, classical chain", "1.21e8", "-", 468.663269, 1.0),
+    ("plate, new chain", "1.64e9", "-", PLATE_STRESSES["group 3"], 1.0),
+    ("plate, classical chain", "1.21e8", "-", PLATE_STRESSES["control group"], 1.0),
     ("pin, new chain", "4.560e11 min", "s", 162.026855, 60 / TURNS),
     ("pin, classical chain", "1.164e11 min", "s", 245.183578, 60 / TURNS),
 )
@@ -432,10 +433,10 @@ def _lives() -> Iterator[Row]:
         ours, quantity = smooth_bar_life(stress * 1e6) * period, f"life of a smooth bar at the stress printed for the {name}"
         more: dict[str, Any] = {"pinned": OPEN, "assumed": MATERIAL_CARD, "note": note, "reading_of": f"life of the {name}"}
         yield Row(quantity, rounded(text, unit), ours, unit, **more, **common)
-    for name, text in (("group 3", "303.126221 MPa"), ("control group", "468.663269 MPa")):
+    for name, stress in PLATE_STRESSES.items():
         yield Row(
             f"greatest stress printed for the plate, {name}",
-            rounded(text, "Pa"),
+            rounded(f"{stress} MPa", "Pa"),
             None,
             "Pa",
             pinned=NOT_COMPARED,
@@ -450,9 +451,10 @@ def _lives() -> Iterator[Row]:
     yield Row("life of the plates, new over classical", ratio, 1.64e9 / 1.21e8, "-", pinned=NOT_COMPARED, basis=PRINT_ONLY, **common)
     slopes = [
         np.log(a / b) / np.log(t / s)
-        for a, b, s, t in ((1.64e9, 1.21e8, 303.126221, 468.663269), (4.56e11, 1.164e11, 162.026855, 245.183578))
+        for a, b, s, t in ((1.64e9, 1.21e8, *PLATE_STRESSES.values()), (4.56e11, 1.164e11, 162.026855, 245.183578))
     ]
-    ours = np.log(smooth_bar_life(303.126221e6) / smooth_bar_life(468.663269e6)) / np.log(468.663269 / 303.126221)
+    new, classical = PLATE_STRESSES.values()
+    ours = np.log(smooth_bar_life(new * 1e6) / smooth_bar_life(classical * 1e6)) / np.log(classical / new)
     note = (
         f"Life falls with the power {slopes[0]:.2f} of the plates' stresses and {slopes[1]:.2f} of the pins', which are lower: steel "
         f"does the contrary. Between the plates' two stresses ours is {ours:.1f}."

@@ -8,14 +8,14 @@ from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
-from scipy import stats
 
 from drivewright import registry
 from drivewright._typing import Floats
+from drivewright.numerics.ensemble import mean_of_members
 from drivewright.spec import MechanismSpec, load
 from drivewright.studies.study import Study
 from drivewright.studies.sweeps import sweep
-from drivewright.validation.hyvo_paper import BELOW_ONE, CLASSICAL_RADIUS, DRIVE, MM, NEW_RADII, SMALLER
+from drivewright.validation.hyvo_paper import BELOW_ONE, CLASSICAL_RADIUS, DRIVE, MM, NEW_RADII, PLATE_STRESSES, SMALLER
 from drivewright.validation.source import AGREES, OPEN, Printed, Row, rounded
 
 Progress: TypeAlias = Callable[[int, int, str], object]
@@ -88,8 +88,8 @@ def mean_of_cases(values: Floats, logarithmic: bool = False) -> Interval:
     """Mean of independent cases with Student's 95 % interval; of their logarithms where that is asked for."""
     data = np.asarray(values, float)
     data = np.log(data[np.isfinite(data)]) if logarithmic else data[np.isfinite(data)]
-    half = float(stats.t.ppf(0.975, len(data) - 1) * data.std(ddof=1) / np.sqrt(len(data)))
-    ends = data.mean() + np.array([0.0, -half, half])
+    mean, half = mean_of_members(data)
+    ends = mean + half * np.array([0.0, -1.0, 1.0])
     value, low, high = (np.exp(ends) if logarithmic else ends).tolist()
     return Interval(value, low, high)
 
@@ -146,8 +146,8 @@ def plate_rows(folder: Path) -> Iterator[Row]:
     new, control = loaded_group(folder), loaded_control(folder)
     stress = [mean_of_cases(study[STRESS]) for study in (new, control)]
     lives = [mean_of_cases(study[LIFE], logarithmic=True) for study in (new, control)]
-    for name, text, ours in (("group 3", "303.126221 MPa", stress[0]), ("control group", "468.663269 MPa", stress[1])):
-        yield _row(f"greatest stress of the plate, {name}", rounded(text, "Pa"), ours, "Pa", "section 6.2", **common)
+    for (name, printed), ours in zip(PLATE_STRESSES.items(), stress, strict=True):
+        yield _row(f"greatest stress of the plate, {name}", rounded(f"{printed} MPa", "Pa"), ours, "Pa", "section 6.2", **common)
     below = Printed("below 1", *BELOW_ONE)
     yield _row("greatest stress of the plate, group 3 over control", below, ratio(*stress), "-", "section 6.2", **common)
     for name, text, ours, of in (

@@ -73,8 +73,9 @@ def clearance_study(model: PusherModel, done: Answers) -> Answer:
     """Peak force and rod error over clearance at the given speed, and over speed without clearance."""
     plays, speeds = np.linspace(0, WIDEST, 5), model.spec.drive.speed * np.array([0.5, 1.0, 1.5])
     rows = [(play, model.spec.drive.speed) for play in plays] + [(0.0, speed) for speed in speeds]
-    runs = [simulate(model, play, speed) for play, speed in rows]
-    tight, loose, many = runs[0].peak_force, _loose_runs(model, runs[len(plays) - 1]), f"with {1e3 * WIDEST:g} mm of play in each roller"
+    loose = runs_with_play(model, WIDEST)
+    runs = [loose[0] if play == WIDEST else simulate(model, play, speed) for play, speed in rows]
+    tight, many = runs[0].peak_force, f"with {1e3 * WIDEST:g} mm of play in each roller"
     forces, separations = (np.array([getattr(run, name) for run in loose]) for name in ("peak_force", "separation"))
     values = {
         "clearance.peak_force.tight": Value(tight, "N", "largest normal force without play"),
@@ -96,9 +97,9 @@ def clearance_study(model: PusherModel, done: Answers) -> Answer:
     return Answer(values, (Table("clearance", "Play and speed", columns), by_play), checks)
 
 
-def _loose_runs(model: PusherModel, first: LeverRun) -> list[LeverRun]:
-    """The run at the widest play and others whose play differs by next to nothing: impacts are chaotic."""
-    return [first, *(simulate(model, WIDEST * (1 + 1e-6 * number)) for number in range(1, ENSEMBLE))]
+def runs_with_play(model: PusherModel, play: float) -> list[LeverRun]:
+    """Runs whose play [m] differs by next to nothing: impacts are chaotic.  The first has the play itself."""
+    return [simulate(model, play * (1 + 1e-6 * number)) for number in range(ENSEMBLE)]
 
 
 def _mean(numbers: Floats, unit: str, meaning: str, label: str) -> Value:
