@@ -21,10 +21,16 @@ CASES = 4000
 SIGNALS = {"INT": 130, "TERM": 143, "HUP": 129}
 
 
-def sweep(folder, workers=2):
+def sweep(folder, workers=2, cases=CASES):
     chain = [str(EXAMPLES / "hyvo_chain.toml"), "--only", "closure", "--set", "closure.strands=straight"]
-    vary = ["--vary", f"joint.rolling_radius=1.0 mm:1.6 mm:{CASES}", "--workers", str(workers), "--no-figures"]
+    vary = ["--vary", f"joint.rolling_radius=1.0 mm:1.6 mm:{cases}", "--workers", str(workers), "--no-figures"]
     return [sys.executable, "-m", "drivewright", "sweep", *chain, *vary, "--out", str(folder)]
+
+
+@pytest.fixture(scope="module")
+def compiled(tmp_path_factory):
+    """Kernels on the disk: a first run says a line of its own about them."""
+    assert subprocess.run(sweep(tmp_path_factory.mktemp("first") / "S", cases=4), capture_output=True).returncode == 0
 
 
 def descendants(pid):
@@ -74,6 +80,7 @@ def quiet(said):
     assert "interrupted; what was finished before is kept, and the same command goes on" in said
 
 
+@pytest.mark.usefixtures("compiled")
 @pytest.mark.parametrize("name", SIGNALS)
 def test_a_sweep_that_is_ended_keeps_what_is_done_and_leaves_nothing_behind(tmp_path, name):
     code, said = interrupted(sweep(tmp_path / "S"), parts(tmp_path / "S", 3), getattr(signal, f"SIG{name}"))
@@ -83,12 +90,14 @@ def test_a_sweep_that_is_ended_keeps_what_is_done_and_leaves_nothing_behind(tmp_
     assert 0 < len(study) < CASES and study.counts == {"complete": len(study)}
 
 
+@pytest.mark.usefixtures("compiled")
 def test_a_terminal_that_closes_sends_its_signal_to_all_of_them(tmp_path):
     code, said = interrupted(sweep(tmp_path / "S"), parts(tmp_path / "S", 3), signal.SIGHUP, whole_group=True)
     assert code == 129
     quiet(said)
 
 
+@pytest.mark.usefixtures("compiled")
 def test_an_impatient_system_sends_more_than_one(tmp_path):
     many = [signal.SIGTERM, signal.SIGHUP, signal.SIGTERM, signal.SIGTERM]
     code, said = interrupted(sweep(tmp_path / "S"), parts(tmp_path / "S", 3), *many)

@@ -82,9 +82,11 @@ def draw_chart(axis: "Axes", chart: Chart, columns: int = 1) -> None:
     axis.set_ylabel(textwrap.fill(literal(chart.y_label), 30))
     if chart.equal:
         axis.set_aspect("equal", adjustable="datalim")
+    axis.margins(y=0.1)
+    axis.update_datalim([(0.0, stated.y) for stated in chart.stated if stated.y is not None], updatex=False)
+    axis.autoscale_view()
     if chart.from_zero:
         axis.set_ylim(bottom=0.0)
-    axis.margins(y=0.1)
     if chart.log:
         log_ticks(axis.yaxis)
     _angles(axis, chart)
