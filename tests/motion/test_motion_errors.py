@@ -149,6 +149,10 @@ def test_segments():
     refused(["lifts of a table are absolute"], Segment, 1, law("table", angle=angle, lift=angle), 0.1)
 
 
+def mirrored(segment):
+    return Segment(segment.angle, segment.law, -segment.rise)
+
+
 def test_programmes():
     up, down = Segment(2.0, "cycloidal", 0.01), Segment(2.0, "cycloidal", -0.008)
     rest = Segment(TURN - 4, "dwell")
@@ -157,8 +161,12 @@ def test_programmes():
     refused(["130.816882 deg more", "shorten"], Programme, [up, up, rest, rest])
     refused(["cycle is nan"], Programme, [up, down, rest], math.nan)
     refused(
-        ["ends at a lift of 0.002, 0.002 (m, or rad for a swing) above its start at 0", "Change one by -0.002"], Programme, [up, down, rest]
+        ["ends 0.002 (SI) above its start", "rises are 0.01 (SI), -0.008 (SI); with -0.01 (SI) in segment 2"], Programme, [up, down, rest]
     )
+    refused(["ends 2 mm above", "10 mm, -8 mm; with -10 mm in segment 2 it closes"], Programme, [up, down, rest], TURN, "m")
+    refused(["ends 2 mm below", "8 mm, -10 mm; with -8 mm in segment 2"], Programme, [mirrored(down), mirrored(up), rest], TURN, "m")
+    refused(["ends 0.573 deg above"], Programme, [Segment(2.0, "cycloidal", math.radians(0.573)), Segment(TURN - 2, "dwell")], TURN, "rad")
+    refused(["rises are 10 mm; as a dwell segment 1 closes it"], Programme, [up, Segment(TURN - 2, "dwell")], TURN, "m")
     fine = Programme([up, Segment(2.0, "cycloidal", -0.01), rest])
     refused(["programme on a piece: theta = 2.5", "0 .. 2", "call the motion itself"], fine.on_piece, 0, 2.5)
     refused(["no piece 3", "0 .. 2"], fine.on_piece, 3, 2.5)
@@ -176,7 +184,8 @@ def test_tables_in_programmes():
         [Segment(2.0, "cycloidal", 0.01), Segment(2.1, rows), Segment(TURN - 4.1, "dwell")],
     )
     refused(
-        ["segment 2: its table starts at a lift of 0.01", "ends at 0.012", "-0.002"],
+        ["segment 2: its table starts at a lift of 10 mm", "ends at 12 mm", "shift them by 2 mm"],
         Programme,
         [Segment(2.0, "cycloidal", 0.012), Segment(2.0, rows), rest],
+        lift_unit="m",
     )

@@ -13,6 +13,7 @@ from drivewright.errors import InputError
 from drivewright.motion.laws import MotionLaw, law
 from drivewright.motion.piecewise import CLOSURE, Motion, Piecewise, joined
 from drivewright.numerics.jets import Jet, compose
+from drivewright.units import display
 
 TURN = 2 * math.pi
 DWELL = MotionLaw("dwell", Piecewise(np.array([0.0, 1.0]), np.zeros((1, 1)), np.zeros((1, 0), complex), np.zeros((1, 0))))
@@ -50,7 +51,7 @@ class Segment:
         law = self.motion_law
         reason = "a dwell does not move" if law.name == DWELL.name else "the lifts of a table are absolute" if law.span else ""
         if reason and self.rise != 0:
-            raise InputError(f"segment {self.motion_law.name!r}: a rise of {self.rise:.9g} is given, but {reason}; leave the rise out.")
+            raise InputError(f"segment {self.motion_law.name!r}: a rise is given, but {reason}; leave the rise out.")
         if not reason and self.rise == 0:
             raise InputError(f"segment {self.motion_law.name!r}: no rise is given; say how far it moves, or make it a dwell.")
 
@@ -87,17 +88,20 @@ class Programme:
 
     Derivatives are with respect to theta, which is taken modulo the cycle.  The lift starts at 0, or at the first row of a
     table that comes first.  Raises InputError where angles do not fill the cycle or the lift does not close; a jump of
-    velocity or acceleration is no error but stands in `joints()`.
+    velocity or acceleration is no error but stands in `joints()`.  `lift_unit`, "m" or "rad" where it is known, is that of the
+    lifts in these errors.
     """
 
     segments: tuple[Segment, ...]
     cycle: float = TURN
+    lift_unit: str = ""
 
     def __post_init__(self):
         object.__setattr__(self, "segments", tuple(self.segments))
         _refuse_angles(self.segments, self.cycle)
-        _refuse_tables(self.segments, self.levels)
-        _refuse_open(self.levels, np.ptp(self._sampled_lift))
+        _refuse_tables(self.segments, self.levels, self.lift_unit)
+        if abs(self.levels[-1] - self.levels[0]) > CLOSURE * np.ptp(self._sampled_lift):
+            raise InputError(_does_not_close(self.segments, float(self.levels[-1] - self.levels[0]), self.lift_unit))
 
     @cached_property
     def starts(self) -> Floats:
@@ -179,7 +183,7 @@ def _refuse_angles(segments, cycle):
         )
 
 
-def _refuse_tables(segments, levels):
+def _refuse_tables(segments, levels, unit):
     for number, (segment, level) in enumerate(zip(segments, levels, strict=False), 1):
         span = segment.motion_law.span
         if span is None:
@@ -189,20 +193,30 @@ def _refuse_tables(segments, levels):
                 f"programme, segment {number}: its table ends at {math.degrees(span):.9g} deg, but the segment spans "
                 f"{math.degrees(segment.angle):.9g} deg; make the last angle of the table and the segment's angle equal."
             )
-        first = segment.motion_law(0.0).s
+        first = float(segment.motion_law(0.0).s)
         if abs(first - level) > CLOSURE * np.max(np.abs([first, *levels])):
             raise InputError(
-                f"programme, segment {number}: its table starts at a lift of {first:.9g}, but the segment before ends at "
-                f"{level:.9g}, a jump of {first - level:+.3g} (SI). The lifts of a table are absolute: shift them, or change "
+                f"programme, segment {number}: its table starts at a lift of {_lift(first, unit)}, but the segment before ends at "
+                f"{_lift(level, unit)}. The lifts of a table are absolute: shift them by {_lift(level - first, unit)}, or change "
                 "the rise before."
             )
 
 
-def _refuse_open(levels, stroke):
-    gap = levels[-1] - levels[0]
-    if abs(gap) > CLOSURE * stroke:
-        raise InputError(
-            f"programme: it ends at a lift of {levels[-1]:.9g}, {abs(gap):.9g} (m, or rad for a swing) "
-            f"{'above' if gap > 0 else 'below'} its start at {levels[0]:.9g}; the rises of a closed cycle sum to zero. "
-            f"Change one by {-gap:.9g}."
-        )
+def _does_not_close(segments, gap, unit):
+    """What an open cycle is off by, the rises that make it so, and a rise that would close it."""
+    way = "above" if gap > 0 else "below"
+    rises = [(number, segment.rise) for number, segment in enumerate(segments, 1) if segment.rise]
+    told = f"programme: the lift ends {_lift(abs(gap), unit)} {way} its start, and a closed cycle must end where it starts"
+    if not rises:
+        return f"{told}; change the last lift of its table."
+    given = ", ".join(_lift(rise, unit) for _, rise in rises)
+    number, rise = rises[-1]
+    if math.isclose(rise, gap):
+        return f"{told}: its rises are {given}; as a dwell segment {number} closes it."
+    return f"{told}: its rises are {given}; with {_lift(rise - gap, unit)} in segment {number} it closes."
+
+
+def _lift(value, unit):
+    """A lift in the unit people read, in SI where nobody said whether it is a length or an angle."""
+    factor, shown = display(unit) if unit else (1.0, "(SI)")
+    return f"{value * factor:.9g} {shown}"

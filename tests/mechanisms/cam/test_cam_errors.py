@@ -82,7 +82,10 @@ def test_programme(tmp_path):
     (tmp_path / "lift.csv").write_text("angle [deg],lift [mm]\n" + "\n".join(f"{a},{s}" for a, s in rows))
     cases = [
         (segments()[:2], ("sum to 270 deg", "90 deg less")),
-        ([*segments()[:2], {"angle": "90 deg", "law": "cycloidal", "rise": "1 mm"}], ("ends at a lift", "sum to zero")),
+        (
+            [*segments()[:2], {"angle": "90 deg", "law": "cycloidal", "rise": "1 mm"}],
+            ("programme: the lift ends 1 mm above its start", "20 mm, -20 mm, 1 mm; as a dwell segment 3"),
+        ),
         (segments(law="cyclodial"), ("programme.0", "did you mean 'cycloidal'")),
         (segments(b=0.5), ("programme.0.law", "unexpected keyword argument 'b'")),
         ([*segments()[:2], {"angle": "90 deg", "law": "dwell", "b": 0.25}], ("programme.2.b", "dwell has no parameters")),

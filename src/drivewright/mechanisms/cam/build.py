@@ -116,7 +116,8 @@ def build(spec: CamSpec) -> CamModel:
 
 def programme_of(spec: CamSpec) -> motion.Programme:
     """The motion over one turn."""
-    return motion.Programme(tuple(_segment(spec, number) for number in range(len(spec.programme))))
+    segments = tuple(_segment(spec, number) for number in range(len(spec.programme)))
+    return motion.Programme(segments, lift_unit="rad" if spec.follower.motion == "oscillating" else "m")
 
 
 def clear_of_axis(model: CamModel) -> Bools:

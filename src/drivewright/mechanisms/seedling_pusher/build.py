@@ -174,7 +174,7 @@ def _programme(spec):
             motion.Segment(push.retraction, push.law, -push.stroke),
             motion.Segment(rest, "dwell"),
         )
-        return motion.Programme(tuple(segment for segment in segments if segment))
+        return motion.Programme(tuple(segment for segment in segments if segment), lift_unit="m")
     except InputError as error:
         raise SpecError(str(error), "push.law") from None
 
