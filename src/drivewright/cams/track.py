@@ -67,6 +67,11 @@ class CamTrack:
         return f" ({self.name})" if self.prefix else ""
 
     @property
+    def surface(self) -> str:
+        """What stands behind labels, to tell them from those of the cam."""
+        return f", {'second cam' if self.name == 'conjugate' else self.name}" if self.prefix else ""
+
+    @property
     def curve(self) -> str:
         """The curve whose curvature counts."""
         return "profile" if self.flat else "pitch curve"

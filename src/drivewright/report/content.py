@@ -232,7 +232,7 @@ def _check(check: Check) -> Content:
     margin = _margin(check, factor) if math.isfinite(check.margin) else ""
     return {
         "name": check.name,
-        "label": sentence(check.name.replace("_", " ").replace(".", " · ")),
+        "label": check_label(check),
         "ok": bool(check.ok),
         "value": with_unit(text, unit),
         "low": low,
@@ -243,6 +243,11 @@ def _check(check: Check) -> Content:
         "message": sentence(check.message),
         "parts": list(check.parts),
     }
+
+
+def check_label(check: Check) -> str:
+    """The label of a check, its name in words where it has none."""
+    return sentence(check.label or check.name.replace("_", " ").replace(".", " · "))
 
 
 def _margin(check: Check, factor: float) -> str:

@@ -88,6 +88,7 @@ def _continuity(model):
                 "-",
                 f"largest jump of the {name} over its peak",
                 ("follower",),
+                label=f"{name} jump over its peak",
             )
             for order, name, limit in ((1, "velocity", limits.velocity_jump), (2, "acceleration", limits.acceleration_jump))
         )
@@ -191,7 +192,7 @@ def _convex(model, number):
     if track.flat:
         least = cams.min_flat_radius(model.cycle, track.flat_face)
         message = "least radius of curvature of the profile: below 0 the face cuts it away"
-        check = Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True)
+        check = Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True, label="undercut, profile radius")
         return Answer(_radius_values(track, "convex", least.where(np.greater(least.value, 0))), (), (check,))
     place = cams.min_pitch_radius(model.cycle, track.contact, 1)
     return Answer(_radius_values(track, "convex", place), (), _undercut(model, track, place) if track.flank > 0 else ())
@@ -217,16 +218,16 @@ def _radius_values(track, name, place):
 
 
 def _undercut(model, track, place):
-    """Radius of the pitch curve over that of the face, where the face is inside the bend."""
+    """Radius of the pitch curve over that of the face, where the face is inside the bend; the plot shows the reciprocal, free of poles."""
     if np.all(track.radius == 0):
         return ()
     ratio, recommended, parts = place.value / track.radius, model.spec.limits.curvature_ratio, (track.name,)
     message = "least radius of the pitch curve over that of the face: below 1 the profile cuts itself away"
+    label, advised = f"undercut, pitch/face radius{track.surface}", f"recommended pitch/face ratio{track.surface}"
+    margin = "least convex radius over roller radius, recommended"
     return (
-        Check(f"undercut{track.suffix}", ratio, 1.0, ">=", "-", message, parts, True),
-        Check(
-            f"curvature_margin{track.suffix}", ratio, recommended, ">=", "-", "least convex radius over roller radius, recommended", parts
-        ),
+        Check(f"undercut{track.suffix}", ratio, 1.0, ">=", "-", message, parts, True, label=label),
+        Check(f"curvature_margin{track.suffix}", ratio, recommended, ">=", "-", margin, parts, label=advised),
     )
 
 
@@ -247,7 +248,8 @@ def _face(model):
         return Answer(values)
     middle = given.arm_length if model.oscillating else given.face_offset
     used, message = np.maximum(high - middle, middle - low), "the contact stays on the flat face, measured from its middle"
-    return Answer(values, (), (Check("half_face", used, given.half_face, "<=", "m", message, ("follower",)),))
+    check = Check("half_face", used, given.half_face, "<=", "m", message, ("follower",), label="half length of face in use")
+    return Answer(values, (), (check,))
 
 
 def _base_radius(model):
@@ -266,9 +268,10 @@ def _closure(model):
             "yoke.breadth_error": Value(error, "m", meaning),
         }
         message = "the yoke fits at every angle: s(theta) + s(theta + pi) is constant"
-        return Answer(values, (), (Check("closure.breadth", error, limits.breadth_error, "<=", "m", message, ("follower", "cam"), True),))
+        parts, label = ("follower", "cam"), "error of the constant breadth"
+        return Answer(values, (), (Check("closure.breadth", error, limits.breadth_error, "<=", "m", message, parts, True, label=label),))
     if model.spec.closure == "groove":
         travel, meaning = cams.play(model.cycle, model.tracks[0].contact, model.clearance), "travel through the clearance of the groove"
-        check = Check("groove.play", travel, limits.play, "<=", "m", meaning, ("follower",))
+        check = Check("groove.play", travel, limits.play, "<=", "m", meaning, ("follower",), label="play in the groove")
         return Answer({"groove.play": Value(travel, "m", meaning)}, (), (check,))
     return Answer()

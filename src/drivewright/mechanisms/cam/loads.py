@@ -170,7 +170,8 @@ def _separation(model):
         "min_required_force.at": Value(least.angle % (2 * np.pi), "rad", "cam angle of it, from the start of the programme"),
     }
     message = "the follower stays on the cam: least force along the travel"
-    return Answer(values, (), (Check("separation", least.value, model.spec.limits.contact_force, ">=", "N", message, ("follower",)),))
+    limit, label = model.spec.limits.contact_force, "separation, least force"
+    return Answer(values, (), (Check("separation", least.value, limit, ">=", "N", message, ("follower",), label=label),))
 
 
 def _needed_preload(model):

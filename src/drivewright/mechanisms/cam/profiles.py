@@ -13,6 +13,8 @@ from drivewright.mechanisms.cam.geometry import existing
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.result import Answer, Answers, Check, Value, merge_answers
 
+HOLLOW = "hollow radius for the cutter"
+
 
 def finished_profiles(model: CamModel, done: Answers) -> Answer:
     """The profiles after global trimming: lost motion, size, walls, cutter; one inspection table each."""
@@ -131,12 +133,13 @@ def _cutter(model):
     cutter, message = model.spec.manufacture.cutter_diameter, "diameter of the cutter, which must go into the groove"
     if model.spec.closure == "groove":
         width = 2 * model.follower.radius + model.clearance
-        return Answer(checks=(Check("cutter", cutter, width, "<=", "m", message, ("cam",)),))
+        return Answer(checks=(Check("cutter", cutter, width, "<=", "m", message, ("cam",), label="cutter diameter, groove width"),))
     message = "least hollow radius of the profile against the radius of the cutter"
     hollow = {track: cams.min_hollow_radius(model.cycle, track.contact, track.radius) for track in model.tracks if _is_hollowed(track)}
     return Answer(
         checks=tuple(
-            Check(f"cutter{track.suffix}", radius, cutter / 2, ">=", "m", message, (track.name,)) for track, radius in hollow.items()
+            Check(f"cutter{track.suffix}", radius, cutter / 2, ">=", "m", message, (track.name,), label=f"{HOLLOW}{track.surface}")
+            for track, radius in hollow.items()
         )
     )
 

@@ -26,7 +26,12 @@ PLOTS = (
             Plot(f"pressure_angle{suffix}", f"Pressure angle{words}", f"geometry{suffix}", "angle", ("pressure_angle",)),
             Plot(f"curvature{suffix}", f"Curvature{words}", f"geometry{suffix}", "angle", ("curvature",)),
             Plot(
-                f"undercut{suffix}", f"Face over pitch radius{words}", f"undercut{suffix}", "angle", ("ratio",), ((1.0, "undercut above"),)
+                f"undercut{suffix}",
+                f"Undercut, face/pitch radius{words}",
+                f"undercut{suffix}",
+                "angle",
+                ("ratio",),
+                ((1.0, "undercut above"),),
             ),
         )
     ),

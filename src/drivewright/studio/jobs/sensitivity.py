@@ -13,7 +13,7 @@ from drivewright.errors import SpecError, UnknownName
 from drivewright.execution.case_table import MESSAGE
 from drivewright.execution.evaluation import case_task
 from drivewright.execution.outputs import CHECK
-from drivewright.report.content import headline
+from drivewright.report.content import check_label, headline
 from drivewright.spec import Study
 from drivewright.spec.fields import field_at, marker_of
 from drivewright.studies.plan import Block, Plan
@@ -89,9 +89,7 @@ def _requested_targets(spec, progress, names):
 
 def _targets(result, names):
     """{column: (kind, label, SI unit, value)} of the checks' margins and the headline values; of those named, if any are."""
-    targets = {
-        f"{CHECK}{c.name}": ("check", sentence(c.name.replace("_", " ").replace(".", " · ")), c.unit, c.margin) for c in result.checks
-    }
+    targets = {f"{CHECK}{c.name}": ("check", check_label(c), c.unit, c.margin) for c in result.checks}
     for value in headline(result):
         about = result.values[value["name"]]
         targets[value["name"]] = ("value", value["meaning"], about.unit, about.value)
