@@ -7,6 +7,7 @@ import numpy as np
 
 from drivewright.errors import InputError
 from drivewright.result import Result
+from drivewright.view.coincident import is_covered
 from drivewright.view.histograms import draw_histogram
 from drivewright.view.maps import draw_map, map_into
 from drivewright.view.markers import line_marker, marked_rows
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 FEW = 25  # up to so many points each one is marked
+DASH = 4.0  # line widths that a dash of a covered line is long
 MANY = 1500  # from so many points on lines are thinner and points smaller
 
 
@@ -119,6 +121,8 @@ def _draw(axis, panel, told):
         BARS[panel.style](axis, panel.series, x)
     for series in panel.series if panel.style not in BARS else ():
         _draw_series(axis, panel, series, x if series.x is None else series.x, names)
+    if names is None and any(series.covered is not None for series in panel.series):
+        _show_covered(axis, panel, x)
     for start, end in panel.shade:
         axis.axvspan(start, end, color=colour("line"), zorder=0, lw=0)
     for radius, text in panel.rings:
@@ -186,6 +190,31 @@ def _line_markers(panel, series, x, data):
         return {"marker": "o", "ms": 3.5} if few else {}
     rows = None if few else marked_rows(x, data, _number(solid, series), len(solid), upright=not panel.equal)
     return {"marker": _own_marker(panel, series, ""), "ms": 5.5, "mew": 0.4, "mec": "white", "markevery": rows}
+
+
+def _show_covered(axis, panel, x):
+    """Dashes of each covered line upon the lines that cover it, and the markers of all lines upon the dashes."""
+    for series in reversed(panel.series):
+        if series.covered is None:
+            continue
+        place, on = x if series.x is None else series.x, is_covered(series.covered)
+        for count in np.unique(series.covered[on]):
+            data = np.where(on & (series.covered == count), series.data, np.nan)
+            axis.plot(place, data, lw=2.0, ls=(0, (DASH, DASH * count)), color=colour(series.role), zorder=2.1, dash_capstyle="butt")
+    for line in axis.get_lines():
+        if line.get_marker() not in ("", "None", None):
+            line.set_zorder(2.0)
+            axis.plot(line.get_xdata(), line.get_ydata(), ls="none", color=line.get_color(), zorder=2.2, **_look_of_markers(line))
+
+
+def _look_of_markers(line):
+    return {
+        "marker": line.get_marker(),
+        "ms": line.get_markersize(),
+        "mew": line.get_markeredgewidth(),
+        "mec": line.get_markeredgecolor(),
+        "markevery": line.get_markevery(),
+    }
 
 
 def _number(lines, line):

@@ -9,6 +9,7 @@ from drivewright._typing import Floats
 from drivewright.errors import InputError, UnknownName
 from drivewright.result import Column, Plot, Result
 from drivewright.view.axis_names import common_phrase
+from drivewright.view.coincident import show_coincident
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.markers import line_marker
 from drivewright.view.palette import SERIES
@@ -122,7 +123,7 @@ def _panel(results, labels, curves, common):
     x = series_of(first.x) if names is None else series_of(first.x)._replace(data=names)
     column = first.line.column
     drawn = panel_of(plot, x, series, (_meaning(results, curves), column.unit), _limits(results, labels, curves))
-    return drawn._replace(places=_shared_places(curves))
+    return show_coincident(drawn._replace(places=_shared_places(curves)))
 
 
 def _shared_places(curves):

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivewright import registry
-from drivewright._typing import ArrayLike, Floats
+from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import UnknownName
 from drivewright.result import Column, Plot, Result, Table
 from drivewright.view.axis_names import axis_name
@@ -31,6 +31,7 @@ class Series(NamedTuple):
 
     `ends` are the (low, high) of its 95 % intervals, nan where a value has none; () where no value has one.
     `x` are its own places on the x axis [unit of the panel's x], None where they are the panel's.
+    `covered`: how many later lines of the panel lie upon this one at each row (rows,), None where none does.
     """
 
     name: str
@@ -42,6 +43,7 @@ class Series(NamedTuple):
     marker: str = ""
     ends: tuple[Floats, ...] = ()
     x: Floats | None = None
+    covered: Ints | None = None
 
 
 class Panel(NamedTuple):
