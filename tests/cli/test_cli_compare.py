@@ -55,6 +55,36 @@ def test_labels_and_changes_go_to_every_design(drivewright, folder):
     assert all(left == right for left, right in record["values"].values())
 
 
+def test_of_two_designs_the_terminal_has_the_difference_and_says_when_they_are_identical(drivewright, folder):
+    _, out, err = drivewright("compare", "a.toml", "b.toml", "--out", "page")
+    row = next(line for line in out.splitlines() if "max_pressure_angle" in line)
+    assert "difference" in out and "−2.637° (−9.63\u00a0%)" in row and "identical" not in err
+    set_ = ("--set", "follower.prime_radius=44 mm")
+    _, out, err = drivewright("compare", "a.toml", "b.toml", "--out", "page", "--only", "forces", *set_)
+    assert "note: a and b are identical: their specs differ in no key (--set changes every design)\n" in err
+
+
+def test_of_several_designs_those_that_are_identical_are_named(drivewright, folder):
+    _, out, err = drivewright("compare", "a.toml", "b.toml", "c.toml", "--labels", "A,B,C", "--out", "page", "--only", "forces")
+    assert "difference" not in out and "note: A and C are identical: their specs differ in no key\n" in err
+
+
+@pytest.mark.parametrize(
+    ("rise", "message"),
+    [
+        ("500", 'programme.0.rise: a bare number; a length wants its unit, e.g. "500 mm"'),
+        ("500 mm", "programme: the lift ends 480 mm above its start, and a closed cycle must end where it starts: "),
+        ('"-5 mm"', "the lift ends 25 mm below its start"),
+        ("5 km", "its rises are 5000000 mm, -20 mm; with -5000000 mm in segment 2 it closes."),
+        ("0.5 rad", "programme.0.rise: must be a length"),
+    ],
+)
+@pytest.mark.parametrize("command", [("compare", "a.toml", "b.toml"), ("run", "a.toml")])
+def test_a_rise_that_cannot_be_is_one_line_in_the_unit_people_write(drivewright, folder, command, rise, message):
+    code, out, err = drivewright(*command, "--set", f"programme.0.rise={rise}")
+    assert (code, out, err.count("\n")) == (2, "", 1) and message in err and "rad for a swing" not in err
+
+
 def test_a_file_given_twice_is_numbered(drivewright, folder):
     code, *_ = drivewright("compare", "a.toml", "a.toml", "--out", "page", "--only", "forces")
     assert code == 0 and json.loads((folder / "page" / "compare.json").read_text())["labels"] == ["a", "a (2)"]

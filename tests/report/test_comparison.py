@@ -10,7 +10,7 @@ from sample_designs import PLOTS, four_bar_result
 import drivewright as dw
 from drivewright import registry
 from drivewright.errors import InputError, UnknownName
-from drivewright.report.comparison import MOST_DESIGNS, Difference, difference, difference_text, distinct, value_text
+from drivewright.report.comparison import MOST_DESIGNS, Difference, difference, difference_text, distinct, identical_text, value_text
 from drivewright.result import Value
 
 pytestmark = pytest.mark.interface
@@ -51,9 +51,32 @@ def test_a_number_that_does_not_exist_is_none():
     assert dw.compare([changed(ratio=math.inf), changed("Third", ratio=math.nan)]).values.get("ratio") is None
 
 
+def cam(*changes):
+    """The sample as if it came from a cam with these changes."""
+    return replace(FIRST, spec=dw.load(registry.mechanism("cam").presets()["default"], changes))
+
+
+def test_the_record_has_the_checks_and_the_keys_that_differ():
+    plain, other = cam(), cam("drive.speed=700 rpm", "limits.contact_pressure=900 MPa")
+    fewer = replace(other, checks=tuple(check for check in FIRST.checks if check.ok))
+    record = json.loads(json.dumps(dw.compare([plain, fewer], ["A", "B"]).record(), allow_nan=False))
+    assert record["checks"] == {check.name: [True, True] if check.ok else [False, None] for check in FIRST.checks}
+    assert {check.ok for check in FIRST.checks} == {True, False}
+    assert record["differing"] == {"drive.speed": ["600 rpm", "700 rpm"], "limits.contact_pressure": [None, "900 MPa"]}
+
+
+def test_designs_whose_specs_differ_in_no_key_are_identical():
+    slow, fast, other = cam("drive.speed=10 rev/s"), cam("drive.speed=700 rpm"), cam("title=Another")
+    assert dw.compare([cam(), slow, fast, other], ["A", "B", "C", "D"]).identical == (("A", "B", "D"),)
+    assert dw.compare([cam(), fast, fast, slow], ["A", "B", "C", "D"]).identical == (("A", "D"), ("B", "C"))
+    assert dw.compare([cam(), fast]).identical == ()
+    assert identical_text(("A", "B", "D")) == "A, B and D are identical: their specs differ in no key"
+
+
 def test_the_record_is_what_the_file_has():
-    comparison = dw.compare([FIRST, SECOND], ["A", "B"])
+    comparison = dw.compare([cam(), replace(SECOND, spec=cam().spec)], ["A", "B"])
     record = json.loads(json.dumps(comparison.record(), allow_nan=False))
+    assert set(record) == {"mechanism", "labels", "values", "units", "checks", "differing"}
     assert record["labels"] == ["A", "B"] and record["mechanism"] == FIRST.mechanism
     assert {name: tuple(row) for name, row in record["values"].items()} == comparison.values
     assert record["units"] == comparison.units and record["values"]["deviation"][1] is None
@@ -122,8 +145,8 @@ def test_a_plot_has_a_panel_for_each_quantity_and_in_it_a_curve_for_each_design(
     figure = dw.compare([FIRST, SECOND, FIRST], ["A", "B", "C"]).plot("speed")
     assert len(figure.axes) == 2
     for axes in figure.axes:
-        assert [line.get_label() for line in axes.lines] == ["A", "B", "C"]
-    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["A", "B", "C"]
+        assert [line.get_label() for line in axes.lines if line.get_label()[0] != "_"] == ["A", "B (same as A)", "C (same as A)"]
+    assert [text.get_text() for text in figure.axes[0].get_legend().get_texts()] == ["A", "B (same as A)", "C (same as A)"]
     assert figure.axes[1].get_legend() is None
 
 

@@ -53,8 +53,10 @@ def text_of(page):
 def test_the_folder_holds_page_record_and_figures(written, designs):
     assert {path.name for path in written.iterdir()} == {"index.html", "compare.json", "figures"}
     record = json.loads((written / "compare.json").read_text())
-    assert set(record) == {"mechanism", "labels", "values", "units"} and record["mechanism"] == "cam"
+    assert set(record) == {"mechanism", "labels", "values", "units", "checks", "differing"} and record["mechanism"] == "cam"
     assert record["labels"] == list(CHANGES)
+    assert record["differing"]["drive.speed"] == ["600 rpm", "600 rpm", "900 rpm"]
+    assert record["checks"]["separation"] == [True, True, False] and set(record["checks"]) >= {"undercut", "cutter"}
     assert {name: tuple(row) for name, row in record["values"].items()} == designs[0].values
     names = {path.stem for path in (written / "figures").iterdir()}
     assert {"scene-machine", "plot-pressure_angle", "plot-motion", "drawing-cam"} <= names
@@ -121,6 +123,49 @@ def test_a_design_beside_itself_shows_no_difference(designs):
     said = comparison_content(dw.compare([comparison.results[0]] * 2))
     assert said["keys"] == [] and not any(row["differs"] for row in said["values"])
     assert {row["cells"][1]["difference"] for row in said["values"]} == {"0"}
+
+
+def rows_of(page, part):
+    """The texts of the cells of the table rows within the element of that id."""
+    card = re.search(rf'<(section|details) class="card" id="{part}">(.*?)</\1>', page, re.DOTALL)[2]
+    return [
+        [text_of(cell).strip() for cell in re.findall(r"<t[dh][^>]*>.*?</t[dh]>", row, re.DOTALL)]
+        for row in re.findall(r"<tr.*?</tr>", card, re.DOTALL)
+    ]
+
+
+@pytest.mark.parametrize("part", ["headline", "values"])
+def test_the_difference_of_two_designs_has_a_column_and_the_page_says_to_which(designs, tmp_path, part):
+    comparison, seen = designs
+    page = (write_comparison(dw.compare(comparison.results[:2], ["A", "B"]), seen[:2], tmp_path / "out") / "index.html").read_text()
+    head, *rows = rows_of(page, part)
+    assert head == ["Quantity", "A", "B", "Difference"]
+    named = {row[0]: row[1:] for row in rows}
+    assert named["Stroke of the follower lift"] == ["20 mm", "20 mm", "0"]
+    angle = next(row for name, row in named.items() if name.startswith("Largest pressure angle, "))
+    assert angle[2].startswith("−") and angle[2].endswith(" %)") and "(" not in angle[1]
+    assert "Differences are B less A" in text_of(page) and "Differences are to" not in text_of(page)
+
+
+def test_the_differences_of_several_designs_stand_below_the_values(written):
+    page = (written / "index.html").read_text()
+    head, *rows = rows_of(page, "headline")
+    assert head == ["Quantity", *CHANGES]
+    assert any(re.search(r"N [+−].*%\)", row[3]) for row in rows)
+    assert "differences to the first design, Plain" in text_of(page) and "are identical" not in text_of(page)
+
+
+def test_the_page_says_which_designs_are_identical(designs, tmp_path):
+    comparison, seen = designs
+    same = dw.compare([comparison.results[n] for n in (0, 1, 0)], ["A", "B", "C"])
+    page = write_comparison(same, [seen[n] for n in (0, 1, 0)], tmp_path / "out") / "index.html"
+    assert "A and C are identical: their specs differ in no key." in text_of(page.read_text())
+
+
+def test_checks_are_named_by_what_they_measure(designs):
+    rows = {row["name"]: row["label"] for row in comparison_content(designs[0])["checks"]}
+    assert rows["undercut"] == "Undercut, pitch/face radius" and rows["cutter"] == "Hollow radius for the cutter"
+    assert rows["bore_wall"] == "Bore wall"
 
 
 def test_a_later_comparison_replaces_the_earlier_one_and_nothing_else(designs, tmp_path):

@@ -148,7 +148,7 @@ def compare(
         with show.located(folder):
             write_comparison(comparison, [seen for _, seen in designs], folder, compute)
     show.note(f"wrote {folder}/")
-    compared.show_comparison(comparison)
+    compared.show_comparison(comparison, bool(set_))
     show.finish_run(comparison.results)
 
 

@@ -68,19 +68,43 @@ def _run(only: tuple[str, ...], design: "tuple[Path, MechanismSpec]") -> "Design
         return result, views(result, model)
 
 
-def show_comparison(comparison: "DesignComparison") -> None:
-    """The headline values of the designs side by side, and the checks that fail."""
+def show_comparison(comparison: "DesignComparison", changed: bool = False) -> None:
+    """The headline values of the designs side by side, of two with the difference, which designs are the same and the checks that fail.
+
+    `changed`: keys were set for all designs at once.
+    """
+    from drivewright.report.comparison import identical_text
     from drivewright.report.comparison_page import headline_names
 
     names = headline_names(comparison)[:MAX_ROWS]
-    header: show.Header = [("value", "left"), *((label, "right") for label in comparison.labels), ("", "left")]
-    rows = [(name, *(_value(result, name) for result in comparison.results), comparison.known(name).meaning) for name in names]
+    pair = len(comparison.results) == 2
+    apart: show.Header = [("difference", "right")] if pair else []
+    header: show.Header = [("value", "left"), *((label, "right") for label in comparison.labels), *apart, ("", "left")]
+    rows = [
+        (
+            name,
+            *(_value(result, name) for result in comparison.results),
+            *_difference(comparison, name)[:pair],
+            comparison.known(name).meaning,
+        )
+        for name in names
+    ]
     checks = ["fails" if not result.ok else "pass" if result.checks else "none" for result in comparison.results]
-    show.table(f"{comparison.mechanism}: {len(comparison.labels)} designs", header, [*rows, ("checks", *checks, "")])
+    show.table(f"{comparison.mechanism}: {len(comparison.labels)} designs", header, [*rows, ("checks", *checks, *[""] * pair, "")])
+    for labels in comparison.identical:
+        show.note(f"note: {identical_text(labels)}{' (--set changes every design)' if changed else ''}")
     for label, result in zip(comparison.labels, comparison.results, strict=True):
         failed = [check.name for check in result.checks if not check.ok]
         if failed:
             show.note(f"note: {label}: {', '.join(failed)} {'fails' if len(failed) == 1 else 'fail'}")
+
+
+def _difference(comparison: "DesignComparison", name: str) -> list[str]:
+    """The difference of the second design to the first one, marked where the intervals of the two overlap."""
+    from drivewright.report.comparison import difference_text
+
+    apart = comparison.differences(name)[1]
+    return [difference_text(apart, comparison.known(name).unit) + ("" if apart is None or apart.certain else " ~")]
 
 
 def _value(result: "Result[Any]", name: str) -> str:

@@ -5,11 +5,13 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from drivewright.errors import InputError
 from drivewright.labels import label_of
 from drivewright.result import Result, Value
+from drivewright.spec.differences import DifferingKey, differing_keys
 from drivewright.view import draw_panels
 from drivewright.view.overlays import overlay
 from drivewright.view.text import SOLID, display_unit, number, numbers, uncertain, with_unit
@@ -66,10 +68,40 @@ class DesignComparison:
         first = self.results[0].values.get(name)
         return tuple(difference(first, result.values.get(name)) for result in self.results)
 
+    @property
+    def checks(self) -> dict[str, tuple[bool | None, ...]]:
+        """{name: whether the check of each design passes}, None where a design does not make it."""
+        made = [{check.name: bool(check.ok) for check in result.checks} for result in self.results]
+        return {name: tuple(each.get(name) for each in made) for name in dict.fromkeys(name for each in made for name in each)}
+
+    @property
+    def differing_keys(self) -> tuple[DifferingKey, ...]:
+        """The keys in which the specs differ."""
+        return differing_keys([result.spec for result in self.results])
+
+    @property
+    def identical(self) -> tuple[tuple[str, ...], ...]:
+        """The labels of designs whose specs differ in no key, two or more together."""
+        groups: dict[int, list[int]] = {}
+        for place, result in enumerate(self.results):
+            first = next((each for each in groups if not differing_keys([self.results[each].spec, result.spec])), place)
+            groups.setdefault(first, []).append(place)
+        return tuple(tuple(self.labels[each] for each in group) for group in groups.values() if len(group) > 1)
+
     def record(self) -> dict[str, Any]:
-        """Plain dictionary as in compare.json."""
-        values = {name: list(row) for name, row in self.values.items()}
-        return {"mechanism": self.mechanism, "labels": list(self.labels), "values": values, "units": self.units}
+        """Plain dictionary as in compare.json; None for what a design does not have.
+
+        `values` {name: SI number of each design}, `units` {name: SI unit}, `checks` {name: whether that of each design passes} and
+        `differing` {key of the specs: text of its value in each design}.
+        """
+        return {
+            "mechanism": self.mechanism,
+            "labels": list(self.labels),
+            "values": {name: list(row) for name, row in self.values.items()},
+            "units": self.units,
+            "checks": {name: list(row) for name, row in self.checks.items()},
+            "differing": {key: [None if value is None else entry_text(value) for value in row] for key, row in self.differing_keys},
+        }
 
     def plot(self, name: str) -> "Figure":
         """A matplotlib Figure of a table or of one of the mechanism's plots: a panel for each quantity, in it a curve for each design."""
@@ -178,6 +210,20 @@ def value_text(value: Value | None) -> str:
     if value is None or not math.isfinite(value.value):
         return "–"
     return uncertain(value.value, value.unit, value.low, value.high)
+
+
+def identical_text(labels: Sequence[str]) -> str:
+    """One sentence about designs that are the same."""
+    return f"{', '.join(labels[:-1])} and {labels[-1]} are identical: their specs differ in no key"
+
+
+def entry_text(value: object) -> str:
+    """An entry of a spec as people read it, a dash where there is none; a data file by its name."""
+    if value is None:
+        return "–"
+    if isinstance(value, str):
+        return Path(value).name if Path(value).is_absolute() else value
+    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 def difference_text(apart: Difference | None, unit: str) -> str:

@@ -9,15 +9,25 @@ from typing import Any, NamedTuple
 
 from drivewright import registry
 from drivewright.execution.helper import Map
-from drivewright.report.comparison import DesignComparison, difference_text, distinct, value_text
-from drivewright.report.content import Content, Picture, Sketch, Views, draw_sketch, failing_sketch, program, scene_phase, summary
+from drivewright.report.comparison import DesignComparison, difference_text, distinct, entry_text, identical_text, value_text
+from drivewright.report.content import (
+    Content,
+    Picture,
+    Sketch,
+    Views,
+    check_label,
+    draw_sketch,
+    failing_sketch,
+    program,
+    scene_phase,
+    summary,
+)
 from drivewright.report.folder import file_name, refuse_other
 from drivewright.report.html import embedded, page, template_text
 from drivewright.report.moving import Place, recover, replacing_folder
 from drivewright.report.pack import pack_scene
 from drivewright.result import Check, Result, Value
 from drivewright.scene import Scene
-from drivewright.spec.differences import differing_keys
 from drivewright.view import draw_overlaid, draw_panels, draw_scene
 from drivewright.view.axis_names import common_phrase
 from drivewright.view.merged_scenes import merged_scene
@@ -174,7 +184,7 @@ def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()
     failed = sum(verdict["state"] == "bad" for verdict in verdicts)
     names = list(comparison.values)
     headline = headline_names(comparison)
-    keys = differing_keys([result.spec for result in results])
+    keys = comparison.differing_keys
     rows = [_value_row(comparison, name) for name in names]
     return {
         "title": f"Comparison of {len(results)} designs",
@@ -184,12 +194,14 @@ def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()
             "state": "bad" if failed else "good",
             "text": f"{failed} of {len(results)} fail a check" if failed else "no failed check",
         },
+        "identical": [identical_text(group) for group in comparison.identical],
         "designs": [_design(*each) for each in zip(results, labels, verdicts, range(len(labels)), strict=True)],
         "headline": [_value_row(comparison, name) for name in headline],
         "checks": [_check_row(name, results) for name in dict.fromkeys(check.name for result in results for check in result.checks)],
         "keys": [_key_row(row) for row in keys[:MOST_KEYS]],
         "more_keys": max(len(keys) - MOST_KEYS, 0),
         "values": rows,
+        "pair": len(results) == 2,
         "uncertain": any(not cell["certain"] for row in rows for cell in row["cells"]),
         "findings": [{"label": label, "findings": list(result.findings)} for result, label in zip(results, labels, strict=True)],
         "remarks": list(remarks),
@@ -208,7 +220,7 @@ def headline_names(comparison: DesignComparison) -> list[str]:
 def _design(result: Result[Any], label: str, verdict: dict[str, str], number_: int) -> Content:
     seconds = with_unit(number(result.provenance.get("seconds", 0.0), 2), unit_text("s"))
     colour = SERIES[number_ % len(SERIES)]
-    failed = [_label(check) for check in result.checks if not check.ok]
+    failed = [check_label(check) for check in result.checks if not check.ok]
     return {
         "label": label,
         "title": result.title,
@@ -253,15 +265,11 @@ def _check_row(name: str, results: Sequence[Result[Any]]) -> Content:
     limits = {(check.sense, check.limit) for check in known}
     return {
         "name": name,
-        "label": _label(known[0]),
+        "label": check_label(known[0]),
         "message": sentence(known[0].message),
         "limit": _limit(known[0]) if len(limits) == 1 else "",
         "cells": [_check_cell(check, len(limits) > 1) for check in found],
     }
-
-
-def _label(check: Check) -> str:
-    return sentence(check.name.replace("_", " ").replace(".", " · "))
 
 
 def _limit(check: Check) -> str:
@@ -280,13 +288,4 @@ def _check_cell(check: Check | None, own_limit: bool) -> Content:
 
 def _key_row(row) -> Content:
     first = row.values[0]
-    return {"key": row.key, "cells": [{"text": _entry(value), "same": value == first} for value in row.values]}
-
-
-def _entry(value: object) -> str:
-    """An entry of a spec as people read it; a data file by its name."""
-    if value is None:
-        return "–"
-    if isinstance(value, str):
-        return Path(value).name if Path(value).is_absolute() else value
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    return {"key": row.key, "cells": [{"text": entry_text(value), "same": value == first} for value in row.values]}
