@@ -88,9 +88,10 @@ class Value(NamedTuple):
 
     `label` is the short name for people, from the meaning where it is not given; `meaning` is the sentence.
 
-    `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "visits", "sample", "fit", "periodic" (rounding).  A bound
-    that is None is not known; a value without interval is exact to its printed digits.  What has not `settled`, a statistic that still
-    drifted when its run ended, is no property of the design yet: it is in the result, but never among the headline values.
+    `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "visits", "sample", "fit", "periodic" (rounding),
+    "outlines" (by how finely they are divided).  A bound that is None is not known; a value without interval is exact to its printed
+    digits.  What has not `settled`, a statistic that still drifted when its run ended, is no property of the design yet: it is in the
+    result, but never among the headline values.
     `error` is the standard error, for those who average over many values; result.json does not have it.
     """
 
@@ -327,6 +328,7 @@ AnalysisData: TypeAlias = Any  # whatever an analysis hands to those that need i
 class Answer:
     """What one analysis found.  `data` carries objects for the analyses that need this one; it is not written to disk.
     `stopped` are the `Stop`s of the runs that it looked at, `failure` says why it failed, as in its last finding; the runner fills them in.
+    `warnings` are the sentences that a reader must not miss, though no check fails: numbers that rest on what the real drive will not do.
     """
 
     values: Mapping[str, Value] = field(default_factory=dict)
@@ -338,10 +340,11 @@ class Answer:
     data: AnalysisData = None
     stopped: tuple[Stop, ...] = ()
     failure: str = ""
+    warnings: tuple[str, ...] = ()
 
 
 def merge_answers(answers: Iterable[Answer]) -> Answer:
-    """Values, tables, checks and findings of several answers, in their order; partial where one is.  `data` stays with each."""
+    """Values, tables, checks, findings and warnings of several answers, in their order; partial where one is.  `data` stays with each."""
     answers = tuple(answers)
     values = {name: value for answer in answers for name, value in answer.values.items()}
     arrays = {name: array for answer in answers for name, array in answer.arrays.items()}
@@ -352,6 +355,7 @@ def merge_answers(answers: Iterable[Answer]) -> Answer:
         tuple(finding for answer in answers for finding in answer.findings),
         arrays,
         "partial" if any(answer.outcome == "partial" for answer in answers) else "complete",
+        warnings=tuple(warning for answer in answers for warning in answer.warnings),
     )
 
 
@@ -374,6 +378,7 @@ class Result(Generic[SpecT]):
     arrays: Mapping[str, Array] = field(default_factory=dict)
     outcome: str = "complete"
     failures: Mapping[str, str] = field(default_factory=dict)  # {analysis that failed: the finding that says why}
+    warnings: tuple[str, ...] = ()  # those of the findings that a reader must not miss; the verdict counts them
 
     def __getitem__(self, name: str) -> float:
         """A value by its dotted name, as an SI float."""
@@ -406,6 +411,7 @@ class Result(Generic[SpecT]):
         """One line; the numbers are in `values`, `tables`, `checks`."""
         failed = [check.name for check in self.checks if not check.ok]
         verdict = f"{len(failed)} of {len(self.checks)} checks fail: {', '.join(failed)}" if failed else "all checks pass"
+        verdict += f", {len(self.warnings)} warning{'' if len(self.warnings) == 1 else 's'}" if self.warnings else ""
         return f"<Result {self.mechanism!r} {self.title!r}: {len(self.values)} values, {len(self.tables)} tables, {verdict}>"
 
     def _repr_html_(self) -> str:
@@ -419,7 +425,7 @@ class Result(Generic[SpecT]):
             f"<tr><td>{escape(name)}</td><td>{v.value:.5g} {escape(v.unit)}</td><td>{escape(label_of(v.meaning, v.label))}</td></tr>"
             for name, v in self.values.items()
         )
-        findings = "".join(f"<li>{escape(finding)}</li>" for finding in self.findings)
+        findings = "".join(f"<li>{'⚠ ' if finding in self.warnings else ''}{escape(finding)}</li>" for finding in self.findings)
         heading = f"<p><b>{escape(self.title)}</b> ({escape(self.mechanism)}, {self.outcome})</p>"
         numbers = f"<details><summary>values [SI]</summary><table>{values}</table></details>"
         return f"{heading}<table>{checks}</table><ul>{findings}</ul>{numbers}"
@@ -448,6 +454,7 @@ class Result(Generic[SpecT]):
             "arrays": arrays,
             "checks": [check.record() for check in self.checks],
             "findings": list(self.findings),
+            "warnings": list(self.warnings),
             "outcome": self.outcome,
             "provenance": dict(self.provenance),
         }

@@ -41,7 +41,8 @@ def run(
     selected = select_analyses(mechanism.analyses, only, everything)
     model = mechanism.build(spec) if model is None else model
     answers = run_analyses(spec, model, selected, progress)
-    findings = [*getattr(model, "findings", ()), *_findings(answers)]
+    warnings = tuple(warning for answer in answers.values() for warning in answer.warnings)
+    findings = [*warnings, *getattr(model, "findings", ()), *_findings(answers)]
     findings += [*stop_findings(answers), *_missing_numbers(answers)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
@@ -49,7 +50,7 @@ def run(
         if not only and not everything and not a.default
     ]
     answers = {name: _with_stop_times(answer) for name, answer in answers.items()}
-    return _result(spec, mechanism, answers, findings, time.perf_counter() - started)
+    return replace(_result(spec, mechanism, answers, findings, time.perf_counter() - started), warnings=warnings)
 
 
 def run_analyses(

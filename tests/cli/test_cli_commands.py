@@ -29,6 +29,8 @@ def answer(spec, done):
     if MODES["kind"] == "interrupted":
         raise KeyboardInterrupt
     limit = Check("reach", spec.length, 0.1, "<=", "m", "must fit the box")
+    if MODES["kind"] == "warns":
+        return Answer({"reach": Value(spec.length, "m", "how far it reaches")}, checks=(limit,), warnings=("pins slip",))
     return Answer({"reach": Value(spec.length, "m", "how far it reaches")}, checks=(limit,), findings=("a finding",))
 
 
@@ -82,6 +84,14 @@ def test_a_run_prints_the_result_and_writes_the_folder(drivewright, toy):
     assert code == 0 and "reach" in out and "40 mm" in out and "a toy" in out and "wrote" not in out
     assert f"wrote {toy}/out/toy/" in err and "note: a finding" in err
     assert {"result.json", "report.html", "spec.toml"} <= set(snapshot(toy / "out" / "toy")) and not list((toy / "out").glob("*tmp*"))
+
+
+def test_the_last_line_is_the_verdict_and_a_warning_stands_before_it(drivewright, toy, monkeypatch):
+    assert drivewright("run", "toy.toml", "--no-figures")[2].splitlines()[-2:] == ["note: a finding", "verdict: 1 check passes"]
+    monkeypatch.setitem(MODES, "kind", "warns")
+    code, _, err = drivewright("run", "toy.toml", "--no-figures", "--strict")
+    assert code == 0 and err.splitlines()[-2:] == ["warning: pins slip", "verdict: 1 check passes, 1 warning"]
+    assert "note: pins slip" not in err
 
 
 def test_json_alone_goes_to_stdout(drivewright, toy):

@@ -11,7 +11,7 @@ from spec_cases import ToySpec
 from drivewright import cases, registry, runner
 from drivewright.errors import DrivewrightError, InputError, MissingExtra, SolverError, SpecError, UnknownName
 from drivewright.registry import Analysis
-from drivewright.result import Answer, Check, Column, Table, Value
+from drivewright.result import Answer, Check, Column, Table, Value, merge_answers
 from drivewright.stops import Stop, collect_stops, note_stop
 
 pytestmark = pytest.mark.interface
@@ -128,6 +128,18 @@ def test_what_is_left_out_says_why_and_takes_its_dependants_along(kind):
         "analysis 'b' (on top) is left out: it needs 'a', which is left out",
         "analysis 'd' (forces) is left out: [drive] is not given for a toy",
     )
+
+
+def test_warnings_of_all_analyses_come_first_among_the_findings(kind):
+    kind(
+        Analysis("a", lambda model, done: Answer(findings=("all is told",), warnings=("pins slip",)), "first"),
+        Analysis("b", lambda model, done: Answer(warnings=("oil boils",)), "second"),
+    )
+    result = runner.run(SPEC)
+    assert result.warnings == ("pins slip", "oil boils") and result.outcome == "complete" and result.ok
+    assert result.findings == ("pins slip", "oil boils", *Model.findings, "all is told")
+    answers = [Answer(warnings=("one",)), Answer(), Answer(warnings=("two",))]
+    assert merge_answers(answers).warnings == ("one", "two")
 
 
 def test_analyses_that_fail_for_one_reason_say_it_once(kind):

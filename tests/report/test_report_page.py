@@ -146,6 +146,31 @@ def test_verdicts(passed, outcome, state, words):
     assert verdict(passed, outcome) == {"state": state, "text": words}
 
 
+@pytest.mark.parametrize(
+    ("passed", "outcome", "undecided", "warnings", "state", "words"),
+    [
+        ([True, True], "complete", 0, 1, "warn", "all 2 checks pass, 1 warning"),
+        ([True], "complete", 0, 2, "warn", "1 check passes, 2 warnings"),
+        ([True, False], "complete", 0, 1, "bad", "1 of 2 checks fails"),
+        ([True], "partial", 0, 1, "warn", "partial result"),
+        ([True, True], "complete", 1, 1, "warn", "1 of 2 checks undecided"),
+    ],
+)
+def test_a_warning_takes_the_green_from_a_verdict(passed, outcome, undecided, warnings, state, words):
+    assert verdict(passed, outcome, undecided, warnings) == {"state": state, "text": words}
+
+
+def test_a_warning_is_marked_among_the_findings_and_in_the_verdict(tmp_path):
+    found = four_bar_result()
+    passing = tuple(check for check in found.checks if check.ok)
+    warned = replace(found, checks=passing, findings=("pins slip", "all is told"), warnings=("pins slip",))
+    text, page = written(tmp_path, warned, Views())
+    assert re.search(r'<li class="warn"><b>Warning:</b> pins slip</li>', text) and "<li>all is told</li>" in text
+    assert re.search(r'<span class="pill warn" id="verdict">[^<]*, 1 warning</span>', text)
+    assert warned.record()["warnings"] == ["pins slip"] and repr(warned).endswith("all checks pass, 1 warning>")
+    assert "⚠ pins slip" in warned._repr_html_() and "⚠ all is told" not in warned._repr_html_()
+
+
 def test_a_check_without_a_value_fails():
     unknown = replace(four_bar_result(), checks=(Check("c", np.nan, 2.0, "<=", "m", ""),))
     assert content(unknown)["verdict"]["state"] == "bad" and content(unknown)["checks"][0]["value"] == "n/a"

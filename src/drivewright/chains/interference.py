@@ -19,6 +19,7 @@ from drivewright.errors import counted
 from drivewright.scene import Arc, Line, place
 
 MOST_POINTS = 1_000_000  # along one outline
+SPACING, TOLERANCE = 1e-2, 5e-5  # of the points of a plate and of the teeth, over the pitch, for the gaps of a whole drive
 
 
 def folded(points: Floats, teeth: int) -> tuple[Floats, Floats]:
@@ -154,11 +155,16 @@ def min_chain_gap(
 
 
 def min_drive_gaps(
-    closure: Closure, plate: Plate, sprockets: Sequence[Sprocket], positions: int = 6, spacing: float = 1e-2, tolerance: float = 5e-5
+    closure: Closure,
+    plate: Plate,
+    sprockets: Sequence[Sprocket],
+    positions: int = 6,
+    spacing: float = SPACING,
+    tolerance: float = TOLERANCE,
 ) -> tuple[float, ...]:
     """Least gap [m] of all plates of a closed drive to each sprocket, at so many positions within a tooth of the driver.
 
-    spacing, tolerance: of the points of a plate and of the teeth, over the pitch.
+    spacing, tolerance: of the points of a plate and of the teeth, over the pitch; a gap is known within `tolerance`, see `profile_gap`.
     """
     states = states_at(closure, np.linspace(0, 2 * np.pi / closure.drive.driver_teeth, positions, endpoint=False))
     poses, p = plates(closure, states), plate.link.pitch

@@ -106,6 +106,8 @@ def _run_example(path: Path, out: Path) -> tuple[Path, str]:
 
 
 def _key_numbers(result: Result[Any], seconds: float) -> Iterator[str]:
+    from drivewright.report.content import verdict_of
+
     failed = [check for check in result.checks if not check.ok]
     yield f"\n{result.title}   ({seconds:.1f} s)"
     for name in registry.headlines(registry.mechanism(result.mechanism), result.values)[:6]:
@@ -117,4 +119,5 @@ def _key_numbers(result: Result[Any], seconds: float) -> Iterator[str]:
             f"limit {check.sense} {show.number(check.limit, check.unit)}"
         )
     if result.checks and not failed:
-        yield f"  all {len(result.checks)} checks pass"
+        yield f"  {verdict_of(result)['text']}"
+    yield from (f"  warning: {warning}" for warning in result.warnings)

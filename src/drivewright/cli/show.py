@@ -157,8 +157,14 @@ def _numbers(value: float, unit: str, low: float | None, high: float | None) -> 
     value, low, high = value * factor, None if low is None else low * factor, None if high is None else high * factor
     place = digits.last_place(value, low, high)
     if place is None or low is None or high is None:
-        return [f"{value:.6g}"]
+        return [_exact(value)]
     return [_to_place(each, place) for each in (value, low, high)]
+
+
+def _exact(value: float) -> str:
+    """A number without interval; a power of ten only where it is very small or large."""
+    rounded = f"{value:.{digits.EXACT}g}"
+    return digits.to_place(value, 1) if 1e5 <= abs(float(rounded)) < 1e6 else rounded
 
 
 def _with_unit(text: str, unit: str) -> str:
@@ -175,7 +181,9 @@ def _to_place(value: float, place: int) -> str:
 
 
 def result(run: "Result[Any]") -> None:
-    """Headline values, checks and findings of a run."""
+    """Headline values, checks, findings, warnings and, at the end, the verdict of a run."""
+    from drivewright.report.content import verdict_of
+
     mechanism = registry.mechanism(run.mechanism)
     headline = registry.headlines(mechanism, run.values)
     rows = [(name, _value(run.values[name]), _meaning(run.values[name])) for name in headline]
@@ -184,7 +192,21 @@ def result(run: "Result[Any]") -> None:
         note(f"{len(run.values) - len(headline)} more values in result.json")
     checks(run.checks)
     for finding in run.findings:
-        note(f"note: {finding}")
+        if finding not in run.warnings:
+            note(f"note: {finding}")
+    for warning in run.warnings:
+        _coloured_note(f"warning: {warning}", "warn")
+    verdict = verdict_of(run)
+    _coloured_note(f"verdict: {verdict['text']}", verdict["state"])
+
+
+def _coloured_note(text: str, state: str) -> None:
+    """A note, at a terminal in the colour of a verdict's state."""
+    from rich.console import Console
+    from rich.text import Text
+
+    style = {"good": "green", "warn": "bold yellow", "bad": "bold red"}[state]
+    Console(file=sys.stderr, highlight=False).print(Text(text, style=style), soft_wrap=True)
 
 
 def _value(value: "Value") -> str:

@@ -161,6 +161,7 @@ def content(result: Result[Any], remarks: Sequence[str] = (), headlines: Sequenc
         "arrays": [_array(name, array) for name, array in result.arrays.items()],
         "tables": [_table(table) for table in result.tables.values()],
         "findings": [*result.findings, *remarks],
+        "warnings": list(result.warnings),
         "spec": result.spec.to_toml(moved=True),
         "sources": [str(source) for source in result.provenance.get("sources", ())],
         "provenance": provenance(result),
@@ -171,7 +172,7 @@ def content(result: Result[Any], remarks: Sequence[str] = (), headlines: Sequenc
 def summary(result: Result[Any], headlines: Sequence[str] | None = None) -> Content:
     """Verdict, headline, checks and values of a result: what changes with every number of a design."""
     return {
-        "verdict": verdict([bool(check.ok) for check in result.checks], result.outcome, sum(check.undecided for check in result.checks)),
+        "verdict": verdict_of(result),
         "headline": headline(result, headlines),
         "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
         "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)],
@@ -183,8 +184,15 @@ def program() -> str:
     return versions()["drivewright"]
 
 
-def verdict(passed: Sequence[bool], outcome: str, undecided: int = 0) -> dict[str, str]:
-    """{'state': 'good' | 'bad' | 'warn', 'text'} of checks as booleans; an unfinished, unchecked or undecided run is never good."""
+def verdict_of(result: Result[Any]) -> dict[str, str]:
+    """The `verdict` of a result."""
+    checks = result.checks
+    return verdict([bool(check.ok) for check in checks], result.outcome, sum(check.undecided for check in checks), len(result.warnings))
+
+
+def verdict(passed: Sequence[bool], outcome: str, undecided: int = 0, warnings: int = 0) -> dict[str, str]:
+    """{'state': 'good' | 'bad' | 'warn', 'text'} of checks as booleans; an unfinished, unchecked or undecided run, or one with warnings,
+    is never good."""
     failed, count = passed.count(False), len(passed)
     if failed:
         return {"state": "bad", "text": f"{failed} of {count} checks {'fails' if failed == 1 else 'fail'}"}
@@ -194,7 +202,10 @@ def verdict(passed: Sequence[bool], outcome: str, undecided: int = 0) -> dict[st
         return {"state": "warn", "text": "no checks"}
     if undecided:
         return {"state": "warn", "text": f"{undecided} of {count} checks undecided"}
-    return {"state": "good", "text": "1 check passes" if count == 1 else f"all {count} checks pass"}
+    good = "1 check passes" if count == 1 else f"all {count} checks pass"
+    if warnings:
+        return {"state": "warn", "text": f"{good}, {warnings} warning{'' if warnings == 1 else 's'}"}
+    return {"state": "good", "text": good}
 
 
 def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Content]:

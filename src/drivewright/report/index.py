@@ -34,7 +34,10 @@ def _card(folder, base):
         "picture": _thumbnail(folder, base),
         "values": _headline(record),
         "verdict": verdict(
-            [check["ok"] for check in record["checks"]], record["outcome"], sum(check.get("undecided", False) for check in record["checks"])
+            [check["ok"] for check in record["checks"]],
+            record["outcome"],
+            sum(check.get("undecided", False) for check in record["checks"]),
+            len(record.get("warnings", ())),
         ),
         "seconds": number(record["provenance"].get("seconds", 0.0), 2),
     }

@@ -87,6 +87,7 @@ def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str
         **told,
         "plots": groups,
         "findings": list(result.findings),
+        "warnings": list(result.warnings),
         "outcome": result.outcome,
         "seconds": result.provenance["seconds"],
         "analyses": analyses,

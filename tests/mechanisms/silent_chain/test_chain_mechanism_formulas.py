@@ -22,6 +22,7 @@ from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.scene import link_shapes
 from drivewright.numerics.ensemble import Estimate
+from drivewright.result import Value
 from drivewright.spec import from_document
 from drivewright.spec.parsing import change_key
 
@@ -193,7 +194,10 @@ def test_teeth_are_as_thick_as_the_seated_plates_leave_room_for():
         assert found[f"tooth_thickness.{side}"] == pytest.approx(room, rel=1e-9)
         assert found[f"least_gap.{side}"] == pytest.approx(0, abs=5e-7)
         wheel = model.sprockets[number]
-        assert found.check(f"overlap.{side}").value == -found[f"least_gap.{side}"]
+        gap, overlap = found.values[f"least_gap.{side}"], found.check(f"overlap.{side}")
+        assert overlap.value == -gap.value and overlap.bounds == (-gap.high, -gap.low)
+        assert gap.low < 0 < gap.high and gap.high - gap.low == pytest.approx(1e-4 * model.spec.pitch)  # seated plates touch
+        assert overlap.geometry and not overlap.undecided
         assert found.check(f"contact.above_form.{side}").value == pytest.approx(np.hypot(x, height) - wheel.form_radius, abs=1e-12)
         assert found.check(f"contact.below_tip.{side}").value == pytest.approx(
             wheel.tip_radius - wheel.tip_chamfer - np.hypot(x, height), abs=1e-12
@@ -652,7 +656,25 @@ def test_the_running_chain_s_numbers(monkeypatch):
     assert spectrum["order"][-1] == 8 and spectrum["frequency"] == pytest.approx(spectrum["order"] * mesh)
     assert spectrum["centre_distance"][at] == pytest.approx(3.075e-6, rel=2e-5)
     assert spectrum["centre_distance.high"][at] - 3.075e-6 == pytest.approx(2.570582 * 0.05612486e-6 / np.sqrt(6), rel=1e-3)
-    assert len(answer.findings) == 1 and "coefficient of friction" in answer.findings[0]
+    assert answer.findings == () and len(answer.warnings) == 1
+    assert "a coefficient of friction of 0.3 (dynamics.friction_utilisation)" in answer.warnings[0]
+
+
+def test_pins_are_said_to_slip_above_the_friction_of_dry_steel():
+    def warnings(needed):
+        return [*dynamics._slipping({"dynamics.friction_utilisation": Value(needed, "-", "")})]
+
+    assert warnings(0.3) == [] and [*dynamics._slipping({})] == []
+    assert "of 2.2 " in warnings(2.2)[0] and "0.1 lubricated and 0.3 dry" in warnings(2.2)[0]
+
+
+@pytest.mark.parametrize(("drifting", "value", "ok"), [((), 2, True), (("mean",), 1, False), (("mean", "fluctuation"), 0, False)])
+def test_the_check_settled_counts_what_has_settled(drifting, value, ok):
+    names = ("mean", "fluctuation", "range")
+    values = {f"dynamics.centre_distance.{name}": Value(1.0, "m", "", settled=name not in (*drifting, "range")) for name in names}
+    check = dynamics.settled(values)
+    assert (check.value, check.sense, check.limit, check.ok) == (value, ">=", 2, ok)
+    assert check.display_label == "Settled statistics of centre distance" and "how many of the two have stopped drifting" in check.message
 
 
 def test_the_life_of_a_plate_in_revolutions_and_seconds(monkeypatch):

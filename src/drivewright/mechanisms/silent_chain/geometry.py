@@ -5,7 +5,7 @@ from contextlib import suppress
 
 import numpy as np
 
-from drivewright.chains.interference import min_drive_gaps, seating_speeds
+from drivewright.chains.interference import TOLERANCE, min_drive_gaps, seating_speeds
 from drivewright.chains.plate import mass_per_pitch
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
@@ -120,18 +120,25 @@ def _flank_checks(model, side, sprocket, words):
     )
     for name, margin, message in margins:
         yield Check(f"{name}.{side}", margin, 0.0, ">=", "m", message, (side,), True)
-    message = f"1 where the hob's tip undercuts the flanks {words}"
-    yield Check(f"undercut.{side}", float(sprocket.undercut), 0.0, "<=", "-", message, (side,), True)
+    message = f"whether the hob's tip undercuts the flanks {words}: 1 where it does, else 0"
+    label = f"Undercut of the {SIDE_WORDS[side]}"
+    yield Check(f"undercut.{side}", float(sprocket.undercut), 0.0, "<=", "-", message, (side,), True, label=label)
 
 
 def _meeting(model):
     """Least gap of all plates near each sprocket over a tooth of the driver."""
     if model.spec.roller or model.spec.sprockets:
         return {}, ()
-    gaps = min_drive_gaps(model.closure, model.plate, model.sprockets)
+    gaps, within = min_drive_gaps(model.closure, model.plate, model.sprockets), TOLERANCE * model.spec.pitch
     values, checks = {}, []
     for side, least in zip(SIDES, gaps, strict=True):
-        values[f"least_gap.{side}"] = Value(least, "m", f"of a plate, seated or coming in, to the teeth of the {SIDE_WORDS[side]}")
+        meaning = f"of a plate, seated or coming in, to the teeth of the {SIDE_WORDS[side]}"
+        label = f"Least gap to the {SIDE_WORDS[side]}"
+        gap = Value(least, "m", meaning, least - within, least + within, "outlines", label=label)
+        values[f"least_gap.{side}"] = gap
         message = f"of a plate, seated or coming in, with the teeth of the {SIDE_WORDS[side]}"
-        checks.append(Check(f"overlap.{side}", -least, model.spec.limits.overlap, "<=", "m", message, (side,), True))
+        overlap = gap._replace(value=-least, low=-least - within, high=-least + within)
+        label = f"Overlap with the {SIDE_WORDS[side]}"
+        check = Check.of(overlap, f"overlap.{side}", model.spec.limits.overlap, "<=", message, (side,), label)
+        checks.append(check._replace(geometry=True))
     return values, checks

@@ -75,18 +75,14 @@ def _exact(value):
     return Estimate(float(value), np.nan, np.nan, "", True, 1.0)
 
 
-def settled_check(name: str, estimates: Iterable[Value], parts: tuple[str, ...] = ()) -> Check:
-    """The check that the statistics of a run no longer drift."""
-    drifting = sum(not estimate.settled for estimate in estimates)
-    return Check(
-        name,
-        float(drifting),
-        0.0,
-        "<=",
-        "-",
-        "statistics that still drifted at the end of the run, or have too few turns; raise simulate.turns, or discard more of them",
-        parts,
+def settled_check(name: str, estimates: Iterable[Value], label: str = "Settled statistics") -> Check:
+    """The check that the statistics of a run no longer drift: how many of them have settled, of all."""
+    settled = [estimate.settled for estimate in estimates]
+    message = (
+        "statistics of the run that have stopped drifting, of all that are estimated; where some have not, or have too few turns, raise "
+        "simulate.turns, or discard more of them"
     )
+    return Check(name, float(sum(settled)), float(len(settled)), ">=", "-", message, label=label)
 
 
 def unsettled(values: Mapping[str, Value]) -> tuple[str, ...]:

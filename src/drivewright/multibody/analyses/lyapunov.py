@@ -59,7 +59,7 @@ def exponent_answer(pairs: Sequence[Exponent]) -> Answer:
         "Largest Lyapunov exponent: convergence",
         (Column("turn", "-", "turns counted", turns), Column("exponent", "-", "mean growth per turn so far", history)),
     )
-    return Answer(values, (table,), (settled_check("settled.lyapunov", [exponent]),))
+    return Answer(values, (table,), (settled_check("settled.lyapunov", [exponent], "Settled Lyapunov exponent"),))
 
 
 class TurnMap:

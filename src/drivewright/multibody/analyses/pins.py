@@ -22,7 +22,8 @@ def pins(model: SimulationModel) -> Answer:
         ):
             if limit:
                 checks.append(Check.of(numbers[f"max_{key}"], f"{key}.{name}", limit, "<=", f"largest {key} in joint {name!r}", (name,)))
-    return Answer(values, tuple(tables), (*checks, settled_check("settled.joints", values.values())), unsettled(values))
+    settled = settled_check("settled.joints", values.values(), "Settled statistics of the joints")
+    return Answer(values, tuple(tables), (*checks, settled), unsettled(values))
 
 
 def _pin_values(model, name):

@@ -91,12 +91,13 @@ function createFindings(host, {store, t}) {
   let before = null;
   host.append(node);
   return [store.on(["result"], ({result}) => {
-    const findings = result?.findings || [];
+    const findings = result?.findings || [], warnings = result?.warnings || [];
     node.hidden = !findings.length;
     if (same(findings, before)) return;
     before = findings;
     put(count, String(findings.length));
-    list.replaceChildren(...findings.map(text => element("li", {}, t(text))));
+    list.replaceChildren(...findings.map(text => element("li", warnings.includes(text) ? {class: "is-warn"} : {}, t(text))));
+    if (warnings.length) node.open = true;
   })];
 }
 
