@@ -148,10 +148,14 @@ def capsule(start: Point, end: Point, radius: float) -> Outline:
 
 
 class Shape(NamedTuple):
-    """One outline on a layer: profile, pitch, base, roller, body, hole, axis, ground, defect, or edge (a line that covers nothing)."""
+    """One outline on a layer: profile, pitch, base, roller, body, hole, axis, ground, defect, or edge (a line that covers nothing).
+
+    `label` is what a legend calls it where it is not what the layer says.
+    """
 
     layer: str
     outline: Outline
+    label: str = ""
 
 
 @dataclass(frozen=True)

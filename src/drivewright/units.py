@@ -427,9 +427,11 @@ def unit_factor(unit: str, dimension: str) -> float:
     return BY_NAME[dimension].factor(unit)
 
 
-def display(si_unit: str) -> tuple[float, str]:
-    """(factor, unit) that turn an SI number of `si_unit` into the one people read: 'm' -> (1e3, 'mm')."""
+def display(si_unit: str, wanted: str = "") -> tuple[float, str]:
+    """(factor, unit) that turn an SI number of `si_unit` into the one people read: 'm' -> (1e3, 'mm'); or into a `wanted` unit."""
     dimension = BY_UNIT.get(si_unit)
+    if dimension is not None and wanted:
+        return 1 / dimension.factor(wanted), wanted
     if dimension is None and si_unit.startswith("m/rad"):  # a lift's derivatives by an angle
         return 1e3, f"m{si_unit}"
     if dimension is None:

@@ -134,9 +134,47 @@ def test_rows_json_is_the_contract(bench, tmp_path):
 
 def test_the_verdict_counts_printed_numbers_by_their_best_reading(bench, tmp_path):
     _, computed = pages.reproduce(bench.paper, tmp_path)
-    assert pages.counts(computed.rows) == {AGREES: 2, EXPLAINED: 1, OPEN: 1, NOT_COMPARED: 2}
+    assert validation.counts(computed.rows) == {AGREES: 2, EXPLAINED: 1, OPEN: 1, NOT_COMPARED: 2}
     assert pages.verdict(computed.rows) == {"state": "warn", "text": "2 of 4 compared numbers and claims agree"}
-    assert "7 rows for 6 printed numbers and claims" in (tmp_path / "index.html").read_text(encoding="utf-8")
+    text = (tmp_path / "index.html").read_text(encoding="utf-8")
+    assert "prints 6 numbers and claims, of which 4 can be compared" in text and "below have 7 rows" in text
+    assert "evaluated for its inputs" not in text, "none is"
+
+
+def test_formulas_evaluated_are_counted_apart(bench):
+    formula = Row("formula", validation.evaluated("10 mm", "m"), 0.01, "m", AGREES, "closed form", "eq. (1)")
+    assert pages.verdict((*ROWS, formula)) == pages.verdict(ROWS)
+    assert "counted apart: 1 agrees." in pages.readings((*ROWS, formula))
+
+
+def test_remarks_are_numbered_in_the_order_in_which_the_page_points_to_them(bench, tmp_path):
+    _, computed = pages.reproduce(bench.paper, tmp_path)
+    texts = pages.content(bench.paper, computed)
+    section = texts["sections"][0]
+    order = [*section["grids"][0]["remarks"], *(each["remark"] for each in section["rows"] if each["remark"])]
+    assert order[0] == "1" and sorted(set(order), key=int) == list(dict.fromkeys(order))
+    assert len(texts["footnotes"]) == len(set(order)) and texts["footnotes"][0] == "Twice. So it is."
+
+
+@pytest.mark.parametrize(
+    ("verdict", "count", "words"),
+    [
+        (AGREES, 1, "agrees"),
+        (AGREES, 2, "agree"),
+        (OPEN, 0, "differ, open"),
+        (NOT_COMPARED, 3, "not compared"),
+        ("definition", 2, "definitions"),
+    ],
+)
+def test_verdicts_in_number(verdict, count, words):
+    assert pages.in_number(verdict, count) == words
+
+
+def test_what_is_missing_is_said_once_for_each_reason(bench, tmp_path):
+    _, computed = pages.reproduce(bench.paper, tmp_path, solids=False)
+    missing = {"Fig. 2": "left out by --no-solids", "long": "left out by --no-solids", "map": "no memory"}
+    lines = pages.missing_parts(bench.paper, replace(computed, missing=missing))
+    assert lines == ["Left out by --no-solids: Fig. 2, numbers that need solid models.", "No memory: numbers that need solid models."]
 
 
 def is_finished(paper, out, solids=True):
@@ -160,6 +198,13 @@ def test_other_sources_compute_anew(bench, tmp_path, monkeypatch):
     monkeypatch.setattr(parts, "sources_digest", lambda: "another")
     pages.reproduce(bench.paper, tmp_path)
     assert len(bench.computed) == 5
+
+
+def test_parts_made_by_another_version_are_counted(bench, tmp_path, monkeypatch):
+    assert pages.reproduce(bench.paper, tmp_path)[1].renewed == 0
+    monkeypatch.setattr(parts, "sources_digest", lambda: "another")
+    assert pages.reproduce(bench.paper, tmp_path)[1].renewed == 5
+    assert pages.reproduce(bench.paper, tmp_path)[1].renewed == 0
 
 
 def test_a_page_that_was_stopped_goes_on(bench, tmp_path):
@@ -215,7 +260,9 @@ def test_a_row_survives_its_file():
 
 @pytest.mark.parametrize(
     ("printed", "shown"),
-    [("89.7739 um/kN", "89.7739 µm/kN"), ("-40.793 um/kN", "−40.793 µm/kN"), ("4.560e11 min", "4.560×10¹¹ min"), ("86 deg", "86°")],
+    [("89.7739 um/kN", "89.7739 µm/kN"), ("-40.793 um/kN", "−40.793 µm/kN"), ("4.560e11 min", "4.560×10¹¹ min"), ("86 deg", "86°")]
+    + [("alpha0 = 35 deg, in mm^2", "α0 = 35°, in mm²"), ("delta_p2 < delta12", "δp2 < δ12"), (">= 1, 162 << 835", "≥ 1, 162 ≪ 835")]
+    + [("x = -3 of group-3", "x = −3 of group-3"), ("urad/N and um", "µrad/N and µm"), ("the volume, 78-82", "the volume, 78-82")],
 )
 def test_printed_numbers_have_the_signs_of_print(printed, shown):
     assert pages.pretty(printed) == shown
@@ -223,9 +270,12 @@ def test_printed_numbers_have_the_signs_of_print(printed, shown):
 
 def test_ours_has_the_digits_of_a_near_print():
     near = Row("k", rounded("11.464849", "-"), 11.46484882912, "-", AGREES, "closed form", "here")
-    assert pages.ours_text(near) == "11.464849"
-    assert pages.ours_text(replace(near, ours=12.3456789)) == "12.346"
-    assert pages.ours_text(replace(near, low=11.0, high=12.0)).startswith("11.46 (11.00 to 12.00)")
+    assert pages.ours_texts(near) == ("11.464849", "")
+    assert pages.ours_texts(replace(near, ours=12.3456789)) == ("12.346", "")
+    assert pages.ours_texts(replace(near, low=11.0, high=12.0)) == ("11.46", "11.00 to 12.00")
+    assert pages.ours_texts(replace(near, ours=None)) == ("–", "")
+    life = Row("life", rounded("4.560e11 min", "s"), 4.5e11 * 60, "s", OPEN, "other code", "here")
+    assert pages.ours_texts(life) == ("4.5×10¹¹\u00a0min", "")
     assert pages.deviation_text(near) == "0" and pages.deviation_text(replace(near, ours=12.0)) == "+0.535"
     assert pages.deviation_text(replace(near, basis=CALIBRATED)) == ""
 

@@ -20,7 +20,10 @@ from drivewright.validation import (
     Printed,
     Row,
     Source,
+    about,
     best_verdicts,
+    counts,
+    evaluated,
     rounded,
 )
 
@@ -208,6 +211,29 @@ def test_deviation_is_from_the_number_or_beyond_the_limit():
     below, just, above = (Row("ratio", limit, value, "-", AGREES, "closed form", "here") for value in (0.86, 1.0, 1.12))
     assert (below.deviation_text(), below.verdict) == ("-0.14", OPEN)
     assert (above.deviation_text(), above.verdict) == (just.deviation_text(), just.verdict) == ("+0", AGREES)
+
+
+def test_deviation_from_a_range_is_how_far_beyond_it():
+    def off(value, printed):
+        return Row("ratio", printed, value, "-", AGREES, "closed form", "here").deviation
+
+    assert [off(value, Printed("5 to 25", 5.0, 25.0)) for value in (4.0, 5.0, 19.6, 26.5)] == [-1.0, 0.0, 0.0, 1.5]
+    assert [off(value, about("about 50", 50.0, 5.0)) for value in (48.0, 50.0, 60.0)] == [-2.0, 0.0, 10.0], "a number is printed"
+
+
+def test_a_number_stands_in_the_unit_of_its_print():
+    life = Row("life", rounded("4.560e11 min", "s"), 4.5e11 * 60, "s", OPEN, "other code", "here")
+    assert life.shown_unit == (pytest.approx(1 / 60), "min") and life.deviation_text() == "-6e+09 min"
+    assert Row("life", Printed("long", 0.0, 1.0), 2.0, "s", OPEN, "other code", "here").shown_unit[1] == "s"
+
+
+def test_evaluated_formulas_are_counted_apart():
+    formula = evaluated("12.34 mm", "m")
+    assert str(formula) == "12.34 mm, evaluated" and formula[1:3] == rounded("12.34 mm", "m")[1:3]
+    rows = [named("angle", 50.22), named("height", 48.0)]
+    rows.append(Row("length", formula, 0.01234, "m", AGREES, "closed form", "eq. (1)"))
+    assert counts(rows) == {AGREES: 1, EXPLAINED: 0, OPEN: 1, NOT_COMPARED: 0}
+    assert counts(rows, evaluated=True) == {AGREES: 1, EXPLAINED: 0, OPEN: 0, NOT_COMPARED: 0}
 
 
 def test_an_unknown_source_is_named_with_its_neighbour():

@@ -121,7 +121,17 @@ def test_plots_may_depend_on_the_result(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("x", "name"), [(1e-3, "10⁻³"), (1e12, "10¹²"), (1.0, "10⁰"), (2e-3, "2×10⁻³"), (0.9999999999e-3, "10⁻³"), (3.25e4, "3.25×10⁴")]
+    ("x", "name"),
+    [
+        (1e-3, "10⁻³"),
+        (1e12, "10¹²"),
+        (1.0, "1"),
+        (20.0, "20"),
+        (100.0, "10²"),
+        (2e-3, "2×10⁻³"),
+        (0.9999999999e-3, "10⁻³"),
+        (3.25e4, "3.25×10⁴"),
+    ],
 )
 def test_powers_of_ten_are_text(x, name):
     assert power_of_ten(x) == name

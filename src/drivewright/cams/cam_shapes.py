@@ -18,7 +18,7 @@ def cam_shapes(track: CamTrack, profile: FinishedProfile, programme: Programme, 
     yield Shape("profile", profile.outline)
     yield Shape("base", circle((0, 0), float(_radii(profile).min())))
     if not track.flat and track.radius:
-        yield Shape("pitch", pitch_outline(track.round_face, programme))
+        yield Shape("pitch", pitch_outline(track.round_face, programme), "pitch curve (centre of the follower's face)")
     if bore:
         yield Shape("hole", circle((0, 0), bore / 2))
     yield from trimmed_shapes(track, profile, Cycle(programme.function))

@@ -39,7 +39,7 @@ def geometry_table(pair: ConjugatePair) -> Table:
         columns += [
             Column(f"{name}.pressure_angle", "rad", f"{name} cam, signed", pressure_angle),
             Column(f"{name}.curvature", "1/m", f"curvature of the {name} pitch curve, convex positive", curvature),
-            Column(f"{name}.convex_ratio", "-", f"{name} cam: undercut above 1", curvature * cam.roller_radius),
+            Column(f"{name}.convex_ratio", "-", f"{name} cam: roller over convex radius", curvature * cam.roller_radius),
             Column(f"{name}.pitch_radius", "m", f"radius of the {name} pitch curve", np.abs(pitch)),
         ]
     return Table("cams", "Cams over the push cycle", tuple(columns))

@@ -125,7 +125,7 @@ class RollerSprocket:
 
     def drawing(self, bore: float = 0.0, thickness: float = 0.0, name: str = "sprocket") -> Drawing:
         """Drawing for manufacture: profile, pitch circle and the bore (diameter [m])."""
-        shapes = [Shape("profile", self.outline()), Shape("pitch", circle((0.0, 0.0), self.pitch_radius))]
+        shapes = [Shape("profile", self.outline()), Shape("pitch", circle((0.0, 0.0), self.pitch_radius), "pitch circle")]
         shapes += [Shape("hole", hole) for hole in self._bore(bore)]
         return Drawing(
             name,

@@ -7,9 +7,9 @@ import typer
 
 from drivewright.cli import show
 from drivewright.reproduction import Paper, papers
-from drivewright.reproduction.page import reproduce, write_overview
+from drivewright.reproduction.page import in_words, reproduce, write_overview
 from drivewright.reproduction.parts import Computed
-from drivewright.validation.source import VERDICTS, best_verdicts
+from drivewright.validation.source import counts
 
 INCOMPLETE = 4  # exit code where a part could not be computed
 
@@ -28,6 +28,8 @@ def write_papers(chosen: Sequence[Paper], out: Path | None, several: bool, solid
         folder = base / paper.name if several else base
         with show.progress(paper.name) as step:
             page, computed = reproduce(paper, folder, solids, step)
+        if computed.renewed:
+            show.note(f"note: {computed.renewed} parts of {paper.name} were made by another version of the program and computed again")
         show.note(f"wrote {page}")
         found[paper.name] = computed
         print(summary(paper, computed))
@@ -41,7 +43,7 @@ def write_papers(chosen: Sequence[Paper], out: Path | None, several: bool, solid
 
 
 def summary(paper: Paper, computed: Computed) -> str:
-    """'shaft-paper: 47 rows of 43 printed numbers: 20 agrees, ...'."""
-    best = best_verdicts(computed.rows)
-    found = ", ".join(f"{sum(verdict == each for each in best.values())} {verdict}" for verdict in VERDICTS)
-    return f"{paper.name}: {len(computed.rows)} rows, {len(best)} printed numbers and claims: {found}"
+    """'shaft-paper: 16 printed numbers and claims (6 agree; ...), 31 formulas evaluated (...)'."""
+    found = {"printed numbers and claims": counts(computed.rows), "formulas evaluated": counts(computed.rows, evaluated=True)}
+    texts = [f"{sum(each.values())} {what} ({in_words(each)})" for what, each in found.items() if any(each.values())]
+    return f"{paper.name}: {', '.join(texts)}"

@@ -145,15 +145,15 @@ def table(title: str, header: "Header", rows: Iterable[Iterable[object]]) -> Non
     Console(file=sys.stdout, width=None if sys.stdout.isatty() else 140, highlight=False).print(grid)
 
 
-def number(value: float, unit: str, low: float | None = None, high: float | None = None) -> str:
-    """A number in the unit people read, with the unit, and with its interval in the digits that this supports."""
-    text, *ends = _numbers(value, unit, low, high)
-    return _with_unit(f"{text} ({ends[0]} to {ends[1]})" if ends else text, unit)
+def number(value: float, unit: str, low: float | None = None, high: float | None = None, wanted: str = "") -> str:
+    """A number in the unit people read, or in a `wanted` one, with the unit, and with its interval in the digits that this supports."""
+    factor, shown = units.display(unit, wanted)
+    text, *ends = _numbers(value, factor, low, high)
+    return _with_unit(f"{text} ({ends[0]} to {ends[1]})" if ends else text, shown)
 
 
-def _numbers(value: float, unit: str, low: float | None, high: float | None) -> list[str]:
-    """Texts of a number, and of the ends of its interval where this says something."""
-    factor = units.display(unit)[0]
+def _numbers(value: float, factor: float, low: float | None, high: float | None) -> list[str]:
+    """Texts of a number times a factor, and of the ends of its interval where this says something."""
     value, low, high = value * factor, None if low is None else low * factor, None if high is None else high * factor
     place = digits.last_place(value, low, high)
     if place is None or low is None or high is None:
@@ -167,8 +167,7 @@ def _exact(value: float) -> str:
     return digits.to_place(value, 1) if 1e5 <= abs(float(rounded)) < 1e6 else rounded
 
 
-def _with_unit(text: str, unit: str) -> str:
-    shown = units.display(unit)[1]
+def _with_unit(text: str, shown: str) -> str:
     return text if shown in ("-", "") else f"{text} {shown}"
 
 
@@ -246,7 +245,7 @@ def checks(design_checks: "Iterable[Check]") -> None:
         (
             verdict(c),
             c.name,
-            number(c.value, c.unit, *(c.bounds or ())),
+            number(c.value, c.unit, *(c.bounds or (None, None))),
             f"{c.sense} {number(c.limit, c.unit)}",
             _margin(c),
             f"{c.message} ({UNDECIDED})" if c.undecided else c.message,
@@ -263,7 +262,8 @@ def checks(design_checks: "Iterable[Check]") -> None:
 
 def _margin(check: "Check") -> str:
     """With the digits that the check's value has."""
-    return _with_unit(_numbers(check.margin, check.unit, *(check.margin_bounds or (None, None)))[0], check.unit)
+    factor, shown = units.display(check.unit)
+    return _with_unit(_numbers(check.margin, factor, *(check.margin_bounds or (None, None)))[0], shown)
 
 
 def optimised(search: "Optimised") -> None:
@@ -342,7 +342,7 @@ def source(published: "Source", rows: "Iterable[Row]") -> None:
             (
                 r.name,
                 r.printed,
-                "" if r.ours is None else number(r.ours, r.unit, r.low, r.high),
+                "" if r.ours is None else number(r.ours, r.unit, r.low, r.high, r.printed.unit),
                 r.deviation_text(),
                 r.verdict,
                 r.commentary,

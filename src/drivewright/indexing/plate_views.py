@@ -154,9 +154,9 @@ def _drawing_shapes(plates: PlateDrive, drive: PlaneDrive) -> Iterator[Shape]:
     yield Shape("profile", outline)
     yield from (Shape("hole", hole) for hole in _hole_outlines(plates.holes))
     if drive.side == "inside":
-        yield Shape("base", circle((0, 0), float(np.min(np.hypot(*outline.points(1e-6).T)))))
+        yield Shape("base", circle((0, 0), float(np.min(np.hypot(*outline.points(1e-6).T)))), "least radius of the profile")
     if isinstance(plates.drive, PinWheel):
-        yield Shape("pitch", polygon(pin_centre_curve(drive)))
+        yield Shape("pitch", polygon(pin_centre_curve(drive)), "curve of the pin centres")
 
 
 def plate_parts(plates: PlateDrive) -> tuple[Part, ...]:

@@ -1,15 +1,15 @@
 """Figures of papers: curves with axes named by what they show, told apart without colour, printed and stated values marked."""
 
-import textwrap
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from drivewright._typing import ArrayLike
+from drivewright.reproduction.placing import Place, Room
 from drivewright.view.palette import MARKERS, SERIES, colour
 from drivewright.view.style import BADGE, angle_ticks, legend_above, log_ticks, name_places, new_figure, styled
-from drivewright.view.text import literal
+from drivewright.view.text import literal, wrapped_label
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -79,7 +79,7 @@ def draw_chart(axis: "Axes", chart: Chart, columns: int = 1) -> None:
         axis.set_yscale("log")
     for number, curve in enumerate(chart.curves):
         _draw_curve(axis, curve, number if curve.number is None else curve.number)
-    axis.set_ylabel(textwrap.fill(literal(chart.y_label), 30))
+    axis.set_ylabel(wrapped_label(literal(chart.y_label), 30))
     if chart.equal:
         axis.set_aspect("equal", adjustable="datalim")
     axis.margins(y=0.1)
@@ -90,10 +90,9 @@ def draw_chart(axis: "Axes", chart: Chart, columns: int = 1) -> None:
     if chart.log:
         log_ticks(axis.yaxis)
     _angles(axis, chart)
-    across = 0
-    for stated in chart.stated:
-        _draw_stated(axis, stated, left=across % 2 == 1)
-        across += stated.x is None
+    room = Room(axis, [line for curve in chart.curves for line in _numbers(curve)])
+    for stated in sorted(chart.stated, key=lambda stated: stated.y is None):
+        _draw_stated(axis, room, stated)
     name_places(axis, chart.places)
     if len(chart.curves) > 1:
         legend_above(axis, room=84 // max(columns, 1))
@@ -105,9 +104,13 @@ def draw_chart(axis: "Axes", chart: Chart, columns: int = 1) -> None:
         axis.set_title(literal(chart.title), fontweight="normal", fontsize=9)
 
 
+def _numbers(curve):
+    """[(x, y)] of a curve over numbers, nothing of one over names."""
+    return [(np.ravel(np.asarray(curve.x, float)), np.ravel(np.asarray(curve.y, float)))] if np.asarray(curve.x).dtype.kind in "fiu" else []
+
+
 def _angles(axis, chart):
-    numbers = [np.ravel(np.asarray(curve.x, float)) for curve in chart.curves if np.asarray(curve.x).dtype.kind in "fiu"]
-    data = np.concatenate([np.empty(0), *numbers])
+    data = np.concatenate([np.empty(0), *(x for curve in chart.curves for x, _ in _numbers(curve))])
     if len(data) and np.nanmax(data) - np.nanmin(data) in (90.0, 180.0, 360.0):
         angle_ticks(axis.xaxis, float(np.nanmin(data)), float(np.nanmax(data)))
 
@@ -123,8 +126,6 @@ def _draw_curve(axis, curve, number):
         line = DASHES[number % len(DASHES)] if curve.look == "both" else "none"
         axis.plot(x, y, ls=line, lw=1.3, marker=MARKERS[number % len(MARKERS)], ms=5, color=hue, label=label)
     else:
-        finite = np.flatnonzero(np.isfinite(y))
-        step = max(len(finite) // SPARSE, 1)
         axis.plot(
             x,
             y,
@@ -132,12 +133,22 @@ def _draw_curve(axis, curve, number):
             lw=1.5 if len(x) <= MANY else 0.7,
             marker=MARKERS[number % len(MARKERS)],
             ms=4.5,
-            markevery=(((number * step) // 4) % max(len(x), 1), step) if len(x) > 1 else None,
+            markevery=_marked(x, y, number),
             color=hue,
             label=label,
         )
     if curve.low is not None and curve.high is not None:
         _draw_interval(axis, curve, x, hue)
+
+
+def _marked(x, y, number):
+    """Points of a line that have a marker, evenly over x where that grows, and not where other lines have theirs."""
+    finite = np.flatnonzero(np.isfinite(y))
+    if len(finite) < 2 or x.dtype.kind not in "fiu" or np.any(np.diff(x) < 0):
+        step = max(len(finite) // SPARSE, 1)
+        return [*finite[((number * step) // 4) % max(len(finite), 1) :: step]]
+    at = np.linspace(x[finite[0]], x[finite[-1]], SPARSE + 1) + (number % 4) / 4 * (x[finite[-1]] - x[finite[0]]) / SPARSE
+    return [*finite[np.unique(np.searchsorted(x[finite], at[at <= x[finite[-1]]]).clip(max=len(finite) - 1))]]
 
 
 def _draw_interval(axis, curve, x, hue):
@@ -148,29 +159,27 @@ def _draw_interval(axis, curve, x, hue):
         axis.fill_between(x, low, high, color=hue, alpha=0.18, lw=0)
 
 
-def _draw_stated(axis, stated, left):
-    """In the colour of what is printed: a line across with its words at the right or `left` end, a line upright, or a cross at a point."""
+def _draw_stated(axis, room, stated):
+    """In the colour of what is printed: a line across or upright, or a cross where both are given; the words where there is room."""
     look: dict[str, Any] = {"color": colour("bad"), "lw": 1.0, "ls": (0, (5, 3))}
     words: dict[str, Any] = {"fontsize": 8, "color": colour("bad"), "bbox": BADGE, "textcoords": "offset points"}
-    if stated.x is not None and stated.y is not None:
-        axis.plot([stated.x], [stated.y], ls="none", marker="x", ms=8, mew=1.8, color=colour("bad"), zorder=5)
-        before = stated.x > sum(axis.get_xlim()) / 2
-        axis.annotate(stated.text, (stated.x, stated.y), xytext=(-6 if before else 6, 5), ha="right" if before else "left", **words)
-    elif stated.y is not None:
-        axis.axhline(stated.y, **look)
-        high = stated.y > sum(axis.get_ylim()) / 2
-        place = (0.0 if left else 1.0, stated.y)
-        axis.annotate(
-            stated.text,
-            place,
-            xycoords=("axes fraction", "data"),
-            xytext=(3 if left else -3, -2 if high else 2),
-            ha="left" if left else "right",
-            va="top" if high else "bottom",
-            **words,
-        )
-    elif stated.x is not None:
+    if stated.y is None:
         axis.axvline(stated.x, **look)
-        axis.annotate(
-            stated.text, (stated.x, 0.0), xycoords=("data", "axes fraction"), xytext=(3, 4), rotation=90, va="bottom", ha="left", **words
-        )
+        left, _ = room.fraction(stated.x, 1.0)
+        place = (stated.x, room.gap(stated.text, left))
+        axis.annotate(stated.text, place, xycoords=("data", "axes fraction"), xytext=(3, 0), rotation=90, va="center", ha="left", **words)
+        return
+    if stated.x is None:
+        axis.axhline(stated.y, **look)
+        _, y = room.fraction(axis.get_xlim()[0], stated.y)
+        room.take(np.stack([np.linspace(0.0, 1.0, 200), np.full(200, y)], axis=1))
+        ends = [Place(1.0, y, -1, -1), Place(1.0, y, -1, 1), Place(0.0, y, 1, -1), Place(0.0, y, 1, 1)]
+    else:
+        axis.plot([stated.x], [stated.y], ls="none", marker="x", ms=8, mew=1.8, color=colour("bad"), zorder=5)
+        x, y = room.fraction(stated.x, stated.y)
+        ends = [Place(x, y, right, up) for right, up in ((1, 1), (-1, 1), (1, -1), (-1, -1))]
+    place = room.best(stated.text, ends)
+    words |= {"ha": "left" if place.right > 0 else "right", "va": "bottom" if place.up > 0 else "top"}
+    away = (6 * place.right, 5 * place.up) if stated.x is not None else (3 * place.right, 2 * place.up)
+    point, kind = ((place.x, stated.y), ("axes fraction", "data")) if stated.x is None else ((stated.x, stated.y), "data")
+    axis.annotate(stated.text, point, xycoords=kind, xytext=away, **words)

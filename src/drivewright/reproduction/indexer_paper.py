@@ -33,6 +33,8 @@ HYSTERESIS, SCATTER = 0.05, 0.01  # arcmin: half the width of the made-up loops,
 SLEEVE = (50e-6, 91e-6)  # clearance of H7/e6 over 30 to 50 mm of diameter [m]
 ROLLERS, BALLS = (25e-6, 50e-6), (5e-6, 20e-6)  # clearance of a NU207 and of a 61904 of class 0, group normal [m]
 DRIVES, SEED = 60, 1
+LITTLE_PLAY = 1e-6  # rad, beyond which the wheel counts as free
+CYCLE = 803  # readings of one made-up cycle, back to its first
 
 
 def preset(*changes: str) -> Any:
@@ -91,7 +93,7 @@ def hysteresis_loop() -> "Drawn":
     branch = np.linspace(-numbers.LOOP_TORQUE, numbers.LOOP_TORQUE, 2)
     middle = found.torque.mean()
     curves = [
-        Curve("readings", found.angle[:802] * TO_ARCMIN, found.torque[:802]),
+        Curve("readings", found.angle[:CYCLE] * TO_ARCMIN, found.torque[:CYCLE]),
         Curve(f"eq. (3): {found.whole_loop.value * PER_ARCMIN:.0f} N m/arcmin", ends, middle + found.whole_loop.value * PER_ARCMIN * ends),
         Curve(f"slope of the branches: {found.per_branch.value * PER_ARCMIN:.0f}", branch / found.per_branch.value * TO_ARCMIN, branch),
     ]
@@ -218,13 +220,16 @@ def clearance_band() -> tuple[Floats, Floats]:
 def clearances() -> "Drawn":
     """The band of the stiffness after play, beside the drive without clearances."""
     angle, rows = clearance_band()
-    carried = np.isfinite(rows).any(axis=0)
-    angle, (low, middle, high) = angle[carried], np.nanpercentile(rows[:, carried], (5, 50, 95), axis=0)
     table = result().tables["stiffness"]
-    curves = [
-        Curve("with clearances, median and 5 to 95 %", angle, middle, low=low, high=high),
-        Curve("without clearances", degrees(table), table["secant_after_play"].data * PER_ARCMIN),
-    ]
+    first = table["free_rotation"].data > LITTLE_PLAY  # of the drive without clearances: the cams do not hold the wheel here
+    held = np.isfinite(table["secant"].data)
+    low, middle, high = np.full((3, len(angle)), np.nan)
+    carried = np.isfinite(rows).any(axis=0)
+    low[carried], middle[carried], high[carried] = np.nanpercentile(rows[:, carried], (5, 50, 95), axis=0)
+    curves = [Curve("without clearances", degrees(table), np.where(held, table["secant"].data, np.nan) * PER_ARCMIN)]
+    for label, shown in (("with clearances, median and 5 to 95 %", held), ("the same where the wheel turns freely first", first)):
+        median, *ends = (np.where(shown, each, np.nan) for each in (middle, low, high))
+        curves.append(Curve(label, angle, median, "line" if shown is held else "points", ends[0], ends[1]))
     return chart_figure("Stiffness after play, 60 drives", ANGLE, [Chart(STIFFNESS, curves)], height=3.2)
 
 

@@ -4,7 +4,7 @@ import json
 import re
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -18,8 +18,8 @@ from drivewright.report.pdf import compile_template
 from drivewright.reproduction.document import AS_PRINTED, CORRECTED, DEFINITION, UNDECIDED, Equation, Figure, Grid, Paper, Section
 from drivewright.reproduction.formulas import formula_picture
 from drivewright.reproduction.parts import Computed, Progress, compute_parts
-from drivewright.validation.source import AGREES, CALIBRATED, EXPLAINED, NOT_COMPARED, OPEN, PRINT_ONLY, VERDICTS, Row, best_verdicts
-from drivewright.view.text import SUPERSCRIPT, quantity, sentence, uncertain
+from drivewright.validation.source import AGREES, CALIBRATED, EXPLAINED, NOT_COMPARED, NUMBER, OPEN, PRINT_ONLY, VERDICTS, Row, counts
+from drivewright.view.text import SUPERSCRIPT, number, numbers, sentence, shown_unit, with_unit
 
 Content: TypeAlias = dict[str, Any]
 STATES = {AGREES: "good", EXPLAINED: "warn", OPEN: "bad", NOT_COMPARED: "none"}
@@ -30,7 +30,8 @@ MEANINGS = {
     OPEN: "no reading that we know gives the printed number",
     NOT_COMPARED: "calibrated on the print, made of printed numbers alone, or without a counterpart",
 }
-BASIS_WORDS = {CALIBRATED: "calibrated", PRINT_ONLY: "print only"}
+BASIS_WORDS = {CALIBRATED: "not compared: calibrated", PRINT_ONLY: "not compared: print only"}
+GREEK = {"alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "theta": "θ", "phi": "φ", "psi": "ψ", "mu": "μ", "omega": "ω"}
 MOST_DIGITS = 9
 NEAR = 1e-3  # of our number: beyond it more digits of ours than usual say nothing
 ROUNDING = 1e-6  # of our number: less says nothing beside the digits of a print
@@ -75,15 +76,10 @@ def refuse_foreign(out: Path) -> None:
 # -- what the page says --------------------------------------------------------------------------------------------------------
 
 
-def counts(rows: Iterable[Row]) -> dict[str, int]:
-    """How many printed numbers and claims have each verdict, the best of their readings, in the order of the verdicts."""
-    found = Counter(best_verdicts(rows).values())
-    return {verdict: found[verdict] for verdict in VERDICTS}
-
-
 def content(paper: Paper, computed: Computed) -> Content:
     """The page as plain text in plain dictionaries; pictures are `Picture`s."""
-    remarks = list(dict.fromkeys(row.commentary for row in computed.rows if row.commentary))
+    remarks = Footnotes()
+    sections = [_section(section, computed, remarks) for section in paper.sections]
     return {
         "name": paper.name,
         "mechanism": "Reproduction",
@@ -93,17 +89,16 @@ def content(paper: Paper, computed: Computed) -> Content:
         "version": program(),
         "verdict": verdict(computed.rows),
         "counts": [
-            {"verdict": name, "count": count, "state": STATES[name], "meaning": MEANINGS[name]}
+            {"verdict": in_number(name, count), "count": count, "state": STATES[name], "meaning": MEANINGS[name]}
             for name, count in counts(computed.rows).items()
         ],
         "inputs": [each._asdict() for each in paper.inputs],
-        "sections": [_section(section, computed, remarks) for section in paper.sections],
-        "remarks": [f"{name}: {reason}" for name, reason in computed.missing.items()],
-        "readings": f"{len(computed.rows)} rows for {len(best_verdicts(computed.rows))} printed numbers and claims, printed equations "
-        "evaluated for the inputs among them; of several readings of one number the best counts.",
-        "footnotes": remarks,
-        "errata": list(paper.source.errata),
-        "equations": [f"{count} {name}" for name, count in Counter(e.verdict for s in paper.sections for e in s.equations).items()],
+        "sections": sections,
+        "remarks": missing_parts(paper, computed),
+        "readings": readings(computed.rows),
+        "footnotes": list(remarks),
+        "errata": [pretty(text) for text in paper.source.errata],
+        "equations": in_words(_equations(paper)),
         "command": f"drivewright reproduce {paper.name}{' --no-solids' if computed.left_out else ''} --out DIR",
     }
 
@@ -116,7 +111,55 @@ def verdict(rows: Sequence[Row]) -> dict[str, str]:
     return {"state": state, "text": f"{found[AGREES]} of {compared} compared numbers and claims agree"}
 
 
-def _section(section: Section, computed: Computed, remarks: list[str]) -> Content:
+def missing_parts(paper: Paper, computed: Computed) -> list[str]:
+    """What is not on the page, a line for each reason: figures and tables by their names, numbers and studies as such."""
+    named = {figure.number for figure in paper.figures} | {listing.name for listing in paper.listings}
+    lines: dict[str, list[str]] = {}
+    for name, reason in computed.missing.items():
+        lines.setdefault(reason, []).append(name if name in named else "numbers that need solid models")
+    return [f"{sentence(reason)}: {', '.join(dict.fromkeys(names))}." for reason, names in lines.items()]
+
+
+def readings(rows: Sequence[Row]) -> str:
+    """What is counted, and the formulas that are counted apart."""
+    printed, formulas = counts(rows), counts(rows, evaluated=True)
+    total, compared = sum(printed.values()), sum(printed.values()) - printed[NOT_COMPARED]
+    text = f"The paper prints {total} numbers and claims, of which {compared} can be compared; where one can be read in several ways, the "
+    text += "reading that agrees best counts."
+    if any(formulas.values()):
+        text += f" Its formulas are evaluated for its inputs, too, and counted apart: {in_words(formulas)}."
+    return f"{text} The tables below have {len(rows)} rows."
+
+
+def in_number(verdict: str, count: int) -> str:
+    """The verdict of so many: '1 agrees', '2 agree', '2 differ, open', '2 definitions'."""
+    return verdict if count == 1 else re.sub(r"definition$", "definitions", re.sub(r"^(agree|differ)s", r"\1", verdict))
+
+
+def in_words(found: Mapping[str, int]) -> str:
+    """'2 agree; 8 differ, open' of the numbers of verdicts."""
+    return "; ".join(f"{count} {in_number(verdict, count)}" for verdict, count in found.items() if count)
+
+
+def _equations(paper: Paper) -> dict[str, int]:
+    """{verdict: how many equations have it}, in the order of the verdicts."""
+    found = Counter(equation.verdict for section in paper.sections for equation in section.equations)
+    return {verdict: found[verdict] for verdict in EQUATION_STATES if found[verdict]}
+
+
+class Footnotes(list[str]):
+    """The remarks in the order in which the page first points to them."""
+
+    def mark(self, remark: str) -> str:
+        """The number of a remark, "" for none."""
+        if not remark:
+            return ""
+        if remark not in self:
+            self.append(remark)
+        return str(self.index(remark) + 1)
+
+
+def _section(section: Section, computed: Computed, remarks: Footnotes) -> Content:
     rows = {row.name: row for row in computed.rows if row.where in section.places}
     in_grids = {name for grid in section.grids for _, names in grid.rows for name in names}
     return {
@@ -124,7 +167,7 @@ def _section(section: Section, computed: Computed, remarks: list[str]) -> Conten
         "id": "".join(letter if letter.isalnum() else "-" for letter in section.title.lower()),
         "claims": list(section.claims),
         "equations": [_equation(equation) for equation in section.equations],
-        "grids": [_grid(grid, rows) for grid in section.grids],
+        "grids": [_grid(grid, rows, remarks) for grid in section.grids],
         "rows": [row_content(row, remarks) for row in rows.values() if row.name not in in_grids],
         "figures": [_figure(figure, computed) for figure in section.figures],
         "missing": list(section.missing),
@@ -147,35 +190,40 @@ def _equation(equation: Equation) -> Content:
     }
 
 
-def row_content(row: Row, remarks: list[str]) -> Content:
+def row_content(row: Row, remarks: Footnotes) -> Content:
     """A row as the tables show it."""
+    ours, interval = ours_texts(row)
     return {
-        "quantity": sentence(row.name),
+        "quantity": sentence(pretty(row.name)),
         "where": row.where,
         "printed": pretty(row.printed.text),
-        "ours": ours_text(row).partition(" (")[0] if row.low is not None else ours_text(row),
-        "interval": interval_text(row),
+        "ours": ours,
+        "interval": interval,
         "deviation": deviation_text(row),
         "verdict": BASIS_WORDS.get(row.basis, row.verdict),
         "state": STATES[row.verdict],
-        "remark": str(remarks.index(row.commentary) + 1) if row.commentary else "",
+        "remark": remarks.mark(pretty(row.commentary)),
     }
 
 
-def ours_text(row: Row) -> str:
-    """Our number in the unit people read; of one near the print as many digits as that has."""
+def ours_texts(row: Row) -> tuple[str, str]:
+    """(our number in the unit people read, its 95 % interval or ""); of a number near the print as many digits as that has."""
     if row.ours is None:
-        return "–"
-    text = row.printed.text.split(" ")[0].split("e")[0]
-    near = row.deviation is not None and abs(row.deviation) < NEAR * abs(row.ours)
-    digits = max(len(text.lstrip("+-0.").replace(".", "")), EXACT) if near and row.low is None else EXACT
-    return uncertain(row.ours, row.unit, row.low, row.high, min(digits, MOST_DIGITS))
+        return "–", ""
+    factor, unit = shown_unit(row.unit, row.printed.unit)
+    low, high = (None if end is None else end * factor for end in (row.low, row.high))
+    middle, *ends = numbers(row.ours * factor, low, high, _digits(row))
+    return with_unit(middle, unit), f"{ends[0]} to {ends[1]}" if ends[0] else ""
 
 
-def interval_text(row: Row) -> str:
-    """The 95 % interval, "" where there is none or it says nothing."""
-    found = re.search(r"\((.*)\)(.*)", ours_text(row))
-    return f"{found[1]}{found[2]}" if found and row.low is not None else ""
+def _digits(row: Row) -> int:
+    """How many digits of our number say something beside the print."""
+    printed = re.match(NUMBER, row.printed.text)
+    near = row.deviation is not None and row.ours is not None and abs(row.deviation) < NEAR * abs(row.ours)
+    if printed is None or not near or row.low is not None:
+        return EXACT
+    digits = re.sub(r"e.*|\D", "", printed[0]).lstrip("0")
+    return min(max(len(digits), EXACT), MOST_DIGITS)
 
 
 def deviation_text(row: Row) -> str:
@@ -184,22 +232,27 @@ def deviation_text(row: Row) -> str:
         return ""
     if abs(row.deviation) <= ROUNDING * abs(row.ours):
         return "0"
-    text = quantity(row.deviation, row.unit, 3)
+    factor, unit = shown_unit(row.unit, row.printed.unit)
+    text = with_unit(number(row.deviation * factor, 3), unit)
     return text if text.startswith("−") else f"+{text}"
 
 
-def pretty(printed: str) -> str:
-    """A printed number with the signs of print: 'um/kN' -> 'µm/kN', '-40' -> '−40', '4.560e11 min' -> '4.560×10¹¹ min'."""
-    text = re.sub(r"(?<=\d)e([+-]?\d+)", lambda found: f"×10{found[1].translate(SUPERSCRIPT)}", printed)
-    text = re.sub(r"^-(?=\d)", "−", re.sub(r"\bum\b", "µm", text))
-    return re.sub(r"(?<=\d) deg\b", "°", text).replace("^2", "²").replace("^4", "⁴")
+def pretty(text: str) -> str:
+    """A text with the signs of print: 'um/kN' -> 'µm/kN', '-40' -> '−40', '4.560e11 min' -> '4.560×10¹¹ min', 'alpha0' -> 'α0'."""
+    text = re.sub(r"(?<=\d)e([+-]?\d+)\b", lambda found: f"×10{found[1].translate(SUPERSCRIPT)}", text)
+    text = re.sub(r"(?<![\w.)])-(?=\d)", "−", re.sub(r"\bu(?=(m|rad)\b)", "µ", text))
+    text = re.sub(rf"\b({'|'.join(GREEK)})_?(?=\d|p2|\b)", lambda found: GREEK[found[1]], text)
+    text = re.sub(r"\^(\d)", lambda found: found[1].translate(SUPERSCRIPT), text)
+    return re.sub(r"(?<=\d) deg\b", "°", text).replace(">= ", "≥ ").replace(" << ", " ≪ ")
 
 
-def _grid(grid: Grid, rows: dict[str, Row]) -> Content:
+def _grid(grid: Grid, rows: dict[str, Row], remarks: Footnotes) -> Content:
     """Printed above ours in each cell."""
     cells = [[_cell(rows.get(name)) for name in names] for _, names in grid.rows]
+    shown = [rows[name] for _, names in grid.rows for name in names if name in rows]
     return {
         "title": grid.title,
+        "remarks": list(dict.fromkeys(remarks.mark(pretty(row.commentary)) for row in shown if row.commentary)),
         "corner": grid.corner,
         "columns": list(grid.columns),
         "side": [name for name, _ in grid.rows],
@@ -210,9 +263,10 @@ def _grid(grid: Grid, rows: dict[str, Row]) -> Content:
 def _cell(row: Row | None) -> Content:
     if row is None:
         return {"printed": "", "ours": "", "state": "none", "verdict": ""}
+    ours, interval = ours_texts(row)
     return {
         "printed": row.printed.text,
-        "ours": ours_text(row),
+        "ours": f"{ours} ({interval})" if interval else ours,
         "state": STATES[row.verdict],
         "verdict": BASIS_WORDS.get(row.basis, row.verdict),
     }
@@ -280,7 +334,10 @@ def write_overview(papers: Sequence[Paper], computed: Mapping[str, Computed], fo
                 "title": paper.title,
                 "summary": paper.summary,
                 "link": f"{paper.name}/{PAGE}",
-                "counts": [{"verdict": verdict, "count": found[verdict], "state": STATES[verdict]} for verdict in VERDICTS],
+                "counts": [
+                    {"verdict": in_number(verdict, found[verdict]), "count": found[verdict], "state": STATES[verdict]}
+                    for verdict in VERDICTS
+                ],
             }
         )
     atomic.write_text(folder / ROWS_FILE, json.dumps(records, indent=1, ensure_ascii=False, allow_nan=False) + "\n")

@@ -46,6 +46,7 @@ class Computed:
     pictures: dict[str, Picture]
     missing: dict[str, str]  # name of a part -> reason
     left_out: frozenset[str] = frozenset()  # of those, what was not wanted
+    renewed: int = 0  # parts that were there, but made by other sources of this package
     listings: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)  # name of a table -> {"heads", "rows"}
 
 
@@ -65,7 +66,7 @@ def compute_parts(paper: Paper, folder: Path, solids: bool, progress: Progress) 
     kept, digest, wanted = folder / "parts", sources_digest(), [part for part in parts_of(paper) if solids or not part.solids]
     missing = {part.name: "left out by --no-solids" for part in parts_of(paper) if part not in wanted}
     todo = [part for part in wanted if read_part(kept / part.file) is None]
-    done = len(wanted) - len(todo)
+    done, stale = len(wanted) - len(todo), sum((kept / part.file).exists() for part in todo)
     for part in [part for part in todo if part.kind == STUDY]:
         progress(done, len(wanted), part.name)
         study = next(each for each in paper.studies if each.name == part.name)
@@ -76,7 +77,8 @@ def compute_parts(paper: Paper, folder: Path, solids: bool, progress: Progress) 
     for reason, part in _side_by_side(paper, others, folder, lambda finished, what: progress(done + finished, len(wanted), what)):
         if reason:
             missing[part.name] = reason
-    return replace(_collected(paper, kept, missing), left_out=frozenset(part.name for part in parts_of(paper) if part not in wanted))
+    left_out = frozenset(part.name for part in parts_of(paper) if part not in wanted)
+    return replace(_collected(paper, kept, missing), left_out=left_out, renewed=stale)
 
 
 def _tell(progress: Progress, done: int, total: int, name: str) -> Progress:

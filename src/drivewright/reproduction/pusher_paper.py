@@ -25,6 +25,7 @@ if TYPE_CHECKING:
 
 MM = 1e3
 CARRIER = "Carrier angle [deg]"
+DRIVING = ((65.0, 86.0), (87.0, 123.0))  # carrier angles [deg] over which the main and the return cam drive
 SIDES = {"rod at the needle": "default", "mirrored": "paper-mirrored"}
 
 
@@ -106,9 +107,17 @@ def pressure_angles() -> "Drawn":
         curves = [
             Curve(f"{cam} cam", angle[shown], np.abs(np.degrees(table[f"{cam}.pressure_angle"].data[shown]))) for cam in ("main", "return")
         ]
+        curves += [_largest_while_driving(curve, ends) for curve, ends in zip(curves, DRIVING, strict=True)]
         stated = [Stated("main cam as printed, 38.67°", y=38.67), Stated("return cam as printed, 30.74°", y=30.74)]
         charts.append(Chart("Pressure angle [deg]", curves, stated, label))
     return chart_figure("Pressure angles", CARRIER, charts, height=2.8)
+
+
+def _largest_while_driving(curve: Curve, ends: tuple[float, float]) -> Curve:
+    """The point of a cam's curve with the largest angle between the ends [deg] of the phase in which the cam drives."""
+    x, y = np.asarray(curve.x, float), np.asarray(curve.y, float)
+    at = int(np.argmax(np.where((x >= ends[0]) & (x <= ends[1]), y, -np.inf)))
+    return Curve(f"{curve.label} while it drives: {y[at]:.2f}°", x[at : at + 1], y[at : at + 1], "points")
 
 
 DESIGNS = {"as published": "default", **{f"design {letter.upper()}": f"design-{letter}" for letter in "abcd"}}

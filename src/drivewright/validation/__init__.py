@@ -49,7 +49,10 @@ from drivewright.validation.source import (
     Printed,
     Row,
     Source,
+    about,
     best_verdicts,
+    counts,
+    evaluated,
     rounded,
 )
 
@@ -80,7 +83,10 @@ __all__ = [
     "Row",
     "Source",
     "VERDICTS",
+    "about",
     "best_verdicts",
+    "counts",
+    "evaluated",
     "page",
     "rounded",
     "rows_of",

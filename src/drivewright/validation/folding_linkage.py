@@ -26,6 +26,7 @@ from drivewright.validation.source import (
     Printed,
     Row,
     Source,
+    about,
     rounded,
 )
 
@@ -205,9 +206,9 @@ def printed_acceleration(speed: int) -> Printed:
 
 def common_factor() -> Printed:
     """What all eleven printed accelerations have in common over the square of the speed [m], as a `Printed`."""
-    bounds = np.array([np.array(printed_acceleration(speed)[1:]) / (TURN * speed / 3600) ** 2 for speed in TABLE])
+    bounds = np.array([np.array(printed_acceleration(speed)[1:3]) / (TURN * speed / 3600) ** 2 for speed in TABLE])
     low, high = bounds[:, 0].max(), bounds[:, 1].min()
-    return Printed(f"{1e3 * (low + high) / 2:.2f} mm", low, high)
+    return about(f"{1e3 * (low + high) / 2:.2f} mm", (low + high) / 2, (high - low) / 2)
 
 
 # -- impact load coefficients --------------------------------------------------------------------------------------------------
@@ -222,13 +223,13 @@ def _loads() -> Iterator[Row]:
     ours = iter(load_coefficients(stated + constant + calibrated))
     by_hand: dict[str, Any] = {"basis": CALIBRATED, "pinned": NOT_COMPARED, "note": NOT_A_TARGET}
     unknown: dict[str, Any] = {"pinned": OPEN, "note": NO_DAMPING}
-    for points, reading, about in (
+    for points, reading, remark in (
         (stated, "damping as stated", unknown),
         (constant, "one damping", unknown),
         (calibrated, "damping calibrated", by_hand),
     ):
         for speed, play, _ in points:
-            yield load_row(speed, play, reading, next(ours), **about)
+            yield load_row(speed, play, reading, next(ours), **remark)
 
 
 def load_row(speed: int, play: str, reading: str, ours: float, **more: Any) -> Row:
@@ -280,7 +281,7 @@ def _equation_2() -> Iterator[Row]:
     misprint = Explanation("Misprint: C must be (A^2 + B^2 + l4^2 - l3^2)/(2 A l4), and the product C D carries a minus sign.", share[1])
     yield Row(
         "crank angles without a root, eq. (2) as printed",
-        Printed("none, implied", 0.0, 0.0),
+        Printed("none, implied", 0.0, 0.0, evaluated=True),
         share[0],
         "-",
         pinned=EXPLAINED,
@@ -289,7 +290,7 @@ def _equation_2() -> Iterator[Row]:
     )
     yield Row(
         "loop left open, eq. (2) corrected",
-        Printed("0, implied", 0.0, 1e-14),
+        Printed("0, implied", 0.0, 1e-14, evaluated=True),
         float(loop_closure_error(crank).max()),
         "m",
         pinned=AGREES,

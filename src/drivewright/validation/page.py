@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable, Iterator
 
-from drivewright import units
 from drivewright.validation.source import Row, Source
 
 HEADER = """# Validation
@@ -11,7 +10,8 @@ The numbers that others have published beside ours. `drivewright validate` compu
 differs from the one pinned in the repository. A verdict is computed: *agrees* when our number rounds to the printed one or meets
 the printed limit (of an uncertain number also when the print lies within its 95 % interval); *differs, explained* when our number under
 another reading, which the remark names, gives the printed one; *differs, open* otherwise. What is calibrated on the print, or made of
-printed numbers alone, is *not compared*. `drivewright reproduce` shows the five papers that the package began with figure by figure.
+printed numbers alone, is *not compared*. What is called *evaluated* is a printed formula's value for the source's data, which the source
+itself does not print. `drivewright reproduce` shows the five papers that the package began with figure by figure.
 """
 
 
@@ -42,5 +42,5 @@ def _listed(lines: Iterable[str]) -> list[str]:
 
 
 def _number(row: Row) -> str:
-    factor, shown = units.display(row.unit)
+    factor, shown = row.shown_unit
     return "" if row.ours is None else f"{row.ours * factor:.6g}{'' if shown == '-' else ' ' + shown}"

@@ -9,12 +9,25 @@ from drivewright import registry
 from drivewright.result import Result
 from drivewright.runner import run
 from drivewright.spec import load
-from drivewright.validation.source import AGREES, CALIBRATED, EXPLAINED, NOT_COMPARED, OPEN, Explanation, Printed, Row, Source, rounded
+from drivewright.validation.source import (
+    AGREES,
+    CALIBRATED,
+    EXPLAINED,
+    NOT_COMPARED,
+    OPEN,
+    Explanation,
+    Printed,
+    Row,
+    Source,
+    evaluated,
+    rounded,
+)
 
 TRAIN = "a = 16.272 mm, k = 0.985, delta0 = 89 deg, phi0 = 7 deg"
 FIRST = f"first set: {TRAIN}; alpha0 = 104 deg, S = 175 mm; push over carrier angles 65 to 86 deg, return 87 to 123 deg"
 SECOND = f"second set: {TRAIN}; alpha0 = 35 deg, r01 = 29 mm, r02 = 33 mm, l1 = l2 = 16 mm, ri = 6 mm, a' = 37 mm, l3 = 135 mm, m = 3.5"
-BEND = "two readings of the bend of 89 deg have rows of their own: the angle turned at the intermediate gear, or the interior angle there"
+BEND = "delta0 = 89 deg is the angle by which the carrier turns aside at the intermediate gear, or the interior angle between its arms"
+AS_TURN, AS_INTERIOR = "delta0 as the turn of the carrier", "delta0 as its interior angle"
 TIP = "S and the push of the first set hold for the second; alpha0 = 35 deg is counted from the first arm of the carrier"
 TIP_104 = "alpha0 = 104 deg is counted at the planet from the ray to the sun"
 NEEDLE = "needle 30.84 deg steeper than the line planet axis - tip, calibrated on the push angle; take at the top, push at the lowest point"
@@ -53,8 +66,8 @@ def _collinear(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
         "A reading off the figure is likely but cannot be shown: 253 deg needs k = 0.9874 or a bend of 87.28 deg, which the "
         "printed digits exclude."
     )
-    for name, result in (("turned", turned), ("interior", interior)):
-        quantity, ours = f"planet collinear, bend {name}", result["train.collinear_angle"]
+    for name, result in ((AS_TURN, turned), (AS_INTERIOR, interior)):
+        quantity, ours = f"planet collinear, {name}", result["train.collinear_angle"]
         yield Row(quantity, rounded("253 deg", "rad"), ours, reading_of="planet collinear", **common)
 
 
@@ -71,10 +84,10 @@ def _lowest(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
     second: dict[str, Any] = {"inputs": SECOND, "assumed": TIP} | common
     printed = rounded("86 deg", "rad")
     common |= {"inputs": FIRST, "assumed": TIP_104}
-    yield Row("tip lowest, bend turned", printed, turned["tip.lowest_angle"], pinned=EXPLAINED, explanation=timing, **second)
-    yield Row("tip lowest, bend interior", printed, interior["tip.lowest_angle"], pinned=EXPLAINED, explanation=timing, **second)
-    yield Row("tip lowest, first set, bend turned", printed, first, pinned=EXPLAINED, explanation=timing, **common)
-    yield Row("tip lowest, first set, bend interior", printed, reached, pinned=NOT_COMPARED, basis=CALIBRATED, note=chosen, **common)
+    yield Row(f"tip lowest, {AS_TURN}", printed, turned["tip.lowest_angle"], pinned=EXPLAINED, explanation=timing, **second)
+    yield Row(f"tip lowest, {AS_INTERIOR}", printed, interior["tip.lowest_angle"], pinned=EXPLAINED, explanation=timing, **second)
+    yield Row(f"tip lowest, first set, {AS_TURN}", printed, first, pinned=EXPLAINED, explanation=timing, **common)
+    yield Row(f"tip lowest, first set, {AS_INTERIOR}", printed, reached, pinned=NOT_COMPARED, basis=CALIBRATED, note=chosen, **common)
 
 
 def _needle(turned: Result[Any]) -> Iterator[Row]:
@@ -114,9 +127,9 @@ def _pressure_angles(turned: Result[Any], interior: Result[Any]) -> Iterator[Row
     harmonic = "rod by simple harmonic motion at the needle; l = m l1 = 56 mm"
     cases = (
         ("rod at the needle", turned, CAMS),
-        ("mirrored, bend turned", mirrored, MIRRORED),
-        ("mirrored, bend interior", interior, MIRRORED),
-        ("other law", other, harmonic),
+        (f"mirrored, {AS_TURN}", mirrored, MIRRORED),
+        (f"mirrored, {AS_INTERIOR}", interior, MIRRORED),
+        ("simple harmonic motion", other, harmonic),
     )
     for name, result, assumed in cases:
         for cam, text, phase in (("main", "38.67 deg", "rise"), ("return", "30.74 deg", "return")):
@@ -129,9 +142,13 @@ def _rod_at_needle(turned: Result[Any]) -> Iterator[Row]:
     """Figures 1b and 10 draw the rod along the needle."""
     common: dict[str, Any] = {"kind": "published table", "where": "Figs. 1b, 10", "inputs": SECOND, "unit": "m"}
     mirrored = _result("paper-mirrored", ("planting",))["rod.needle_distance"]
-    note = f"With the lever pivot orbiting the other way, everything mirrored, they would be {1e3 * mirrored:.0f} mm apart."
+    note = (
+        "The sense in which the lever's pivot orbits is not printed and is chosen so that they meet; the other way, everything mirrored, "
+        f"they would be {1e3 * mirrored:.0f} mm apart."
+    )
     printed = Printed("rod along the needle: within 5 mm", -float("inf"), 5e-3)
-    yield Row("distance of rod and needle", printed, turned["rod.needle_distance"], pinned=AGREES, assumed=TIP, note=note, **common)
+    common |= {"pinned": NOT_COMPARED, "basis": CALIBRATED}
+    yield Row("distance of rod and needle", printed, turned["rod.needle_distance"], assumed=TIP, note=note, **common)
 
 
 def _curvature(turned: Result[Any]) -> Iterator[Row]:
@@ -157,7 +174,7 @@ def _curvature(turned: Result[Any]) -> Iterator[Row]:
 def _lever(turned: Result[Any]) -> Iterator[Row]:
     common: dict[str, Any] = {"unit": "rad", "kind": "closed form", "inputs": SECOND}
     swing = np.degrees(np.arcsin(18 / np.hypot(18, 56)))
-    printed = rounded(f"{swing:.4f} deg", "rad")
+    printed = evaluated(f"{swing:.4f} deg", "rad")
     yield Row(
         "lever swing", printed, turned["lever.swing"], pinned=AGREES, where="eq. (1), stroke 18 mm", assumed="l = m l1 = 56 mm", **common
     )
@@ -168,7 +185,7 @@ def _lever(turned: Result[Any]) -> Iterator[Row]:
         rooted = float(np.arccos(np.sqrt(2 * 37 * 16 * np.cos(ours)) / (2 * 37 * 16)))
         yield Row(
             f"rest angle phi{number}",
-            rounded(f"{literal:.2f} deg", "rad"),
+            evaluated(f"{literal:.2f} deg", "rad"),
             ours,
             pinned=EXPLAINED,
             explanation=Explanation(remark, rooted),

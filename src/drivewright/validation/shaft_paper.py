@@ -16,7 +16,20 @@ from drivewright.bearings.roller import RollerBearing
 from drivewright.result import Result
 from drivewright.runner import build, run
 from drivewright.spec import load
-from drivewright.validation.source import AGREES, EXPLAINED, OPEN, Explanation, Printed, Row, Source, rounded
+from drivewright.validation.source import (
+    AGREES,
+    EXPLAINED,
+    NOT_COMPARED,
+    OPEN,
+    PRINT_ONLY,
+    Explanation,
+    Printed,
+    Row,
+    Source,
+    about,
+    evaluated,
+    rounded,
+)
 
 # Table 1, SI; I is the printed one.
 L1, L2, L3, L5, L6, L7, L8 = 0.0565, 0.080, 0.1085, 0.053, 0.082, 0.0665, 0.2595
@@ -38,7 +51,7 @@ LITERAL_NOTE = (
     "Eqs. (16), (17) to the letter, reactions as magnitudes and x from the first mass, give the printed trend, by wrong signs: "
     "bearings that yield add squares of their reactions over their stiffness, so to the flexibility of every mass under its load."
 )
-HISTORICAL_NOTE = "Historical comparison: the printed eqs. (16), (17), which are wrong, reproduce this trend; no evidence for it."
+HISTORICAL_NOTE = "The printed eqs. (16), (17), which are wrong, give this trend: the paper beside itself."
 MISPRINT = "Misprint: the span is that of the bearings C and D, l7 + l8; with D right of C by l7 alone ours is the printed value."
 
 
@@ -80,12 +93,12 @@ def own_flexibility(mass: str, stiffness: float | None = None) -> float:
 
 def flexibility_of_formula(value: float) -> Printed:
     """A printed formula's flexibility [m/N] for the printed data, to six digits."""
-    return rounded(f"{1e9 * value:.6g} um/kN", "m/N")
+    return evaluated(f"{1e9 * value:.6g} um/kN", "m/N")
 
 
 def slope_of_formula(value: float) -> Printed:
     """A printed formula's slope [rad/N], in urad/N, to six digits."""
-    return rounded(f"{1e6 * value:.6g}", "-")
+    return evaluated(f"{1e6 * value:.6g}", "-")
 
 
 # -- section and closed forms --------------------------------------------------------------------------------------------------
@@ -106,7 +119,7 @@ def _pressure_roller() -> Iterator[Row]:
     own = "The formula belongs to a force at this mass alone, whatever the text says of one force P."
     slope, moment = (value_per_newton("pressure-roller", "m1", name) for name in ("bearings.A.slope", "shaft.max_moment"))
     yield Row("slope at A, force at m1, in urad/N", slope_of_formula(L1 * L2 / (3 * EI)), 1e6 * slope, "-", where="eq. (1)", **common)
-    yield Row("moment at A over the force at m1, in m", rounded("0.0565", "-"), moment, "-", where="eq. (2)", **common)
+    yield Row("moment at A over the force at m1, in m", evaluated("0.0565", "-"), moment, "-", where="eq. (2)", **common)
     for number, mass, arm in ((3, "m1", L1), (4, "m2", L3)):
         yield Row(
             f"flexibility of {mass}, bearings rigid",
@@ -306,7 +319,7 @@ def _sums(common: dict[str, Any]) -> Iterator[Row]:
     in_newtons: dict[str, Any] = {"unit": "N/m"}
     yield Row(
         "stiffness of m1, m2 held, from the inverse",
-        rounded(f"{1e-6 * k11:.6g} kN/mm", "N/m"),
+        evaluated(f"{1e-6 * k11:.6g} kN/mm", "N/m"),
         float(run_preset("pressure-roller", None, ("flexibility",)).arrays["stiffness"].values[0, 0]),
         where="eq. (21)",
         pinned=AGREES,
@@ -321,7 +334,7 @@ def _equation_21() -> Row:
     misprint = Explanation("Misprint: the indices of K2 are 33, 34; 43, 44. No force on one shaft moves the other in this model.", meant)
     return Row(
         "rank of the flexibility with indices 31, 32; 41, 42",
-        Printed("2, implied by its inverse K2", 2, 2),
+        Printed("2, implied by its inverse K2", 2, 2, evaluated=True),
         printed,
         "-",
         pinned=EXPLAINED,
@@ -353,7 +366,7 @@ SUPPORTS_NOTE = (
 
 def _fixed() -> Iterator[Row]:
     common: dict[str, Any] = {"kind": "closed form", "where": "section 4.1", "inputs": DATA, "assumed": READING}
-    consistent = Printed("1, implied: consistent", 0.9, 1.1)
+    consistent = about("1, implied: consistent", 1.0, 0.1)
     for mass, (preset, _, place) in LAYOUT.items():
         ours = float(clamped_flexibility(preset)[place, place])
         yield Row(
@@ -414,7 +427,7 @@ def _trends() -> Iterator[Row]:
             explanation=None if right else Explanation(LITERAL_NOTE, historical),
             **common,
         )
-        literal: dict[str, Any] = common | {"pinned": AGREES, "note": HISTORICAL_NOTE}
+        literal: dict[str, Any] = common | {"pinned": NOT_COMPARED, "basis": PRINT_ONLY, "note": HISTORICAL_NOTE, "reading_of": name}
         yield Row(f"{name}, eqs. (16), (17) to the letter", claim, historical, **literal)
 
 
@@ -472,7 +485,7 @@ def _bearings() -> Iterator[Row]:
     assumed = "balls of the catalogue's back-fitted 61804; no clearance; the load, which the paper leaves out"
     yield Row(
         "secant stiffness of a 61804 at 500 N",
-        rounded("30 kN/mm", "N/m")._replace(text="3.0e7 N/m"),
+        rounded("3.0e7 N/m", "N/m"),
         secant_stiffness_of_61804(LOAD),
         "N/m",
         pinned=EXPLAINED,

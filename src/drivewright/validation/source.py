@@ -1,6 +1,7 @@
 """A published source: the world's numbers beside ours, each with a verdict that is computed."""
 
 import re
+from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -17,11 +18,18 @@ NUMBER = r"[+-]?\d+\.?(\d*)(?:e([+-]?\d+))?"
 
 
 class Printed(NamedTuple):
-    """What a source prints, and the SI interval that the print means."""
+    """What a source prints, and the SI interval that the print means.
+
+    `number` [SI] is the printed number, None for a range or a claim, and `unit` the unit that it is printed in.  `evaluated`: the source
+    prints a formula, not this value of it.
+    """
 
     text: str
     low: float
     high: float
+    number: float | None = None
+    evaluated: bool = False
+    unit: str = ""
 
     def __str__(self) -> str:
         return self.text
@@ -35,10 +43,21 @@ def rounded(text: str, unit: str) -> Printed:
     match = re.match(NUMBER, text)
     if match is None:
         raise InputError(f'the printed value {text!r} does not begin with a number; write e.g. "50.22 deg"')
-    number, digits, power = match.group(0, 1, 2)
-    factor = 1.0 if unit == "-" else units.BY_UNIT[unit].factor(text[len(number) :].strip())
-    half = 0.5 * 10.0 ** (int(power or 0) - len(digits)) * factor
-    return Printed(text, float(number) * factor - half, float(number) * factor + half)
+    digits, decimals, power = match.group(0, 1, 2)
+    printed = text[len(digits) :].strip()
+    factor = 1.0 if unit == "-" else units.BY_UNIT[unit].factor(printed)
+    half, number = 0.5 * 10.0 ** (int(power or 0) - len(decimals)) * factor, float(digits) * factor
+    return Printed(text, number - half, number + half, number, unit=printed)
+
+
+def about(text: str, number: float, half: float) -> Printed:
+    """A number [SI] that a source prints as "about" so much, or that a figure shows: within `half` of it."""
+    return Printed(text, number - half, number + half, number)
+
+
+def evaluated(text: str, unit: str) -> Printed:
+    """What a printed formula gives for the source's inputs, "1234.5 N": no printed number, and counted apart from those."""
+    return rounded(text, unit)._replace(text=f"{text}, evaluated", evaluated=True)
 
 
 class Explanation(NamedTuple):
@@ -83,19 +102,23 @@ class Row:
 
     @property
     def deviation(self) -> float | None:
-        """Ours minus the printed number; where a limit is printed, how far beyond it ours is; None without a number of ours."""
+        """Ours minus the printed number; where a range or a limit is printed, how far beyond it ours is; None without ours."""
         if self.ours is None:
             return None
-        low, high = self.printed.low, self.printed.high
-        if high < float("inf") and low > -float("inf"):
-            return self.ours - 0.5 * (low + high)
-        return min(self.ours - low, 0.0) + max(self.ours - high, 0.0)
+        if self.printed.number is not None:
+            return self.ours - self.printed.number
+        return min(self.ours - self.printed.low, 0.0) + max(self.ours - self.printed.high, 0.0)
+
+    @property
+    def shown_unit(self) -> tuple[float, str]:
+        """(factor, unit) that turn an SI number of the row into the one to show: in the unit of the print, else in the one people read."""
+        return units.display(self.unit, self.printed.unit)
 
     def deviation_text(self) -> str:
-        """The deviation in the unit people read; rounding noise as 0; nothing where nothing is compared."""
+        """The deviation in the unit of the print; rounding noise as 0; nothing where nothing is compared."""
         if self.deviation is None or self.ours is None or self.basis != COMPUTED:
             return ""
-        factor, shown = units.display(self.unit)
+        factor, shown = self.shown_unit
         deviation = self.deviation if abs(self.deviation) > 1e-13 * abs(self.ours) else 0.0
         return f"{deviation * factor:+.3g}{'' if shown == '-' else ' ' + shown}"
 
@@ -148,6 +171,12 @@ def best_verdicts(rows: Iterable[Row]) -> dict[str, str]:
         name = row.reading_of or row.name
         best[name] = min(best.get(name, NOT_COMPARED), row.verdict, key=VERDICTS.index)
     return best
+
+
+def counts(rows: Iterable[Row], evaluated: bool = False) -> dict[str, int]:
+    """How many printed numbers and claims, or formulas evaluated, have each verdict, the best of their readings."""
+    best = Counter(best_verdicts(row for row in rows if row.printed.evaluated == evaluated).values())
+    return {verdict: best[verdict] for verdict in VERDICTS}
 
 
 BASIS_TEXT = {CALIBRATED: "By calibration: no evidence.", PRINT_ONLY: "From the print alone: no evidence."}

@@ -46,7 +46,7 @@ NAMES = {
     "profile": "profile",
     "body": "body",
     "hole": "hole",
-    "pitch": "pitch curve (roller centre)",
+    "pitch": "pitch curve",
     "base": "base circle",
     "roller": "roller",
     "axis": "axis",
@@ -201,18 +201,18 @@ def draw_drawing(drawing: Drawing) -> "Figure":
     with styled():
         figure, (axis,) = figure_to_scale(1, sentence(drawing.title))
         for layer, role in DRAWN.items():
-            for number_, outline in enumerate(drawing.on(layer)):
+            for number_, shape in enumerate(shape for shape in drawing.shapes if shape.layer == layer):
                 width, dashes, filled = LAYERS[layer]
-                face = (colour(role), 0.14) if filled and outline.closed else "white" if layer == "hole" else "none"
+                face = (colour(role), 0.14) if filled and shape.outline.closed else "white" if layer == "hole" else "none"
                 _add(
                     axis,
-                    simplified_points(outline, tolerance) * factor,
-                    outline.closed,
+                    simplified_points(shape.outline, tolerance) * factor,
+                    shape.outline.closed,
                     ec=colour(role),
                     fc=face,
                     lw=width,
                     ls=dashes,
-                    label=NAMES[layer] if number_ == 0 else None,
+                    label=(shape.label or NAMES[layer]) if number_ == 0 else None,
                 )
         low, high = _extent([axis])
         arrange(figure, [axis], low - (0.0, BAR_ROOM * (high - low).max()), high, right=2.2)

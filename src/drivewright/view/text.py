@@ -80,7 +80,8 @@ def display_unit(unit: str) -> tuple[float, str]:
 
 def shown_unit(unit: str, wanted: str = "") -> tuple[float, str]:
     """The same for a `wanted` unit of its dimension, e.g. "arcmin", instead of the usual one."""
-    return (1 / BY_UNIT[unit].factor(wanted), unit_text(wanted)) if wanted and unit in BY_UNIT else display_unit(unit)
+    factor, text = display(unit, wanted)
+    return factor, unit_text(text)
 
 
 def with_unit(text: str, unit: str) -> str:
@@ -117,7 +118,12 @@ def sentence(text: str) -> str:
 
 def axis_label(meaning: str, unit: str, width: int = 60) -> str:
     """'Lift of the roller [mm]', wrapped; `unit` as printed."""
-    return textwrap.fill(sentence(meaning) + (f" [{unit}]" if unit else ""), width)
+    return wrapped_label(sentence(meaning) + (f" [{unit}]" if unit else ""), width)
+
+
+def wrapped_label(label: str, width: int) -> str:
+    """A label on lines of a width, its unit in brackets never torn apart."""
+    return textwrap.fill(re.sub(r"\[[^]]*\]$", lambda unit: unit[0].replace(" ", "\u00a0"), label), width)
 
 
 def literal(text: object) -> str:

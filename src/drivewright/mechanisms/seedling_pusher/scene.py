@@ -148,11 +148,11 @@ def in_carrier(model: PusherModel) -> tuple[tuple[float, float, float], bool]:
 
 
 def cam_shapes(model: PusherModel, cam: ConjugateCam, profiles: Mapping[str, Outline]) -> Iterator[Shape]:
-    """Profile, pitch curve, largest and least pitch circle, bore of a cam, in the carrier's frame."""
+    """Profile, pitch curve, circle of the pitch radius at rest, bore of a cam, in the carrier's frame."""
     pose, mirror = in_carrier(model)
     yield Shape("profile", profiles[cam.name].transformed(pose, mirror))
-    yield Shape("pitch", model.pair.pitch_outline(cam).transformed(pose, mirror))
-    yield Shape("base", circle((0.0, 0.0), cam.prime_radius))
+    yield Shape("pitch", model.pair.pitch_outline(cam).transformed(pose, mirror), "pitch curve (roller centre)")
+    yield Shape("base", circle((0.0, 0.0), cam.prime_radius), "pitch radius at rest")
     yield Shape("hole", circle((0.0, 0.0), model.spec.cams.bore / 2))
 
 
