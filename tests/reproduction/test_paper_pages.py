@@ -144,7 +144,9 @@ def test_the_verdict_counts_printed_numbers_by_their_best_reading(bench, tmp_pat
 def test_formulas_evaluated_are_counted_apart(bench):
     formula = Row("formula", validation.evaluated("10 mm", "m"), 0.01, "m", AGREES, "closed form", "eq. (1)")
     assert pages.verdict((*ROWS, formula)) == pages.verdict(ROWS)
-    assert "counted apart: 1 agrees." in pages.readings((*ROWS, formula))
+    expected = Row("ratio", validation.implied("below 1", 0.0, 1.0), 0.5, "-", AGREES, "closed form", "section 2")
+    assert "evaluated for its inputs: 1 agrees." in pages.readings((*ROWS, formula)) and "implies" not in pages.readings((*ROWS, formula))
+    assert "implies and does not say: 1 agrees." in pages.readings((*ROWS, expected))
 
 
 def test_remarks_are_numbered_in_the_order_in_which_the_page_points_to_them(bench, tmp_path):

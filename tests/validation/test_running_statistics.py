@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from drivewright.validation import folding_contact, folding_linkage, hyvo_running
-from drivewright.validation.hyvo_running import Interval, difference, mean_of_cases, ratio
+from drivewright.validation import AGREES, OPEN, folding_contact, folding_linkage, hyvo_running
+from drivewright.validation.hyvo_running import Interval, difference, mean_of_cases, quotient, ratio
 
 pytestmark = pytest.mark.property
 
@@ -94,14 +94,25 @@ def test_the_running_deviation_counts_from_the_distance_at_rest():
     assert pytest.approx(0.2191256 - 0.0000696, abs=1e-12) == hyvo_running.INITIAL
 
 
+def test_a_quotient_of_lives_is_wide_in_the_logarithm():
+    """Factors of 2 and 3 to either side: a factor of exp(sqrt(ln 2^2 + ln 3^2)) to either side of the quotient."""
+    found = quotient(Interval(8e8, 4e8, 16e8), Interval(2e8, 2e8 / 3, 6e8))
+    factor = np.exp(np.sqrt(np.log(2.0) ** 2 + np.log(3.0) ** 2))
+    assert found == pytest.approx((4.0, 4.0 / factor, 4.0 * factor), rel=1e-12)
+
+
 def test_a_cell_of_impact_loads_has_the_interval_of_its_starts_where_there_is_one(tmp_path, monkeypatch):
     def table(folder, spec):
-        values, nothing = [float(n) for n in range(len(folding_contact.PLAYS))], float("nan")
+        values, nothing = [2.0 + n for n in range(len(folding_contact.PLAYS))], float("nan")
         low, high = [nothing, *(value - 0.5 for value in values[1:])], [nothing, *(value + 0.5 for value in values[1:])]
         columns = {"coefficient": values, "coefficient.low": low, "coefficient.high": high}
         return type("Table", (), {"to_pydict": lambda self: columns})()
 
     monkeypatch.setattr(folding_contact, "impact_loads", table)
     rows = list(folding_contact.dry_rows(tmp_path))
-    assert len(rows) == 55 and all((row.low, row.high) == (row.ours - 0.5, row.ours + 0.5) for row in rows if row.ours)
-    assert {(row.low, row.high) for row in rows if not row.ours} == {(None, None)}
+    cells, (over_play, over_speed) = rows[:-2], rows[-2:]
+    assert len(cells) == 55 and all((row.low, row.high) == (row.ours - 0.5, row.ours + 0.5) for row in cells if row.ours > 2)
+    assert {(row.low, row.high) for row in cells if row.ours == 2} == {(None, None)}
+    assert (over_play.ours, over_play.low, over_play.high) == (3.0, 2.75, 3.25), "6 (5.5 to 6.5) over 2, which is exact"
+    assert over_play.verdict == AGREES
+    assert (over_speed.ours, over_speed.low, over_speed.high) == (1.0, 1.0, 1.0) and over_speed.verdict == OPEN, "no speed changes it here"

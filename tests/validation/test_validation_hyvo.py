@@ -5,7 +5,7 @@ import pytest
 
 from drivewright.chains import closure
 from drivewright.chains.link import design_link
-from drivewright.validation import AGREES, EXPLAINED, NOT_COMPARED, OPEN, VERDICTS, best_verdicts, hyvo_paper
+from drivewright.validation import AGREES, EXPLAINED, NOT_COMPARED, OPEN, VERDICTS, best_verdicts, hyvo_model, hyvo_paper, hyvo_strength
 
 pytestmark = pytest.mark.analytical
 
@@ -41,20 +41,20 @@ def test_numbers_of_forty_digit_arithmetic(rows, name, value):
 
 def test_every_verdict_is_the_pinned_one_and_names_are_unique(rows):
     assert [(row.name, row.verdict) for row in rows.values() if row.verdict != row.pinned] == []
-    assert len(rows) == len(hyvo_paper.source.rows()) == 65
+    assert len(rows) == len(hyvo_paper.source.rows()) == 64
     count = {verdict: sum(row.verdict == verdict for row in rows.values()) for verdict in VERDICTS}
-    assert count == {AGREES: 39, EXPLAINED: 6, OPEN: 15, NOT_COMPARED: 5}
+    assert count == {AGREES: 24, EXPLAINED: 19, OPEN: 12, NOT_COMPARED: 9}
 
 
 def test_readings_of_a_printed_number_count_once(rows):
     """Rigid and yielding chains are readings of the same claims; the smooth bar is one of the plates' and pins' lives."""
     best = best_verdicts(rows.values())
-    assert len(best) == 65 - 2 * 5 and best["largest fluctuation of groups 1 to 7 over control"] == AGREES
+    assert len(best) == 64 - 2 * 5 and best["largest fluctuation of groups 1 to 7 over control"] == EXPLAINED
     assert best["life of the pin, new chain"] == OPEN and best["fluctuation, control group"] == OPEN
 
 
 def test_the_table_has_all_groups(rows):
-    for number, radius in enumerate(hyvo_paper.NEW_RADII, 1):
+    for number, radius in enumerate(hyvo_model.NEW_RADII, 1):
         assert rows[f"hole pitch A, group {number}"].ours == pytest.approx((9.525 + 2 * radius) * 1e-3, rel=1e-12)
         assert rows[f"pin offset e, group {number}"].verdict == AGREES
 
@@ -69,8 +69,8 @@ def test_the_order_of_the_groups_turns_round_under_load(rows):
     for route, ratio in (("straight strands", 0.1907), ("strands in equilibrium", 0.3690), ("joints and teeth that yield", 1.0399)):
         row = rows[f"largest fluctuation of groups 1 to 7 over control, {route}"]
         assert row.ours == pytest.approx(ratio, abs=2e-3)
-        assert (row.verdict == AGREES) == (ratio < 1)
-    soft = [hyvo_paper.elastic_equilibrium(radius).fluctuation * 1e6 for radius in (1.0, 1.6, 7.4)]
+        assert row.verdict == EXPLAINED and row._meets(row.ours) == (ratio < 1)
+    soft = [hyvo_model.elastic_equilibrium(radius).fluctuation * 1e6 for radius in (1.0, 1.6, 7.4)]
     assert soft == pytest.approx([2.47, 2.09, 2.38], abs=0.02)
 
 
@@ -85,7 +85,7 @@ def test_the_order_turns_round_with_an_odd_number_of_links():
 
 
 def test_pins_of_the_paper(rows):
-    new, classical = hyvo_paper.pin_stresses(1.2), hyvo_paper.pin_stresses(7.4)
+    new, classical = hyvo_strength.pin_stresses(1.2), hyvo_strength.pin_stresses(7.4)
     assert (new[0] / 1e6, classical[0] / 1e6) == pytest.approx((1414.77, 569.72), rel=1e-5)
     assert rows["greatest stress of a pin, group 3 over control"].ours == pytest.approx(np.sqrt(7.4 / 1.2), rel=1e-12)
 

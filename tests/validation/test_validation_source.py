@@ -26,6 +26,7 @@ from drivewright.validation import (
     evaluated,
     rounded,
 )
+from drivewright.validation.source import EVALUATED, IMPLIED, implied
 
 pytestmark = pytest.mark.analytical
 
@@ -233,7 +234,21 @@ def test_evaluated_formulas_are_counted_apart():
     rows = [named("angle", 50.22), named("height", 48.0)]
     rows.append(Row("length", formula, 0.01234, "m", AGREES, "closed form", "eq. (1)"))
     assert counts(rows) == {AGREES: 1, EXPLAINED: 0, OPEN: 1, NOT_COMPARED: 0}
-    assert counts(rows, evaluated=True) == {AGREES: 1, EXPLAINED: 0, OPEN: 0, NOT_COMPARED: 0}
+    assert counts(rows, EVALUATED) == {AGREES: 1, EXPLAINED: 0, OPEN: 0, NOT_COMPARED: 0}
+
+
+def test_what_a_text_implies_is_counted_apart():
+    expected = Row("ratio", implied("above 1", 1.0, math.inf), 1.2, "-", AGREES, "closed form", "here")
+    assert str(expected.printed) == "above 1, implied" and expected.verdict == AGREES
+    assert sum(counts([expected]).values()) == 0 and counts([expected], IMPLIED)[AGREES] == 1
+
+
+def test_an_idealised_number_explains_and_never_agrees():
+    claim = Printed("below 1", -math.inf, 1.0)
+    rigid = Row("ratio, rigid", claim, 0.5, "-", EXPLAINED, "other code", "here", reading_of="ratio", idealised=True)
+    running = Row("ratio, running", claim, 2.4, "-", OPEN, "other code", "here", reading_of="ratio", low=2.2, high=2.6)
+    assert (rigid.verdict, running.verdict) == (EXPLAINED, OPEN)
+    assert counts([rigid, running]) == {AGREES: 0, EXPLAINED: 1, OPEN: 0, NOT_COMPARED: 0}
 
 
 def test_an_unknown_source_is_named_with_its_neighbour():

@@ -97,6 +97,8 @@ def show_comparison(comparison: "DesignComparison", changed: bool = False) -> No
         failed = [check.name for check in result.checks if not check.ok]
         if failed:
             show.note(f"note: {label}: {', '.join(failed)} {'fails' if len(failed) == 1 else 'fail'}")
+        for warning in result.warnings:
+            show.note(f"warning: {label}: {warning}")
 
 
 def _difference(comparison: "DesignComparison", name: str) -> list[str]:

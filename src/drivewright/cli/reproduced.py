@@ -9,7 +9,7 @@ from drivewright.cli import show
 from drivewright.reproduction import Paper, papers
 from drivewright.reproduction.page import in_words, reproduce, write_overview
 from drivewright.reproduction.parts import Computed
-from drivewright.validation.source import counts
+from drivewright.validation.source import EVALUATED, IMPLIED, PRINTED, counts
 
 INCOMPLETE = 4  # exit code where a part could not be computed
 
@@ -44,6 +44,7 @@ def write_papers(chosen: Sequence[Paper], out: Path | None, several: bool, solid
 
 def summary(paper: Paper, computed: Computed) -> str:
     """'shaft-paper: 16 printed numbers and claims (6 agree; ...), 31 formulas evaluated (...)'."""
-    found = {"printed numbers and claims": counts(computed.rows), "formulas evaluated": counts(computed.rows, evaluated=True)}
+    names = {PRINTED: "printed numbers and claims", EVALUATED: "formulas evaluated", IMPLIED: "implied"}
+    found = {name: counts(computed.rows, origin) for origin, name in names.items()}
     texts = [f"{sum(each.values())} {what} ({in_words(each)})" for what, each in found.items() if any(each.values())]
     return f"{paper.name}: {', '.join(texts)}"

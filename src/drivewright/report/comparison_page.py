@@ -181,7 +181,6 @@ def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()
     """What the page says, as plain text in plain dictionaries."""
     results, labels = comparison.results, comparison.labels
     verdicts = [summary(result)["verdict"] for result in results]
-    failed = sum(verdict["state"] == "bad" for verdict in verdicts)
     names = list(comparison.values)
     headline = headline_names(comparison)
     keys = comparison.differing_keys
@@ -190,10 +189,7 @@ def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()
         "title": f"Comparison of {len(results)} designs",
         "mechanism": comparison.mechanism,
         "version": program(),
-        "verdict": {
-            "state": "bad" if failed else "good",
-            "text": f"{failed} of {len(results)} fail a check" if failed else "no failed check",
-        },
+        "verdict": _verdict(results),
         "identical": [identical_text(group) for group in comparison.identical],
         "designs": [_design(*each) for each in zip(results, labels, verdicts, range(len(labels)), strict=True)],
         "headline": [_value_row(comparison, name) for name in headline],
@@ -207,6 +203,16 @@ def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()
         "remarks": list(remarks),
         "sources": list(dict.fromkeys(str(source) for result in results for source in result.provenance.get("sources", ()))),
     }
+
+
+def _verdict(results: Sequence[Result[Any]]) -> dict[str, str]:
+    """How many designs fail a check, else how many have warnings."""
+    failed, warned = sum(not result.ok for result in results), sum(bool(result.warnings) for result in results)
+    if failed:
+        return {"state": "bad", "text": f"{failed} of {len(results)} fail a check"}
+    if warned:
+        return {"state": "warn", "text": f"no failed check, {warned} of {len(results)} with warnings"}
+    return {"state": "good", "text": "no failed check"}
 
 
 def headline_names(comparison: DesignComparison) -> list[str]:

@@ -15,9 +15,10 @@ from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import drawing_of, scene_figure
 from drivewright.result import Result
 from drivewright.runner import run
+from drivewright.validation import hyvo_model, hyvo_strength
 from drivewright.validation import hyvo_paper as numbers
 from drivewright.validation import hyvo_running as running
-from drivewright.validation.hyvo_paper import CLASSICAL_RADIUS, NEW_RADII, Z1, Z2, P
+from drivewright.validation.hyvo_model import CLASSICAL_RADIUS, NEW_RADII, Z1, Z2, P
 from drivewright.view import draw_drawing
 
 if TYPE_CHECKING:
@@ -47,12 +48,12 @@ def equivalent_pitches() -> "Drawn":
     half = np.radians(turn)
     curves = []
     for name, radius, offset in (
-        ("group 1", 1.0, numbers.pin_offset(1.0)),
-        ("group 3", 1.2, numbers.pin_offset(1.2)),
-        ("group 7", 1.6, numbers.pin_offset(1.6)),
-        ("control group", CLASSICAL_RADIUS, CLASSICAL_RADIUS * numbers.MM * np.sin(np.radians(3.667))),
+        ("group 1", 1.0, hyvo_model.pin_offset(1.0)),
+        ("group 3", 1.2, hyvo_model.pin_offset(1.2)),
+        ("group 7", 1.6, hyvo_model.pin_offset(1.6)),
+        ("control group", CLASSICAL_RADIUS, CLASSICAL_RADIUS * hyvo_model.MM * np.sin(np.radians(3.667))),
     ):
-        r, hole = radius * numbers.MM, meshing.hole_pitch(P, radius * numbers.MM)
+        r, hole = radius * hyvo_model.MM, meshing.hole_pitch(P, radius * hyvo_model.MM)
         pitch = hole - 2 * (r - offset * np.sin(half)) / np.cos(half)
         curves.append(Curve(name, turn, pitch * MM))
     curves.append(Curve("ideal, p/cos θ", turn, P / np.cos(half) * MM, "reference"))
@@ -64,9 +65,9 @@ def equivalent_pitches() -> "Drawn":
 def offsets() -> "Drawn":
     """Fig. 7: pin offset over the rolling radius, with Table 2."""
     radii = np.linspace(0.9, 1.7, 41)
-    printed = [float(text[1]) for text in numbers.TABLE.values()]
+    printed = [float(text[1]) for text in hyvo_model.TABLE.values()]
     curves = [
-        Curve("e by eq. (21)", radii, [numbers.pin_offset(radius) * MM for radius in radii]),
+        Curve("e by eq. (21)", radii, [hyvo_model.pin_offset(radius) * MM for radius in radii]),
         Curve("Table 2", GROUPS, printed, "printed"),
     ]
     return chart_figure("Pin offset over the rolling radius", RADIUS, [Chart("Pin offset e [mm]", curves)])
@@ -77,8 +78,8 @@ def deviations() -> "Drawn":
     radii = np.linspace(0.5, 7.4, 70)
     reference = float(meshing.reference_deviation(P, Z1, Z2)) * MICRO
     curves = [
-        Curve("δp2, matched on the driver (22)", radii, [numbers.pitch_deviation(radius) * MICRO for radius in radii]),
-        Curve("groups 1 to 7", GROUPS, [numbers.pitch_deviation(radius) * MICRO for radius in GROUPS], "points"),
+        Curve("δp2, matched on the driver (22)", radii, [hyvo_model.pitch_deviation(radius) * MICRO for radius in radii]),
+        Curve("groups 1 to 7", GROUPS, [hyvo_model.pitch_deviation(radius) * MICRO for radius in GROUPS], "points"),
     ]
     boundary = float(meshing.boundary_radius(P, Z1, Z2)) * MM
     monotone = float(meshing.monotone_radius(P, Z1)) * MM
@@ -124,9 +125,9 @@ def fluctuations_in_time() -> "Drawn":
 
 def fluctuation_over_radius(folder: Path) -> "Drawn":
     """Fig. 11: fluctuation over the rolling radius by four routes."""
-    values = [each.fluctuation * MICRO for each in map(numbers.rigid_closure, NEW_RADII)]
-    straight = [numbers.rigid_closure(radius, "straight").fluctuation * MICRO for radius in NEW_RADII]
-    rest = [numbers.elastic_equilibrium(radius).fluctuation * MICRO for radius in NEW_RADII]
+    values = [each.fluctuation * MICRO for each in map(hyvo_model.rigid_closure, NEW_RADII)]
+    straight = [hyvo_model.rigid_closure(radius, "straight").fluctuation * MICRO for radius in NEW_RADII]
+    rest = [hyvo_model.elastic_equilibrium(radius).fluctuation * MICRO for radius in NEW_RADII]
     found = running.intervals(running.running_groups(folder), running.FLUCTUATION)
     curves = [
         Curve("rigid, straight strands", GROUPS, straight, "both"),
@@ -135,12 +136,12 @@ def fluctuation_over_radius(folder: Path) -> "Drawn":
         _with_ends("running at 2000 rpm", found, MICRO, 0.0),
     ]
     control = running.intervals(running.running_control(folder), running.FLUCTUATION)[0]
-    rigid = numbers.rigid_closure(CLASSICAL_RADIUS).fluctuation * MICRO
-    elastic = numbers.elastic_equilibrium(CLASSICAL_RADIUS).fluctuation * MICRO
+    rigid = hyvo_model.rigid_closure(CLASSICAL_RADIUS).fluctuation * MICRO
+    elastic = hyvo_model.elastic_equilibrium(CLASSICAL_RADIUS).fluctuation * MICRO
     stated = [
         Stated("control group as printed, 20.145 µm", y=20.145),
-        Stated(f"ours: control rigid {rigid:.1f} µm", y=rigid),
-        Stated(f"ours: control elastic at rest {elastic:.1f}, running {control.value * MICRO:.1f} µm", y=control.value * MICRO),
+        Stated(f"ours: control rigid, strands in equilibrium, {rigid:.1f} µm", y=rigid),
+        Stated(f"ours: control running {control.value * MICRO:.1f} µm (elastic at rest {elastic:.1f})", y=control.value * MICRO),
     ]
     chart = Chart("Peak-to-peak centre distance [µm]", curves, stated, log=True)
     return chart_figure("Fluctuation of the centre distance", RADIUS, [chart], height=3.6)
@@ -155,8 +156,8 @@ def means_over_radius(folder: Path) -> "Drawn":
     """Figs. 12 and 13: mean centre distance and running deviation over the rolling radius."""
     groups, control = running.running_groups(folder), running.running_control(folder)
     found, other = running.intervals(groups, running.DISTANCE), running.intervals(control, running.DISTANCE)[0]
-    rest = [numbers.elastic_equilibrium(radius).mean * MM for radius in NEW_RADII]
-    rigid = [numbers.rigid_closure(radius).mean * MM for radius in NEW_RADII]
+    rest = [hyvo_model.elastic_equilibrium(radius).mean * MM for radius in NEW_RADII]
+    rigid = [hyvo_model.rigid_closure(radius).mean * MM for radius in NEW_RADII]
     routes = [("rigid", rigid), ("elastic at rest", rest)]
     means = [Curve(name, GROUPS, values, "both") for name, values in routes] + [_with_ends("running at 2000 rpm", found, MM, 0.0)]
     stated = [
@@ -180,9 +181,9 @@ def pin_stress() -> "Drawn":
     """Figs. 16, 17: von Mises stress below the contact of two pins under 200 N."""
     charts = []
     for name, radius, printed in (("group 3, pins of 1.2 mm", 1.2, 162.027), ("control group, arcs of 7.4 mm", CLASSICAL_RADIUS, 245.184)):
-        contact = rolling.rolling_contact(200.0, 6e-3, (radius * 1e-3, radius * 1e-3), numbers.MODULUS, numbers.POISSON)
+        contact = rolling.rolling_contact(200.0, 6e-3, (radius * 1e-3, radius * 1e-3), hyvo_model.MODULUS, hyvo_model.POISSON)
         depth = np.linspace(0.0, 6.0, 241)
-        mises = rolling.equivalent(rolling.line_stresses(0.0, depth), numbers.POISSON, "mises")
+        mises = rolling.equivalent(rolling.line_stresses(0.0, depth), hyvo_model.POISSON, "mises")
         stress = np.asarray(mises) * float(contact.pressure) / 1e6
         curves = [Curve("von Mises stress below the line of contact", depth * float(contact.half_width) * MICRO, stress)]
         stated = [Stated(f"greatest stress printed, {printed:.2f} MPa", y=printed), Stated("yield stress, 835 MPa", y=835.0)]
@@ -205,7 +206,7 @@ def plate_in_time() -> "Drawn":
     for label, name in (("group 3", "paper-load"), ("control group", "classical")):
         table = loaded(name).tables["plate_history"]
         curves.append(Curve(label, table["time"].data * 1e3, table["mises"].data / 1e6))
-    stated = [Stated(f"{name} as printed, {stress:.2f} MPa", y=stress) for name, stress in numbers.PLATE_STRESSES.items()]
+    stated = [Stated(f"{name} as printed, {stress:.2f} MPa", y=stress) for name, stress in hyvo_strength.PLATE_STRESSES.items()]
     title = "Stress of a plate at its most stressed point over a revolution of the chain"
     return chart_figure(title, "Time [ms]", [Chart("Von Mises stress [MPa]", curves, stated)], height=3.2)
 

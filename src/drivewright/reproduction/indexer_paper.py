@@ -107,7 +107,7 @@ def test_and_model() -> "Drawn":
     at = np.degrees(np.array([each.crank for each in found], float))
     value, low, high = (np.array([getattr(each.per_branch, end) for each in found]) * PER_ARCMIN for end in ("value", "low", "high"))
     curves = [
-        Curve("model, bonded contact", degrees(model), model["secant"].data * PER_ARCMIN),
+        Curve("model, no separation", degrees(model), model["secant"].data * PER_ARCMIN),
         Curve("made-up test, evaluated", at, value, "points", low, high),
     ]
     chart = Chart(STIFFNESS, curves, stated_of_test())
@@ -184,7 +184,7 @@ def stiffness_curves() -> "Drawn":
     """Fig. 16: bonded and unilateral contact."""
     curves = []
     for label, changes in (
-        ("bonded, as in the paper", ('contact.model="bonded"',)),
+        ("no separation, as in the paper", ('contact.model="bonded"',)),
         ("pins that press only, torque forward", ()),
         ("pins that press only, torque backward", ('load.torque="-1000 N m"',)),
     ):
@@ -197,9 +197,9 @@ def constant_bearings() -> "Drawn":
     """Fig. 17: constant bearing stiffness."""
     found = numbers.indexer_result(*numbers.CONSTANT)
     table, contacts = found.tables["stiffness"], found.tables["contacts"]
-    stated = [Stated("as printed, about 1020", y=1020.0), Stated("highest as printed, 90°", 90.0), Stated("lowest as printed, 45°", 45.0)]
+    stated = [Stated("as printed, about 1020", y=1020.0), Stated("highest as printed, 90°", 90.0), Stated("small as printed, 45°", 45.0)]
     charts = [
-        Chart(STIFFNESS, [Curve("constant bearings, bonded", degrees(table), table["secant"].data * PER_ARCMIN)], stated),
+        Chart(STIFFNESS, [Curve("constant bearings, no separation", degrees(table), table["secant"].data * PER_ARCMIN)], stated),
         Chart("Pins in contact with a cam", [Curve("pins", degrees(contacts), contacts["pins"].data)], from_zero=True),
     ]
     return chart_figure("Stiffness with constant bearings, and the number of contacts", ANGLE, charts)

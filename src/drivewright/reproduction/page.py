@@ -18,7 +18,20 @@ from drivewright.report.pdf import compile_template
 from drivewright.reproduction.document import AS_PRINTED, CORRECTED, DEFINITION, UNDECIDED, Equation, Figure, Grid, Paper, Section
 from drivewright.reproduction.formulas import formula_picture
 from drivewright.reproduction.parts import Computed, Progress, compute_parts
-from drivewright.validation.source import AGREES, CALIBRATED, EXPLAINED, NOT_COMPARED, NUMBER, OPEN, PRINT_ONLY, VERDICTS, Row, counts
+from drivewright.validation.source import (
+    AGREES,
+    CALIBRATED,
+    EVALUATED,
+    EXPLAINED,
+    IMPLIED,
+    NOT_COMPARED,
+    NUMBER,
+    OPEN,
+    PRINT_ONLY,
+    VERDICTS,
+    Row,
+    counts,
+)
 from drivewright.view.text import SUPERSCRIPT, number, numbers, sentence, shown_unit, with_unit
 
 Content: TypeAlias = dict[str, Any]
@@ -122,12 +135,14 @@ def missing_parts(paper: Paper, computed: Computed) -> list[str]:
 
 def readings(rows: Sequence[Row]) -> str:
     """What is counted, and the formulas that are counted apart."""
-    printed, formulas = counts(rows), counts(rows, evaluated=True)
+    printed, formulas, expected = counts(rows), counts(rows, EVALUATED), counts(rows, IMPLIED)
     total, compared = sum(printed.values()), sum(printed.values()) - printed[NOT_COMPARED]
     text = f"The paper prints {total} numbers and claims, of which {compared} can be compared; where one can be read in several ways, the "
     text += "reading that agrees best counts."
     if any(formulas.values()):
-        text += f" Its formulas are evaluated for its inputs, too, and counted apart: {in_words(formulas)}."
+        text += f" Counted apart are formulas that are evaluated for its inputs: {in_words(formulas)}."
+    if any(expected.values()):
+        text += f" So is what its text implies and does not say: {in_words(expected)}."
     return f"{text} The tables below have {len(rows)} rows."
 
 
@@ -230,7 +245,7 @@ def deviation_text(row: Row) -> str:
     """The deviation to three digits in the unit people read, with a sign; nothing where nothing is compared."""
     if not row.deviation_text() or row.deviation is None or row.ours is None:
         return ""
-    if abs(row.deviation) <= ROUNDING * abs(row.ours):
+    if row.verdict == AGREES and abs(row.deviation) <= ROUNDING * abs(row.ours):
         return "0"
     factor, unit = shown_unit(row.unit, row.printed.unit)
     text = with_unit(number(row.deviation * factor, 3), unit)

@@ -1,6 +1,6 @@
 """The shafts of a pipe-lining machine of Li, Zhang and Chen, figure by figure."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -10,15 +10,18 @@ import numpy as np
 from drivewright import registry
 from drivewright._typing import Floats
 from drivewright.report.comparison import compare
-from drivewright.reproduction.document import Listing, read_paper, still
+from drivewright.reproduction.document import Listing, LongRows, read_paper, still
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure, draw_chart
 from drivewright.reproduction.views import scene_figure
-from drivewright.result import Result
 from drivewright.runner import build, run
 from drivewright.shafts import closed_form, solid_check
 from drivewright.spec import load
 from drivewright.studies.sweeps import sweep
+from drivewright.validation import shaft_model
 from drivewright.validation import shaft_paper as numbers
+from drivewright.validation.shaft_bearings import BEARINGS, LOADED, flexibility_on_bearings, on_bearings
+from drivewright.validation.shaft_model import L1, L2, L3, L5, L6, L7, SPAN
+from drivewright.validation.source import AGREES, Printed, Row
 from drivewright.view.style import new_figure, styled
 from drivewright.view.text import quantity
 
@@ -31,13 +34,6 @@ SHAFTS = {"pressure-roller": ("m1", "m2"), "rubber-roller-r1": ("m3", "m4")}
 TITLES = {"pressure-roller": "pressure-roller shaft", "rubber-roller-r1": "rubber-roller shaft"}
 X_LABEL = "Position along the shaft [mm]"
 Y_LABEL = "Flexibility: deflection per unit force [nm/N]"
-BEARINGS = {
-    "deep-groove ball 61804": "61804",
-    "angular-contact ball 15°": "hypothetical-ACBB15-20x32x7",
-    "tapered roller": "hypothetical-TRB-20x32x7",
-    "cylindrical roller": "hypothetical-CRB-20x32x7",
-}
-LOAD = 500.0  # N, at the loaded mass, where bearings of an inner geometry are compared
 
 
 def places_of(preset: str) -> list[tuple[float, str]]:
@@ -50,7 +46,8 @@ def scene(preset: str) -> "Drawn":
     """The shaft with its bearings and stations, to scale, each named."""
     figure = scene_figure(load(registry.mechanism("shaft").presets()[preset]))
     axis = figure.axes[0]
-    axis.set_title("")
+    axis.set_title("", loc="left")
+    figure.suptitle("")
     for x, name in places_of(preset):
         axis.annotate(name, (x, axis.get_ylim()[1]), ha="center", va="top", fontsize=9)
     return figure
@@ -59,7 +56,7 @@ def scene(preset: str) -> "Drawn":
 @cache
 def unit_lines(preset: str, stiffness: float | None = None) -> tuple[Floats, dict[str, Floats]]:
     """(x [mm], {mass: deflection [nm/N] by a unit force there}) after Euler and Bernoulli."""
-    table = numbers.run_preset(preset, stiffness, ("flexibility",)).tables["unit_load"]
+    table = shaft_model.run_preset(preset, stiffness, ("flexibility",)).tables["unit_load"]
     return table["z"].data * MM, {mass: table[mass].data * NANO for mass in SHAFTS[preset]}
 
 
@@ -77,19 +74,40 @@ def rigid_lines(preset: str) -> "Drawn":
 
 def solid_line(preset: str, mass: str, stations: int = 15) -> tuple[Floats, Floats]:
     """(x [mm], deflection [nm/N] of the solid's centre line by a unit force at a mass), on the paper's springs over bands of 7 mm."""
-    model = build(load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION,)))
+    model = build(load(registry.mechanism("shaft").presets()[preset], (shaft_model.PRINTED_SECTION,)))
     places = sorted({*np.linspace(0.0, model.shaft.length, stations).round(4).tolist(), *model.places})
-    bands = [(support.position, 7e-3, numbers.STIFFNESS) for support in model.shaft.supports]
+    bands = [(support.position, 7e-3, shaft_model.STIFFNESS) for support in model.shaft.supports]
     sections = [section[:4] for section in model.shaft.sections]
     found = solid_check.solid_flexibility(sections, model.shaft.modulus, model.shaft.poisson, bands, places)
     number = places.index(next(s.position for s in model.shaft.stations if s.name == mass))
     return np.array(places) * MM, found.flexibility[:, number] * NANO
 
 
+def solid_rows(folder: Path) -> Iterator[Row]:
+    """Section 5.2: the solid's own flexibility over the beam's, at each mass."""
+    for preset, masses in SHAFTS.items():
+        for mass in masses:
+            x, line = solid_line(preset, mass)
+            at = {name: place for place, name in places_of(preset)}[mass]
+            share = float(np.interp(at, x, line)) / (shaft_model.own_flexibility(mass) * NANO)
+            yield Row(
+                f"flexibility of {mass}, solid elements over the beam",
+                Printed("consistent trends: 1 within 10 %", 0.9, 1.1, 1.0),
+                share,
+                "-",
+                AGREES,
+                "other code",
+                "section 5.2",
+                shaft_model.DATA,
+                f"{shaft_model.READING}; springs of 3.0e7 N/m over bands of 7 mm, second-order tetrahedra",
+                reading_of=f"theory and finite elements at {mass}",
+            )
+
+
 def solid_and_beam(preset: str) -> "Drawn":
     """Figs. 12 to 14: finite elements of the solid on the line of the beam."""
     charts = []
-    sheared = run(load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION,)), ("flexibility",)).tables["unit_load"]
+    sheared = run(load(registry.mechanism("shaft").presets()[preset], (shaft_model.PRINTED_SECTION,)), ("flexibility",)).tables["unit_load"]
     for mass in SHAFTS[preset]:
         x, lines = unit_lines(preset)
         curves = [
@@ -113,10 +131,10 @@ class MovedMass(NamedTuple):
 
 
 MOVED = {
-    "l1": MovedMass("m1", numbers.L1, numbers.L2, lambda length: -length, (20.0, 100.0), "A, B and m2 stay"),
-    "l3": MovedMass("m2", numbers.L3, numbers.L2, lambda length: numbers.L2 + length, (50.0, 170.0), "A, B and m1 stay"),
-    "l5": MovedMass("m3", numbers.L5, numbers.SPAN, lambda length: length - numbers.L5 - numbers.L6, (0.0, 110.0), "l5 + l6 = 135 mm"),
-    "l7": MovedMass("m4", numbers.L7, numbers.SPAN, lambda length: length, (30.0, 260.0), "l7 + l8 = 326 mm"),
+    "l1": MovedMass("m1", L1, L2, lambda length: -length, (20.0, 100.0), "A, B and m2 stay"),
+    "l3": MovedMass("m2", L3, L2, lambda length: L2 + length, (50.0, 170.0), "A, B and m1 stay"),
+    "l5": MovedMass("m3", L5, SPAN, lambda length: length - L5 - L6, (0.0, 110.0), "l5 + l6 = 135 mm"),
+    "l7": MovedMass("m4", L7, SPAN, lambda length: length, (30.0, 260.0), "l7 + l8 = 326 mm"),
 }
 
 
@@ -127,7 +145,7 @@ def mass_positions() -> "Drawn":
         values = np.linspace(*moved.ends, 61)
         curves = [
             Curve(name, values, own_flexibility(moved, values / MM, stiffness) * NANO)
-            for name, stiffness in (("bearings of 3.0e7 N/m", numbers.STIFFNESS), ("bearings rigid", np.inf))
+            for name, stiffness in (("bearings of 3.0e7 N/m", shaft_model.STIFFNESS), ("bearings rigid", np.inf))
         ]
         stated = [Stated(f"Table 1: {moved.printed * MM:g} mm", moved.printed * MM)]
         charts.append(Chart("Own flexibility [nm/N]", curves, stated, f"{length}: {moved.mass} moves, {moved.held}"))
@@ -137,7 +155,10 @@ def mass_positions() -> "Drawn":
 def own_flexibility(moved: MovedMass, lengths: Floats, stiffness: float) -> Floats:
     """Flexibility [m/N] of a mass under its own load for lengths [m], after Euler and Bernoulli, both bearings of a stiffness [N/m]."""
     stations = moved.place(lengths)[:, None]
-    return closed_form.flexibility(stations, (0.0, moved.span), (stiffness, stiffness), numbers.EI)[:, 0, 0]
+    return closed_form.flexibility(stations, (0.0, moved.span), (stiffness, stiffness), shaft_model.EI)[:, 0, 0]
+
+
+EQUATIONS = {"pressure-roller": 16, "rubber-roller-r1": 17}  # that say what yielding bearings add
 
 
 def rigid_and_elastic(preset: str, folder: Path) -> "Drawn":
@@ -150,9 +171,9 @@ def rigid_and_elastic(preset: str, folder: Path) -> "Drawn":
             Curve(f"bearings of {text}" if text != "rigid" else "bearings rigid", x, unit_lines(preset, value)[1][mass])
             for text, value in (("3.0e7 N/m", None), ("1e8 N/m", 1e8), ("rigid", np.inf))
         ]
-        own = numbers.own_flexibility(mass, np.inf) + numbers.literal_bearing_flexibility(mass)
+        own = shaft_model.own_flexibility(mass, np.inf) + shaft_model.literal_bearing_flexibility(mass)
         at = {name: place for place, name in places_of(preset)}[mass]
-        stated = [Stated("eqs. (16), (17) to the letter", at, own * NANO)]
+        stated = [Stated(f"eq. ({EQUATIONS[preset]}) to the letter", at, own * NANO)]
         charts.append(Chart(Y_LABEL, curves, stated, f"Unit force at {mass}", places=places_of(preset)))
     levels = np.array([1e7, 3e7, 1e8, 1e9])
     relative = {mass: np.asarray(study[f"flexibility.{mass}.{mass}"], float) for mass in SHAFTS[preset]}
@@ -172,21 +193,10 @@ def rigid_and_elastic(preset: str, folder: Path) -> "Drawn":
 
 def stiffness_study(preset: str, folder: Path) -> Any:
     """Study of the bearings' stiffness, "rigid" as a level."""
-    spec = load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION, 'analysis.theory="euler-bernoulli"'))
+    spec = load(registry.mechanism("shaft").presets()[preset], (shaft_model.PRINTED_SECTION, 'analysis.theory="euler-bernoulli"'))
     first, second = (f"bearings.{bearing.name}.radial_stiffness" for bearing in spec.bearings)
     vary: dict[str, Any] = {f"{first}+{second}": ["1e7 N/m", "3e7 N/m", "1e8 N/m", "1e9 N/m", "rigid"]}
     return sweep(spec, vary, out=folder / "studies" / f"stiffness-{preset}", on="serial")
-
-
-@cache
-def on_bearings(preset: str, designation: str, mass: str) -> Result[Any]:
-    """Result of a preset on rolling bearings of a designation under `LOAD` at a mass."""
-    spec = load(registry.mechanism("shaft").presets()[preset], (numbers.PRINTED_SECTION, 'analysis.theory="euler-bernoulli"'))
-    bearings = [{"name": b.name, "position": f"{b.position!r} m", "bearing": designation} for b in spec.bearings]
-    return run(spec.replace(bearings=bearings, loads=[{"station": mass, "force": f"{LOAD} N"}]), ("flexibility", "rolling"))
-
-
-LOADED = {"pressure-roller": "m2", "rubber-roller-r1": "m3"}  # the mass that carries `LOAD` where bearings are compared
 
 
 def bearing_types(preset: str) -> "Drawn":
@@ -197,10 +207,10 @@ def bearing_types(preset: str) -> "Drawn":
 def bearing_table() -> tuple[tuple[str, ...], list[list[str]]]:
     """Flexibility of each mass under its own load, and the bearings' stiffness, for the four types and rigid supports."""
     heads, rows = ("", *BEARINGS, "rigid, free to tilt"), []
-    for preset, masses in SHAFTS.items():
+    for masses in SHAFTS.values():
         for mass in masses:
-            own = [on_bearings(preset, each, LOADED[preset])[f"flexibility.{mass}.{mass}"] for each in BEARINGS.values()]
-            values = [*own, numbers.own_flexibility(mass, np.inf)]
+            own = [flexibility_on_bearings(mass, each) for each in BEARINGS.values()]
+            values = [*own, shaft_model.own_flexibility(mass, np.inf)]
             rows.append([f"flexibility of {mass} under its own load", *(quantity(value, "m/N", 4) for value in values)])
     for preset, mass in LOADED.items():
         for support in load(registry.mechanism("shaft").presets()[preset]).bearings:
@@ -226,6 +236,7 @@ FIGURES = {
 paper = read_paper(
     numbers.source,
     FIGURES,
+    (LongRows("solid elements", solid_rows, solids=True),),
     listings={
         "5.3 Influence of the bearings": (
             Listing(
@@ -233,7 +244,9 @@ paper = read_paper(
                 "Four types of bearings of one size",
                 lambda folder: bearing_table(),
                 "Under 500 N at m2 and at m3; tapered and angular-contact bearings stand back to back without preload. A bearing's "
-                "stiffness is that at its own load.",
+                "stiffness is that at its own load. The tapered bearing has 17 rollers of 4 mm, the cylindrical one 16 of 3.2 mm, the "
+                "others the balls of a 61804. Inclined bearings act at their pressure centres, not at their middles, and so change the "
+                "span: a stiffer bearing may then make a mass more flexible.",
             ),
         )
     },

@@ -6,13 +6,18 @@ clearance_joints    joints with play against other computations
 elliptic_gears      elliptic gears pivoted at a focus, and the planetary train made of them
 folding_contact     impact loads of the knife-folding four-bar with dry or lubricated contact in its pins
 folding_linkage     the knife-folding four-bar with play of Yuan, Liu and Wang 2011
+hyvo_model          the Hy-Vo chain as printed: data, Table 2, and its drives at rest, rigid and elastic
 hyvo_paper          the Hy-Vo chain with a small rolling radius of An, Cheng, Li and Xu
 hyvo_running        the Hy-Vo paper's running chains, stress and life of their plates, computed in studies
+hyvo_strength       stress and life of pins and plates of the Hy-Vo chain: section 6 of the paper
 indexer_paper       the inner-translation indexing cam of Liu, Zhai, Li and Guo
 modified_sine_help  help page of a commercial cam program: factors of the modified sine
 motion_factors      factors of the classical motion laws as handbooks print them, and in closed form
 page                the sources as one page of Markdown, for the documentation
 pusher_paper        the conjugate-cam seedling pusher of Chen et al
+shaft_bearings      rolling bearings of the shaft paper: which kind is the stiffest, and how stiff a 61804 is
+shaft_equations     equations (1) to (21) of the shaft paper, each evaluated for its data, beside the beam of the presets
+shaft_model         the shafts of the pipe-lining machine as printed: data of Table 1, and what runs of the presets give for them
 shaft_paper         the shafts of a pipe-lining machine of Li, Zhang and Chen
 source              a published source: the world's numbers beside ours, each with a verdict that is computed
 """
@@ -53,6 +58,7 @@ from drivewright.validation.source import (
     best_verdicts,
     counts,
     evaluated,
+    implied,
     rounded,
 )
 
@@ -87,6 +93,7 @@ __all__ = [
     "best_verdicts",
     "counts",
     "evaluated",
+    "implied",
     "page",
     "rounded",
     "rows_of",

@@ -1,5 +1,6 @@
 """A published source: the world's numbers beside ours, each with a verdict that is computed."""
 
+import math
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable
@@ -12,23 +13,25 @@ from drivewright.errors import InputError
 KINDS = ("closed form", "other code", "published table", "experiment")
 COMPUTED, CALIBRATED, PRINT_ONLY = "computed", "calibrated", "print-only"
 BASES = (COMPUTED, CALIBRATED, PRINT_ONLY)
+PRINTED, EVALUATED, IMPLIED = "printed", "evaluated", "implied"
 AGREES, EXPLAINED, OPEN, NOT_COMPARED = "agrees", "differs, explained", "differs, open", "not compared"
 VERDICTS = (AGREES, EXPLAINED, OPEN, NOT_COMPARED)
+BELOW_ONE, ABOVE_ONE = (-math.inf, math.nextafter(1.0, 0.0)), (math.nextafter(1.0, 2.0), math.inf)  # ends of a ratio that is claimed so
 NUMBER = r"[+-]?\d+\.?(\d*)(?:e([+-]?\d+))?"
 
 
 class Printed(NamedTuple):
     """What a source prints, and the SI interval that the print means.
 
-    `number` [SI] is the printed number, None for a range or a claim, and `unit` the unit that it is printed in.  `evaluated`: the source
-    prints a formula, not this value of it.
+    `number` [SI] is the printed number, None for a range or a claim, and `unit` the unit that it is printed in.  `origin` is "printed";
+    "evaluated" where the source prints a formula, not this value of it; "implied" where its text only lets one expect it.
     """
 
     text: str
     low: float
     high: float
     number: float | None = None
-    evaluated: bool = False
+    origin: str = PRINTED
     unit: str = ""
 
     def __str__(self) -> str:
@@ -57,7 +60,12 @@ def about(text: str, number: float, half: float) -> Printed:
 
 def evaluated(text: str, unit: str) -> Printed:
     """What a printed formula gives for the source's inputs, "1234.5 N": no printed number, and counted apart from those."""
-    return rounded(text, unit)._replace(text=f"{text}, evaluated", evaluated=True)
+    return rounded(text, unit)._replace(text=f"{text}, evaluated", origin=EVALUATED)
+
+
+def implied(text: str, low: float, high: float) -> Printed:
+    """What the text of a source lets one expect without saying it: counted apart from what it prints."""
+    return Printed(f"{text}, implied", low, high, origin=IMPLIED)
 
 
 class Explanation(NamedTuple):
@@ -81,7 +89,8 @@ class Row:
     "print-only", made of other printed numbers alone, or None where we have nothing to put beside the print.  Only a computed number is
     compared.  `low` and `high` are the ends of its 95 % interval; None: it is exact to its printed digits.
 
-    `reading_of` names the printed number where several rows are readings of the same one.
+    `reading_of` names the printed number where several rows are readings of the same one.  `idealised`: ours leaves out something that
+    the printed number is about (rigid plates for elastic ones, rest for motion); then it may explain a print, and never agrees with it.
     """
 
     name: str
@@ -99,6 +108,7 @@ class Row:
     low: float | None = None
     high: float | None = None
     reading_of: str = ""
+    idealised: bool = False
 
     @property
     def deviation(self) -> float | None:
@@ -128,7 +138,7 @@ class Row:
         if self.basis != COMPUTED or self.ours is None:
             return NOT_COMPARED
         if self._meets(self.ours, self.low, self.high):
-            return AGREES
+            return EXPLAINED if self.idealised else AGREES
         return EXPLAINED if self.explanation is not None and self._meets(self.explanation.value) else OPEN
 
     @property
@@ -173,9 +183,9 @@ def best_verdicts(rows: Iterable[Row]) -> dict[str, str]:
     return best
 
 
-def counts(rows: Iterable[Row], evaluated: bool = False) -> dict[str, int]:
-    """How many printed numbers and claims, or formulas evaluated, have each verdict, the best of their readings."""
-    best = Counter(best_verdicts(row for row in rows if row.printed.evaluated == evaluated).values())
+def counts(rows: Iterable[Row], origin: str = PRINTED) -> dict[str, int]:
+    """How many printed numbers and claims (or what is evaluated or implied) have each verdict, the best of their readings."""
+    best = Counter(best_verdicts(row for row in rows if row.printed.origin == origin).values())
     return {verdict: best[verdict] for verdict in VERDICTS}
 
 

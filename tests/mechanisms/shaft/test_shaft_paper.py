@@ -6,8 +6,8 @@ from places import EXAMPLES
 
 import drivewright as dw
 from drivewright import registry
-from drivewright.validation import AGREES, EXPLAINED, OPEN, shaft_paper
-from drivewright.validation.shaft_paper import L1, L2, L3, L5, L6, L7, L8, SPAN, flexibility, literal_bearing_flexibility, own_flexibility
+from drivewright.validation import AGREES, EXPLAINED, NOT_COMPARED, OPEN, shaft_bearings, shaft_model, shaft_paper
+from drivewright.validation.shaft_model import L1, L2, L3, L5, L6, L7, L8, SPAN, flexibility, literal_bearing_flexibility, own_flexibility
 
 pytestmark = pytest.mark.analytical
 
@@ -30,7 +30,7 @@ def near(text):
 
 def test_every_verdict_is_the_pinned_one(rows):
     assert [(row.name, row.verdict) for row in rows.values() if row.verdict != row.pinned] == []
-    assert {row.pinned for row in rows.values()} == {AGREES, EXPLAINED, OPEN}
+    assert {row.pinned for row in rows.values()} == {AGREES, EXPLAINED, OPEN, NOT_COMPARED}
 
 
 # -- section 5.3 ---------------------------------------------------------------------------------------------------------------
@@ -39,10 +39,10 @@ def test_every_verdict_is_the_pinned_one(rows):
 @pytest.mark.parametrize(
     ("mass", "claim", "truth", "historical", "verdict"),
     [
-        ("m1", "no significant change", "126.6", "26", EXPLAINED),
-        ("m2", "decreases", "53.9", "-65.7", EXPLAINED),
-        ("m4", "decreases", "12.0", "-3.6", EXPLAINED),
-        ("m3", "increases", "9.6", "7.4", AGREES),
+        ("m1", "no significant change: within 10 %", "126.6", "26", OPEN),
+        ("m2", "decreases: below 1", "53.9", "-65.7", EXPLAINED),
+        ("m4", "decreases: below 1", "12.0", "-3.6", EXPLAINED),
+        ("m3", "increases: above 1", "9.6", "7.4", AGREES),
     ],
 )
 def test_claims_of_section_5_3(rows, mass, claim, truth, historical, verdict):
@@ -52,7 +52,7 @@ def test_claims_of_section_5_3(rows, mass, claim, truth, historical, verdict):
     assert str(right.printed) == str(printed.printed) == claim
     assert 100 * (right.ours - 1) == near(truth)
     assert 100 * (printed.ours - 1) == near(historical)
-    assert (right.verdict, printed.verdict) == (verdict, AGREES)
+    assert (right.verdict, printed.verdict) == (verdict, NOT_COMPARED)
     assert "no evidence" in printed.commentary
 
 
@@ -76,11 +76,10 @@ def test_the_cross_flexibilities_may_fall():
     assert found == [pytest.approx(value, abs=0.05) for value in (50.52, -82.09, -261.80, -230.30)]
 
 
-def test_an_insignificant_change_is_one_that_the_figure_does_not_show(rows):
-    """A tenth of 457 nm/N: the printed equations add 24 nm/N to m1, the bearings 114."""
-    claim = rows["elastic over rigid flexibility of m1"].printed
-    assert claim.high - 1 == pytest.approx(0.1 * 457.1845 / 89.77392, rel=1e-5)
-    assert 1 - claim.low == pytest.approx(claim.high - 1, rel=1e-12)
+def test_the_printed_equations_do_not_leave_m1_unchanged_either(rows):
+    """They add 24 nm/N to its 90, the bearings 114."""
+    claim = rows["elastic over rigid flexibility of m1"]
+    assert (claim.printed.low, claim.printed.high) == pytest.approx((0.9, 1.1)) and not claim._meets(claim.explanation.value)
     assert 1e9 * literal_bearing_flexibility("m1") == near("23.54")
 
 
@@ -99,7 +98,7 @@ def test_the_printed_equations_by_hand():
 )
 def test_what_bearings_add_is_a_line_through_their_displacements(preset, places, load):
     """The erratum to eqs. (16), (17): z = w_A + (w_B - w_A)(x - x_A)/L, with signs."""
-    table = shaft_paper.run_preset(preset, None, ("flexibility",)).tables["unit_load"]
+    table = shaft_model.run_preset(preset, None, ("flexibility",)).tables["unit_load"]
     x, added = table["z"].data, table[load].data - table[f"{load}.rigid"].data
     first, last = np.interp(places, x, added)
     assert added == pytest.approx(first + (last - first) * (x - places[0]) / (places[1] - places[0]), abs=1e-6 * np.abs(added).max())
@@ -150,7 +149,7 @@ def test_conclusion_3_at_any_stiffness(mass):
 )
 def test_printed_formulas(rows, name, printed, ours, verdict):
     row = rows[name]
-    assert (str(row.printed), row.verdict) == (printed, verdict)
+    assert (str(row.printed).removesuffix(", evaluated"), row.verdict) == (printed, verdict)
     assert row.ours == pytest.approx(ours, rel=2e-6)
 
 
@@ -158,7 +157,7 @@ def test_corrected_equations_5_and_6():
     """l6 (l7 + l8)/(3 EI) and l6^2 (l6 + l7 + l8)/(3 EI): the span of the bearings C and D is l7 + l8."""
     slope, own = L6 * (L7 + L8) / (3 * EI), L6**2 * (L6 + L7 + L8) / (3 * EI)
     assert (slope, own) == pytest.approx((5.50747e-6, 5.65208e-7), rel=2e-6)
-    assert shaft_paper.value_per_newton(RUBBER, "m3", "bearings.C.slope") == pytest.approx(slope, rel=1e-6)
+    assert shaft_model.value_per_newton(RUBBER, "m3", "bearings.C.slope") == pytest.approx(slope, rel=1e-6)
     assert own_flexibility("m3", np.inf) == pytest.approx(own, rel=1e-6)
 
 
@@ -193,7 +192,7 @@ def test_two_constants_and_equal_signs_of_the_loads(preset, loads, bearings, end
     span = bearings[1] - bearings[0]
     last = sum(place - bearings[0] for place in loads) / span
     reactions = [(bearings[0], 2.0 - last), (bearings[1], last)]
-    table = shaft_paper.run_preset(preset, np.inf, ("flexibility",)).tables["unit_load"]
+    table = shaft_model.run_preset(preset, np.inf, ("flexibility",)).tables["unit_load"]
     names = [name for name in ("m1", "m2", "m3", "m4") if name in [column.name for column in table.columns]]
     beam = sum(table[name].data for name in names)
     ours = [macaulay(x, forces, reactions) for x in table["z"].data]
@@ -319,7 +318,7 @@ def test_stiffness_is_the_inverse_of_the_flexibility(rows):
     ("mass", "flexibility", "percent"), [("m1", "37.16", "-59"), ("m2", "263.2", "-42"), ("m3", "113.6", "-80"), ("m4", "30.56", "-84")]
 )
 def test_fixed_supports(rows, mass, flexibility, percent):
-    preset, _, place = shaft_paper.LAYOUT[mass]
+    preset, _, place = shaft_model.LAYOUT[mass]
     assert 1e9 * shaft_paper.clamped_flexibility(preset)[place, place] == near(flexibility)
     row = rows[f"flexibility of {mass}, clamped over simply supported"]
     assert 100 * (row.ours - 1) == near(percent)
@@ -329,7 +328,7 @@ def test_fixed_supports(rows, mass, flexibility, percent):
 @pytest.mark.parametrize(("mass", "length"), [("m1", L1), ("m2", L3), ("m3", L6)])
 def test_beyond_a_fixed_support_a_mass_hangs_on_a_cantilever(mass, length):
     """l^3/(3 EI), from the support to the mass."""
-    preset, _, place = shaft_paper.LAYOUT[mass]
+    preset, _, place = shaft_model.LAYOUT[mass]
     assert shaft_paper.clamped_flexibility(preset)[place, place] == pytest.approx(length**3 / (3 * EI), rel=1e-6)
 
 
@@ -366,18 +365,19 @@ def test_which_bearing_is_stiffer_than_the_cylindrical_one():
     """The tapered one; balls are softer by a third and more, whatever axial load of this size they have."""
     from drivewright import bearings
 
-    cylindrical = shaft_paper.radial_stiffness(bearings.bearing("hypothetical-CRB-20x32x7"))
+    cylindrical = shaft_bearings.radial_stiffness(bearings.bearing("hypothetical-CRB-20x32x7"))
     for axial in (0.0, 300.0):
-        balls = [bearings.bearing(name) for name in shaft_paper.KINDS if "TRB" not in name]
-        assert max(shaft_paper.radial_stiffness(ball, axial) for ball in balls) < 0.65 * cylindrical
-    assert shaft_paper.radial_stiffness(bearings.bearing("hypothetical-TRB-20x32x7"), 300.0) == pytest.approx(1.96 * cylindrical, rel=0.01)
+        balls = [bearings.bearing(name) for name in shaft_bearings.KINDS if "TRB" not in name]
+        assert max(shaft_bearings.radial_stiffness(ball, axial) for ball in balls) < 0.65 * cylindrical
+    taper = bearings.bearing("hypothetical-TRB-20x32x7")
+    assert shaft_bearings.radial_stiffness(taper, 300.0) == pytest.approx(1.96 * cylindrical, rel=0.01)
 
 
 def test_a_61804_has_the_printed_stiffness_at_a_light_load_only(rows):
     row = rows["secant stiffness of a 61804 at 500 N"]
     assert row.ours == pytest.approx(5.02e7, abs=0.005e7)
     assert row.explanation.value == pytest.approx(3.0e7, abs=0.005e7)
-    soft, stiff = shaft_paper.secant_stiffness_of_61804(1.0), shaft_paper.secant_stiffness_of_61804(8.0)
+    soft, stiff = shaft_bearings.secant_stiffness_of_61804(1.0), shaft_bearings.secant_stiffness_of_61804(8.0)
     assert stiff / soft == pytest.approx(2.0, abs=0.01), "it grows with the cube root of the load"
 
 
