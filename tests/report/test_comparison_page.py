@@ -226,3 +226,13 @@ def test_a_plot_without_a_common_quantity_is_a_remark(designs):
     shown = views_of(dw.compare([first, swinging]), seen[:2])
     assert "plot-motion" not in {picture.name for picture in shown.pictures}
     assert [remark for remark in shown.remarks if remark.startswith("plot 'motion' is not drawn")]
+
+
+def test_warnings_of_a_design_are_in_the_verdict(designs):
+    passing = replace(designs[0].results[0], checks=())
+    warned = replace(passing, warnings=("the pins slip",))
+    assert comparison_content(dw.compare([passing, passing]))["verdict"] == {"state": "good", "text": "no failed check"}
+    assert comparison_content(dw.compare([passing, warned]))["verdict"] == {
+        "state": "warn",
+        "text": "no failed check, 1 of 2 with warnings",
+    }

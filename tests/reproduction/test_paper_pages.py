@@ -280,6 +280,8 @@ def test_ours_has_the_digits_of_a_near_print():
     assert pages.ours_texts(life) == ("4.5×10¹¹\u00a0min", "")
     assert pages.deviation_text(near) == "0" and pages.deviation_text(replace(near, ours=12.0)) == "+0.535"
     assert pages.deviation_text(replace(near, basis=CALIBRATED)) == ""
+    cut_off = Row("pitch", rounded("9.563499 mm", "m"), 9.5635e-3, "m", OPEN, "closed form", "here")
+    assert pages.deviation_text(cut_off).startswith("+1×10⁻⁶"), "a difference that makes the verdict is shown"
 
 
 def test_the_pdf_has_every_picture(bench, tmp_path):

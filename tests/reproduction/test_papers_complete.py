@@ -7,8 +7,9 @@ import pytest
 
 from drivewright import reproduction
 from drivewright.errors import UnknownName
-from drivewright.reproduction import document, papers, shaft_paper
+from drivewright.reproduction import document, indexer_paper, papers, pusher_paper, shaft_paper
 from drivewright.reproduction.document import CORRECTED, DEFINITION, EQUATION_VERDICTS, Grid, read_paper
+from drivewright.reproduction.figures import Curve
 from drivewright.reproduction.formulas import formula_picture
 from drivewright.validation import folding_linkage, shaft_model
 
@@ -104,3 +105,19 @@ def test_a_moved_mass_at_its_printed_length_is_that_of_the_shaft_itself(length, 
     moved = shaft_paper.MOVED[length]
     found = shaft_paper.own_flexibility(moved, np.array([moved.printed]), stiffness)
     assert found[0] == pytest.approx(shaft_model.own_flexibility(moved.mass, stiffness), rel=1e-6)
+
+
+def test_the_largest_angle_of_a_cam_is_that_of_the_phase_in_which_it_drives():
+    curve = Curve("main cam", np.array([60.0, 70.0, 80.0, 90.0]), np.array([50.0, 20.0, 42.0, 60.0]))
+    found = pusher_paper._largest_while_driving(curve, (65.0, 86.0))
+    assert (found.x[0], found.y[0], found.label) == (80.0, 42.0, "main cam while it drives: 42.00°")
+
+
+def test_stiffness_after_play_is_shown_apart(monkeypatch):
+    """The band is a line where the cams hold the wheel at once, points where it turns freely first, and nothing in between."""
+    angle = indexer_paper.degrees(indexer_paper.result().tables["stiffness"])
+    monkeypatch.setattr(indexer_paper, "clearance_band", lambda: (angle, np.tile(1.0 + angle, (3, 1))))
+    axis = indexer_paper.clearances().axes[0]
+    drawn = {line.get_label(): np.isfinite(np.asarray(line.get_ydata(), float)) for line in axis.get_lines()}
+    band, free = (drawn[name] for name in ("with clearances, median and 5 to 95 %", "the same where the wheel turns freely first"))
+    assert not np.any(band & free) and angle[free].max() < 36.0 <= angle[band].min() and angle[free].min() == 4.5

@@ -6,6 +6,7 @@ import pytest
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.placing import Place, Room, dense_points
 from drivewright.view.style import new_figure, styled
+from drivewright.view.text import wrapped_label
 
 pytestmark = pytest.mark.interface
 
@@ -86,3 +87,8 @@ def test_markers_lie_evenly_over_x_and_beside_each_other():
     first, second = (line.get_xdata()[line.get_markevery()] for line in axis.get_lines())
     assert np.diff(first) == pytest.approx(10 / 9, rel=0.1)
     assert min(abs(a - b) for a in first for b in second) > 0.2
+
+
+def test_a_unit_is_never_torn_apart():
+    label = wrapped_label("Torsional stiffness of it [N m/arcmin]", 24)
+    assert [line.replace("\u00a0", " ") for line in label.split("\n")] == ["Torsional stiffness of", "it [N m/arcmin]"]

@@ -94,6 +94,12 @@ def test_the_running_deviation_counts_from_the_distance_at_rest():
     assert pytest.approx(0.2191256 - 0.0000696, abs=1e-12) == hyvo_running.INITIAL
 
 
+def test_a_quotient_of_coefficients_has_the_widest_interval():
+    one = {"coefficient": [6.0], "coefficient.low": [5.0], "coefficient.high": [8.0]}
+    other = {"coefficient": [2.0], "coefficient.low": [1.0], "coefficient.high": [4.0]}
+    assert folding_contact._quotient(one, 0, other, 0) == (3.0, 1.25, 8.0)
+
+
 def test_a_quotient_of_lives_is_wide_in_the_logarithm():
     """Factors of 2 and 3 to either side: a factor of exp(sqrt(ln 2^2 + ln 3^2)) to either side of the quotient."""
     found = quotient(Interval(8e8, 4e8, 16e8), Interval(2e8, 2e8 / 3, 6e8))

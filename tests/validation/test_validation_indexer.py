@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from drivewright.validation import AGREES, EXPLAINED, NOT_COMPARED, OPEN, VERDICTS, indexer_paper
+from drivewright.validation import AGREES, EXPLAINED, NOT_COMPARED, OPEN, VERDICTS, indexer_paper, rounded
 
 pytestmark = pytest.mark.analytical
 
@@ -170,3 +170,12 @@ def test_what_the_paper_s_stiffness_would_need(rows):
 
 def test_errata_are_sentences():
     assert len(indexer_paper.ERRATA) == 11 and all(text.endswith(".") for text in indexer_paper.ERRATA)
+
+
+def test_of_two_equal_maxima_the_nearer_one_counts(rows):
+    """The stiffness is alike on both sides of 90 deg: 9 and 171 deg."""
+    assert np.degrees(rows["angle of the highest stiffness"].ours) == pytest.approx(171.0)
+    low, high = (np.radians(at) for at in (9.0, 171.0))
+    for printed, found in ((20.0, low), (160.0, high)):
+        near = indexer_paper._angle_of_max_stiffness(indexer_paper.indexer_result(), rounded(f"{printed} deg", "rad"))
+        assert near == pytest.approx(found)

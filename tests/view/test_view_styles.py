@@ -11,7 +11,8 @@ from sample_designs import four_bar_result, four_bar_scene
 from drivewright import registry
 from drivewright.report.pack import pack_plots
 from drivewright.result import Column, Plot, Table
-from drivewright.view import draw_panels, svg
+from drivewright.scene import Drawing, Shape, circle
+from drivewright.view import draw_drawing, draw_panels, svg
 from drivewright.view.panels import DECADES, known_plots, log_span, panels
 from drivewright.view.powers import power_of_ten
 from drivewright.view.style import log_ticks
@@ -147,3 +148,9 @@ def test_a_logarithmic_axis_names_its_decades_or_what_lies_between(low, high, na
         tick.label1.get_text() for tick in [*axes.yaxis.get_major_ticks(), *axes.yaxis.get_minor_ticks()] if low <= tick.get_loc() <= high
     ]
     assert sorted(text for text in texts if text) == sorted(names)
+
+
+def test_a_shape_is_called_what_it_says_itself():
+    circles = [Shape("pitch", circle((0, 0), 0.03), "pitch circle"), Shape("base", circle((0, 0), 0.02))]
+    legend = draw_drawing(Drawing("gear", "gear", tuple(circles))).axes[0].get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == ["pitch circle", "base circle"]

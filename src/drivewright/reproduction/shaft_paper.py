@@ -21,7 +21,7 @@ from drivewright.validation import shaft_model
 from drivewright.validation import shaft_paper as numbers
 from drivewright.validation.shaft_bearings import BEARINGS, LOADED, flexibility_on_bearings, on_bearings
 from drivewright.validation.shaft_model import L1, L2, L3, L5, L6, L7, SPAN
-from drivewright.validation.source import AGREES, Printed, Row
+from drivewright.validation.source import AGREES, Row, about
 from drivewright.view.style import new_figure, styled
 from drivewright.view.text import quantity
 
@@ -84,24 +84,23 @@ def solid_line(preset: str, mass: str, stations: int = 15) -> tuple[Floats, Floa
 
 
 def solid_rows(folder: Path) -> Iterator[Row]:
-    """Section 5.2: the solid's own flexibility over the beam's, at each mass."""
+    """Section 5.2: the solid's own flexibility over the beam's, at the mass where they differ most."""
+    shares = []
     for preset, masses in SHAFTS.items():
+        at = {name: place for place, name in places_of(preset)}
         for mass in masses:
-            x, line = solid_line(preset, mass)
-            at = {name: place for place, name in places_of(preset)}[mass]
-            share = float(np.interp(at, x, line)) / (shaft_model.own_flexibility(mass) * NANO)
-            yield Row(
-                f"flexibility of {mass}, solid elements over the beam",
-                Printed("consistent trends: 1 within 10 %", 0.9, 1.1, 1.0),
-                share,
-                "-",
-                AGREES,
-                "other code",
-                "section 5.2",
-                shaft_model.DATA,
-                f"{shaft_model.READING}; springs of 3.0e7 N/m over bands of 7 mm, second-order tetrahedra",
-                reading_of=f"theory and finite elements at {mass}",
-            )
+            shares.append(float(np.interp(at[mass], *solid_line(preset, mass))) / (shaft_model.own_flexibility(mass) * NANO))
+    yield Row(
+        "flexibility by solid elements over that of the beam, the farthest from 1 of four masses",
+        about("consistent trends: 1 within 10 %", 1.0, 0.1),
+        max(shares, key=lambda share: abs(share - 1.0)),
+        "-",
+        AGREES,
+        "other code",
+        "section 5.2",
+        shaft_model.DATA,
+        f"{shaft_model.READING}; springs of 3.0e7 N/m over bands of 7 mm, second-order tetrahedra",
+    )
 
 
 def solid_and_beam(preset: str) -> "Drawn":

@@ -123,6 +123,7 @@ def _trends() -> Iterator[Row]:
 
 def _conclusion() -> Iterator[Row]:
     common: dict[str, Any] = {"kind": "published table", "where": "conclusion (3)", "inputs": DATA, "assumed": READING}
+    common["reading_of"] = "flexibility on stiffer bearings"
     common["note"] = "This conclusion is right at every mass for springs at fixed places, and contradicts the trends of section 5.3."
     for mass in CLAIMS:
         yield Row(
