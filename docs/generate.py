@@ -142,8 +142,8 @@ def _head(path):
 def reproduced_papers():
     """The papers as pages of their own, with a table of what agrees; computed in out/papers: some ten minutes once, a moment again."""
     from drivewright.reproduction import papers
-    from drivewright.reproduction.page import counts, reproduce
-    from drivewright.validation import VERDICTS
+    from drivewright.reproduction.page import reproduce
+    from drivewright.validation import VERDICTS, counts
 
     lines = ["# Papers", "", "Five papers, each as a page in its own order: `drivewright reproduce NAME`.", ""]
     lines += [f"| paper | page | PDF | {' | '.join(VERDICTS)} |", f"|---|---|---|{'---:|' * len(VERDICTS)}"]
