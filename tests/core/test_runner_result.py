@@ -62,6 +62,7 @@ def test_the_record_is_strict_json_as_product_documents_it():
         "arrays",
         "checks",
         "findings",
+        "warnings",
         "outcome",
         "provenance",
     ]

@@ -105,7 +105,7 @@ def test_the_command_says_what_it_did(tmp_path, capsys):
         f"{tmp_path / 'S'}: 3 of 3 cases" in said.err and "note: 1 x joint.rolling_radius: must be greater than 0 mm, got -1 mm" in said.err
     )
     study = dw.open_study(tmp_path / "S")
-    least, greatest = (f"{1e3 * end:.6g} mm" for end in (np.nanmin(study["pin_offset"]), np.nanmax(study["pin_offset"])))
+    least, greatest = (f"{1e3 * end:.5g} mm" for end in (np.nanmin(study["pin_offset"]), np.nanmax(study["pin_offset"])))
     assert "2 complete, 1 failed" in said.out and "pin_offset" in said.out and least in said.out and greatest in said.out
 
 

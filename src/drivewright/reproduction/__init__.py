@@ -5,6 +5,7 @@ figures        figures of papers: curves told apart without colour, printed and 
 formulas       equations as pictures
 page           the page, its PDF and rows.json
 parts          what a page is made of, computed part by part and kept
+placing        where words in a chart find room: beside the curves, not upon them
 views          a mechanism's scene and drawings as figures
 shaft_paper    the shafts of a pipe-lining machine of Li, Zhang and Chen
 indexer_paper  the inner-translation indexing cam of Liu, Zhai, Li and Guo
