@@ -62,7 +62,8 @@ def interrupted(command, ready, *signals, whole_group=False):
     until(lambda: process.poll() is not None or ready(process))
     below = descendants(process.pid)
     for each in signals:
-        (os.killpg if whole_group else os.kill)(process.pid, each)
+        if process.poll() is None:  # it may be faster than the signal
+            (os.killpg if whole_group else os.kill)(process.pid, each)
         time.sleep(0.02)
     said = process.communicate(timeout=60)[1]
     until(lambda: not any(map(alive, below)), 20)
