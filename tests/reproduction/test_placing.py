@@ -90,5 +90,5 @@ def test_markers_lie_evenly_over_x_and_beside_each_other():
 
 
 def test_a_unit_is_never_torn_apart():
-    label = wrapped_label("Torsional stiffness of it [N m/arcmin]", 24)
-    assert [line.replace("\u00a0", " ") for line in label.split("\n")] == ["Torsional stiffness of", "it [N m/arcmin]"]
+    label = wrapped_label("Torsional stiffness [N m/arcmin]", 24)
+    assert [line.replace("\u00a0", " ") for line in label.split("\n")] == ["Torsional stiffness", "[N m/arcmin]"]
