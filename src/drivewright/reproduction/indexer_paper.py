@@ -34,7 +34,7 @@ SLEEVE = (50e-6, 91e-6)  # clearance of H7/e6 over 30 to 50 mm of diameter [m]
 ROLLERS, BALLS = (25e-6, 50e-6), (5e-6, 20e-6)  # clearance of a NU207 and of a 61904 of class 0, group normal [m]
 DRIVES, SEED = 60, 1
 LITTLE_PLAY = 1e-6  # rad, beyond which the wheel counts as free
-CYCLE = 803  # readings of one made-up cycle, back to its first
+CYCLE = 2 * numbers.BRANCH + 1  # readings of one made-up cycle, back to its first
 
 
 def preset(*changes: str) -> Any:

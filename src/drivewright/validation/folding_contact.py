@@ -91,12 +91,12 @@ def dry_rows(folder: Path) -> Iterator[Row]:
 def _trends(tables: dict[int, dict[str, list[float]]]) -> Iterator[Row]:
     """What section 3 says of its table: K_d grows with the play at every speed, and not with the speed everywhere."""
     common: dict[str, Any] = {"unit": "-", "pinned": AGREES, "kind": "published table", "where": "section 3", "assumed": CONTACT}
-    widest, slowest = (tables[speed] for speed in (max(tables), min(tables)))
+    fastest, slowest = (tables[speed] for speed in (max(tables), min(tables)))
     over_play = [_quotient(table, -1, table, 0) for table in tables.values()]
     grows = Printed("grows markedly: above 1", *ABOVE_ONE)
     least = min(over_play, key=lambda found: found[1])
     yield Row("K_d at r = 0.40 over 0.01 mm, least of the speeds", grows, least[0], low=least[1], high=least[2], **common)
-    over_speed = [_quotient(widest, play, slowest, play) for play in range(len(PLAYS))]
+    over_speed = [_quotient(fastest, play, slowest, play) for play in range(len(PLAYS))]
     falls = Printed("not with the speed everywhere: below 1", *BELOW_ONE)
     most = min(over_speed, key=lambda found: found[2])
     yield Row("K_d at the highest over the lowest speed, least of the plays", falls, most[0], low=most[1], high=most[2], **common)

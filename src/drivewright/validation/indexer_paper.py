@@ -285,13 +285,14 @@ def _support_loads(equilibrium: Any, lengths: Any, first: Any, second: Any, gear
 # -- the test ------------------------------------------------------------------------------------------------------------------
 
 LOOP_STIFFNESS, LOOP_HALF_WIDTH, LOOP_TORQUE = 750 / ARCMIN, 0.1 * ARCMIN, 300.0  # N m/rad, rad, N m
+BRANCH = 401  # readings along one branch
 LOOP = "a loop made up of two straight branches of 750 N m/arcmin, 0.1 arcmin to either side, over -300 to 300 N m"
 
 
 @cache
 def loop_evaluation() -> Any:
     """The torsion test's evaluation of the made-up loop."""
-    up = np.linspace(-LOOP_TORQUE, LOOP_TORQUE, 401)
+    up = np.linspace(-LOOP_TORQUE, LOOP_TORQUE, BRANCH)
     torque = np.tile(np.concatenate([up, up[::-1]]), 3)
     way = np.tile(np.repeat([1.0, -1.0], len(up)), 3)
     angle = torque / LOOP_STIFFNESS - way * LOOP_HALF_WIDTH
@@ -344,7 +345,7 @@ def _test() -> Iterator[Row]:
 
 
 def _corrected_stiffness(setup: Any) -> float:
-    up = np.linspace(-LOOP_TORQUE, LOOP_TORQUE, 401)
+    up = np.linspace(-LOOP_TORQUE, LOOP_TORQUE, BRANCH)
     torque = np.concatenate([up, up[::-1]])
     return float(torsion_test.evaluate_loop(torsion_test.Readings(torque, torque / LOOP_STIFFNESS), setup).corrected.value)
 
