@@ -5,6 +5,7 @@
 `laws`       contact laws by name, of other packages.
 `time_step`  the mean of a force over a step of an explicit integrator.
 `hertz`      line and point contact of elastic bodies.
+`conforming` a pin in a hole with clearance.
 `impact`     impact laws, restitution and damping; a cylinder in a hollow.
 `friction`   Coulomb, Ambrosio, Stribeck and LuGre friction.
 `film`       closed forms of a journal bearing's oil film; `reynolds` solves its equation.
@@ -48,6 +49,7 @@ _WHERE = {
     "friction": ("ambrosio", "coulomb", "lugre", "lugre_rate", "stribeck"),
     "film": ("long_bearing", "short_bearing"),
     "reynolds": ("Film", "FilmMap", "closed_form_map", "film_deviation", "film_map", "solve_film"),
+    "conforming": ("conforming_half_angle", "conforming_pressure"),
     "laws": ("ContactParameters", "contact_law", "contact_law_names"),
     "time_step": ("mean_force",),
     "wear": ("deposit", "wear_at", "wear_volume", "extrapolate_wear"),

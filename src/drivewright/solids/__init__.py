@@ -2,6 +2,7 @@
 
 Knows shapes, loads and springs, and no machine.  Volumes and surfaces of simple parts need no CAD kernel; all else needs the extra `fe`.
 
+contact        elastic bodies pressed on each other
 cad            CAD solids of parts with Netgen's OpenCASCADE kernel
 coupling       the equilibrium of substructures on linear springs
 deformation    the displaced surface of a solid
@@ -9,6 +10,7 @@ engine         the door to Netgen and NGSolve
 facets         closed triangle surfaces of parts
 grooving       grooves milled into turned bodies
 meshing        curved meshes of CAD shapes with named boundaries whose lengths or areas are checked
+stresses       stress on the skin of an elastic body
 pieces         the pieces of an outline (`scene.Line`, `Arc`, `Spline`)
 plane_meshing  curved triangle meshes of flat parts for plane stress
 substructures  elastic bodies condensed to the loads on their interfaces (substructures)
@@ -20,14 +22,16 @@ from importlib import import_module
 from typing import Any
 
 _WHERE = {
+    "contact": ("ContactModel", "ContactState", "Functional", "Link", "Pair", "PressedBodies", "SolidBody", "press"),
     "cad": ("cad_assembly", "cad_solid"),
     "coupling": ("CoupledSolution", "InterfaceSpring", "solve_coupled"),
     "deformation": ("DisplacedSurface", "displaced_table"),
-    "elastic": ("FreeBody", "Response", "SpringSupported", "spring_supported", "superposed_field"),
+    "elastic": ("FreeBody", "Plane", "Response", "SpringSupported", "spring_supported", "superposed_field"),
     "facets": ("surface_triangles",),
     "meshing": ("boundary_measure", "check_boundary_measures", "solid_mesh"),
     "plane": ("PlaneBody", "Rim", "StressSurface", "field_table", "order_error", "plane_von_mises"),
     "plane_meshing": ("plane_mesh",),
+    "stresses": ("SkinStress", "skin_stress"),
     "substructures": ("InterfaceLoad", "Substructure", "elastic_substructure", "radial_loads", "rigid_substructure"),
     "turning": ("Band", "Frustum", "half_section", "ring_volume", "split_rings"),
     "volume": ("part_volume",),

@@ -8,7 +8,7 @@ Meshes are in millimetres; stresses in MPa inside; every number that comes out i
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -44,8 +44,15 @@ class SpringSupported(NamedTuple):
     motions: Floats
 
 
+class Plane(NamedTuple):
+    """A flat body: its thickness [m], and the state "strain" (long along its axis) or "stress" (a sheet)."""
+
+    thickness: float
+    state: Literal["strain", "stress"] = "strain"
+
+
 class FreeBody:
-    """A homogeneous elastic body on a curved second-order NGSolve mesh in millimetres; modulus [Pa].
+    """A homogeneous elastic body on a curved second-order NGSolve mesh in millimetres; modulus [Pa]; `plane` for a mesh in two dimensions.
 
     Half and quarter models: `symmetry` names the faces on which a displacement is 0, as dirichletx="...", dirichletz="...".  The body
     then has only those rigid motions that leave these faces in place.
@@ -54,19 +61,20 @@ class FreeBody:
     balanced the pins feel no force, and the rigid part of what they leave is taken out: no result depends on them.
     """
 
-    def __init__(self, mesh: EngineObject, modulus: float, poisson: float, **symmetry: str) -> None:
+    def __init__(self, mesh: EngineObject, modulus: float, poisson: float, plane: Plane | None = None, **symmetry: str) -> None:
         self.ng = ng = fe_module("ngsolve", PURPOSE)
         ng.SetNumThreads(1)  # the same bits every time; a second thread gains nothing at this size
+        self.modulus, self.poisson, self.plane = modulus, poisson, plane
         self.mesh, self.space = mesh, ng.VectorH1(mesh, order=2, **symmetry)
         corners = np.array(mesh.ngmesh.Coordinates())
         self.middle, self.size = (corners.max(axis=0) + corners.min(axis=0)) / 2, float(np.ptp(corners, axis=0).max())
-        stiffness = _stiffness(ng, self.space, modulus * MM**2, poisson)
+        stiffness = _stiffness(ng, self.space, modulus * MM**2, poisson, plane)
         motions = _rigid_motions(ng, self.middle, self.size)
         self.basis = self._allowed(motions)
         motions = [_combination(ng, parts, motions) for parts in self.basis.T]
-        self._modes = [self._interpolated(motion) for motion in motions]
+        self.modes = [self._interpolated(motion) for motion in motions]
         self._masses = [ng.LinearForm(ng.InnerProduct(motion, self.space.TestFunction()) * ng.dx).Assemble().vec for motion in motions]
-        self._gram = np.array([[ng.InnerProduct(a, b) for b in self._masses] for a in self._modes])
+        self._gram = np.array([[ng.InnerProduct(a, b) for b in self._masses] for a in self.modes])
         with ng.TaskManager():
             self._inverse = stiffness.mat.Inverse(self._unpinned(), inverse="sparsecholesky")
 
@@ -78,6 +86,13 @@ class FreeBody:
     def mean(self, region: str, direction: Sequence[float] | Floats) -> EngineObject:
         """Functional: mean displacement along `direction` (3,) over the faces whose names match `region`, a regular expression."""
         return self.weighted(region, self.ng.CF(tuple(map(float, direction))) / self.area(region))
+
+    def volume_mean(self, direction: Sequence[float] | Floats) -> EngineObject:
+        """Functional: mean displacement along `direction` (d,) over the volume."""
+        ng = self.ng
+        volume = ng.Integrate(ng.CF(1) * ng.dx, self.mesh)
+        along = ng.CF(tuple(map(float, direction))) / volume
+        return ng.LinearForm(ng.InnerProduct(along, self.space.TestFunction()) * ng.dx).Assemble().vec
 
     def weighted(self, region: str, weight: EngineObject) -> EngineObject:
         """Functional: integral over named faces [mm^2] of the displacement times `weight`, a vector coefficient function of (x, y, z)."""
@@ -100,24 +115,24 @@ class FreeBody:
         moment = ng.Integrate(square * ng.ds(region), self.mesh)
         return self.weighted(region, radius / MM / float(moment) * direction)
 
-    def gaussian_strip(self, region: str, point: complex, normal: complex, sigma: float) -> EngineObject:
+    def gaussian_strip(self, region: str, point: complex, normal: complex, sigma: float, along: EngineObject | float = 1.0) -> EngineObject:
         """Functional: mean displacement along `normal` over named faces, weighted by exp(-r^2/2 sigma^2) of the distance r to a line
-        along z through `point` (x + iy) [m]; sigma [m].
+        along z through `point` (x + iy) [m] and by `along`, a coefficient function of z; sigma [m].
 
         Only the flank that faces along the normal counts.  A part linear along the flank brings the resultant to the point exactly, also
         at a corner.
         """
         ng = self.ng
-        x, y = ng.x - point.real / MM, ng.y - point.imag / MM
-        ahead = normal.real * ng.specialcf.normal(3)[0] + normal.imag * ng.specialcf.normal(3)[1]
-        along = normal.real * y - normal.imag * x
-        weight = ng.IfPos(ahead, ahead, 0) * ng.exp(-(x * x + y * y) / (2 * (sigma / MM) ** 2))
+        x, y = ng.x - float(point.real) / MM, ng.y - float(point.imag) / MM
+        ahead = float(normal.real) * ng.specialcf.normal(3)[0] + float(normal.imag) * ng.specialcf.normal(3)[1]
+        across = float(normal.real) * y - float(normal.imag) * x
+        weight = along * ng.IfPos(ahead, ahead, 0) * ng.exp(-(x * x + y * y) / (2 * (sigma / MM) ** 2))
         area = ng.ds(region, bonus_intorder=EXTRA_ORDER)
-        m0, m1, m2 = (float(ng.Integrate(weight * along**n * area, self.mesh)) for n in range(3))
+        m0, m1, m2 = (float(ng.Integrate(weight * across**n * area, self.mesh)) for n in range(3))
         if not m2 * m0 > m1 * m1:
             raise SolverError(f"solid check: no part of the profile lies at the contact at ({point.real:.5g}, {point.imag:.5g}) m.")
         slope = -m1 / m2
-        balanced = weight * (1 + slope * along) / (m0 + slope * m1)
+        balanced = weight * (1 + slope * across) / (m0 + slope * m1)
         direction = ng.CF((float(normal.real), float(normal.imag), 0))
         return ng.LinearForm(ng.InnerProduct(balanced * direction, self.space.TestFunction()) * area).Assemble().vec
 
@@ -131,10 +146,10 @@ class FreeBody:
     def response(self, functionals: Sequence[EngineObject]) -> Response:
         """The `Response` to functionals made by `mean`, `weighted`, `mean_rotation` or `gaussian_strip`."""
         with self.ng.TaskManager():
-            fields = [self._elastic(g) for g in functionals]
+            fields = [self.elastic(g) for g in functionals]
             product = self.ng.InnerProduct
             flexibility = MM * np.array([[product(g, w) for w in fields] for g in functionals])
-            resultants = np.array([[product(mode, g) for g in functionals] for mode in self._modes])
+            resultants = np.array([[product(mode, g) for g in functionals] for mode in self.modes])
         return Response(flexibility, resultants, tuple(fields))
 
     def surface(self, region: str, fields: Sequence[EngineObject], motions: Floats, parts: int = 2) -> DisplacedSurface:
@@ -152,13 +167,17 @@ class FreeBody:
             displacements.append(MM * np.asarray(shape(at)) + _carried(points, motion, self.middle, self.size))
         return DisplacedSurface(MM * points, triangles, np.array(displacements))
 
+    def vector(self) -> EngineObject:
+        """An empty vector of coefficients."""
+        return self.ng.GridFunction(self.space).vec
+
     def _interpolated(self, function: EngineObject) -> EngineObject:
         shape = self.ng.GridFunction(self.space)
         shape.Set(function)
         return shape.vec
 
     def _allowed(self, motions: Sequence[EngineObject]) -> Floats:
-        """Orthonormal combinations (6, m) of the six rigid motions that are 0 wherever the symmetry wants it."""
+        """Orthonormal combinations (6, m), in the plane (3, m), of the rigid motions that are 0 wherever the symmetry wants it."""
         fixed = ~np.array(list(self.space.FreeDofs()))
         table = np.array([np.array(self._interpolated(motion))[fixed] for motion in motions])
         axes, sizes, _ = np.linalg.svd(table @ table.T)
@@ -169,25 +188,29 @@ class FreeBody:
         from scipy.linalg import qr
 
         free = self.ng.BitArray(self.space.FreeDofs())
-        vertices = np.concatenate([self.space.Range(i).start + np.arange(self.mesh.nv) for i in range(3)])
+        if not self.modes:
+            return free
+        vertices = np.concatenate([self.space.Range(i).start + np.arange(self.mesh.nv) for i in range(self.mesh.dim)])
         vertices = vertices[np.array(list(free))[vertices]]
-        table = np.array([np.array(mode)[vertices] for mode in self._modes])
+        table = np.array([np.array(mode)[vertices] for mode in self.modes])
         order = np.asarray(qr(table, mode="r", pivoting=True)[-1])
         for number in vertices[order[: len(table)]]:
             free.Clear(int(number))
         return free
 
-    def _elastic(self, functional: EngineObject) -> EngineObject:
-        """Displacement under a balanced unit load, without rigid part."""
+    def elastic(self, functional: EngineObject) -> EngineObject:
+        """Displacement [mm] under a load vector [N] that inertia forces balance, without rigid part."""
         balanced, shape = functional.CreateVector(), functional.CreateVector()
         balanced.data = functional
-        self._subtract(balanced, self._modes, self._masses)
+        self._subtract(balanced, self.modes, self._masses)
         shape.data = self._inverse * balanced
-        self._subtract(shape, self._masses, self._modes)
+        self._subtract(shape, self._masses, self.modes)
         return shape
 
     def _subtract(self, vector: EngineObject, measures: Sequence[EngineObject], parts: Sequence[EngineObject]) -> None:
         """Take from a vector as much of the parts as makes its product with every measure 0."""
+        if not measures:
+            return
         amounts = np.linalg.solve(self._gram, [self.ng.InnerProduct(measure, vector) for measure in measures])
         for amount, part in zip(amounts, parts, strict=True):
             vector.data -= float(amount) * part
@@ -249,26 +272,39 @@ def _held_motions(springs: Floats, loads: Floats) -> Floats:
     return axes[:, kept]
 
 
-def _stiffness(ng: Any, space: EngineObject, modulus: float, poisson: float) -> EngineObject:
-    """Bilinear form int 2 mu e(u) : e(v) + lambda div u div v."""
+def _stiffness(ng: Any, space: EngineObject, modulus: float, poisson: float, plane: Plane | None) -> EngineObject:
+    """Bilinear form int 2 mu e(u) : e(v) + lambda div u div v, in the plane times the thickness."""
     u, v = space.TnT()
-    shear, volume = modulus / 2 / (1 + poisson), modulus * poisson / (1 + poisson) / (1 - 2 * poisson)
+    shear, volume = lame_constants(modulus, poisson, plane)
+    depth = plane.thickness / MM if plane else 1.0
     form = ng.BilinearForm(space, symmetric=True)
-    form += (2 * shear * ng.InnerProduct(ng.Sym(ng.Grad(u)), ng.Sym(ng.Grad(v))) + volume * ng.div(u) * ng.div(v)) * ng.dx
+    form += depth * (2 * shear * ng.InnerProduct(ng.Sym(ng.Grad(u)), ng.Sym(ng.Grad(v))) + volume * ng.div(u) * ng.div(v)) * ng.dx
     with ng.TaskManager():
         form.Assemble()
     return form
 
 
+def lame_constants(modulus: float, poisson: float, plane: Plane | None = None) -> tuple[float, float]:
+    """Lame's (mu, lambda) with which s = 2 mu e + lambda tr(e) I;  in plane stress lambda = E nu/(1 - nu^2)."""
+    shear = modulus / 2 / (1 + poisson)
+    if plane and plane.state == "stress":
+        return shear, modulus * poisson / (1 - poisson**2)
+    return shear, modulus * poisson / (1 + poisson) / (1 - 2 * poisson)
+
+
 def _rigid_motions(ng: Any, middle: Floats, size: float) -> list[EngineObject]:
-    """Three shifts, three turns about the middle with size 1 at the distance `size`."""
+    """Shifts, then turns about the middle with size 1 at the distance `size`: three and three, in the plane two and one."""
+    if len(middle) == 2:
+        x, y = (c - float(m) for c, m in zip((ng.x, ng.y), middle, strict=True))
+        return [ng.CF((1, 0)), ng.CF((0, 1)), ng.CF((-y, x)) / size]
     x, y, z = (c - float(m) for c, m in zip((ng.x, ng.y, ng.z), middle, strict=True))
     return [ng.CF(c) for c in ((1, 0, 0), (0, 1, 0), (0, 0, 1))] + [ng.CF(c) / size for c in ((0, -z, y), (z, 0, -x), (-y, x, 0))]
 
 
 def _combination(ng: Any, parts: Floats, functions: Sequence[EngineObject]) -> EngineObject:
     """Coefficient function sum of parts times functions."""
-    return sum((float(part) * function for part, function in zip(parts, functions, strict=True)), ng.CF((0, 0, 0)))
+    nothing = ng.CF((0,) * functions[0].dim)
+    return sum((float(part) * function for part, function in zip(parts, functions, strict=True)), nothing)
 
 
 def _carried(points: Floats, motion: Floats, middle: Floats, size: float) -> Floats:

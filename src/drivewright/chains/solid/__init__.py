@@ -1,0 +1,1 @@
+"""Plates and pins of a chain's joint as solids in contact."""

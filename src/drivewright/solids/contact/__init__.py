@@ -1,0 +1,17 @@
+"""Elastic bodies pressed on each other: surfaces that press and do not pull, with clearance, small displacements, no friction (extra `fe`).
+
+A pressure is linear over each element of the one skin and acts along its normals on both; the bodies are condensed to these pressures once,
+and every load after that is a small quadratic programme.
+
+complementarity  which places press: a convex quadratic programme
+condensing       functionals of a skin as load vectors, and a body condensed to them
+model            bodies, pairs of skins, links and loads, and the state under a load
+pairing          hats of pressure on a first skin, their effect on both, and the gap between
+pressing         bodies from STEP files pressed on each other by one call
+surfaces         the skin of a meshed body as arrays, and where rays meet it
+"""
+
+from drivewright.solids.contact.model import ContactModel, ContactState, Functional, Link, Pair
+from drivewright.solids.contact.pressing import PressedBodies, SolidBody, press
+
+__all__ = ["ContactModel", "ContactState", "Functional", "Link", "Pair", "PressedBodies", "SolidBody", "press"]

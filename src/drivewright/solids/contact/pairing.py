@@ -1,0 +1,148 @@
+"""Two skins that may press on each other: hat functions of pressure on the one, what they do on both, and the gap between.
+
+The pressure is linear between the corners of the first skin's elements and acts along its normals, at points of the second skin that rays
+along these normals meet: force and moment on both bodies are equal and opposite.  With u the displacements the hat i weighs the gap
+
+    g_i = int h_i (g0 - (u_first - u_second) . n) dA.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+import scipy
+
+from drivewright._typing import Bools, Floats, Ints
+from drivewright.errors import InputError
+from drivewright.solids.contact import surfaces
+from drivewright.solids.contact.condensing import Rows
+from drivewright.solids.contact.surfaces import Skin
+
+ALONG = 6  # Gauss points along an edge, and in both directions of a triangle
+LEAST = 0.05  # of the area of a hat, within reach, below which the hat is left out
+OVERLAP = 2e-3  # of the size of an element: what the elements' own shape may overlap
+
+GapOf: TypeAlias = Callable[[Floats, Floats], Floats]  # (points (n, d) [mm], normals (n, d)) -> what is added to the gap (n,) [mm]
+
+
+class Pairing(NamedTuple):
+    """h hats of pressure between a first and a second skin.
+
+    corners (h,): numbers of the first skin's nodes; places, normals (h, d) there; area (h,) [mm^2] and gap (h,) [mm^3] of the hats;
+    first, second (h, d nodes): the functionals int h u.n of either body.
+    """
+
+    corners: Ints
+    places: Floats
+    normals: Floats
+    area: Floats
+    gap: Floats
+    first: Rows
+    second: Rows
+
+
+def paired(
+    first: Skin, second: Skin, nodes: tuple[int, int], reach: float, depth: float = 1.0, more: GapOf | None = None, press_fit: bool = False
+) -> Pairing:
+    """`Pairing` of two skins whose bodies have so many nodes; reach [mm]: the largest gap that may close; depth [mm] of a flat body.
+
+    `more` adds to the gap, say a clearance or a rounded edge that the mesh does not have.  InputError where nothing faces within reach, or
+    where the bodies overlap and it is no press fit.
+    """
+    local, weight = gauss(first.places.shape[2])
+    element = np.repeat(np.arange(len(first.nodes)), len(local))
+    spot, weights = np.tile(local, (len(first.nodes), 1)), np.tile(weight, len(first.nodes))
+    points, normal, stretch = surfaces.normals(first, element, spot)
+    hits = surfaces.hit_by_rays(second, points, normal)
+    gap = np.where(np.isfinite(hits.distance), hits.distance, np.inf)
+    if more is not None:
+        gap = gap + more(points, normal)
+    met = (hits.element >= 0) & (gap <= reach)
+    _refuse_apart(met, hits.distance, reach)
+    if not press_fit:
+        _refuse_overlap(gap, points, first.size[element])
+    area = depth * stretch * weights
+    hat = surfaces.hats(spot)
+    whole = np.bincount(first.corners[element].ravel(), (hat * area[:, None]).ravel(), nodes[0])
+    part: Floats = np.bincount(first.corners[element[met]].ravel(), (hat * area[:, None])[met].ravel(), nodes[0]).astype(float)
+    corners = np.flatnonzero(part > LEAST * np.where(whole > 0, whole, np.inf))
+    row = np.full(nodes[0], -1)
+    row[corners] = np.arange(len(corners))
+    at, dim = np.flatnonzero(met), points.shape[1]
+    owner, amount = row[first.corners[element[at]]], hat[at] * area[at, None]
+    used = owner >= 0
+    quadrature = Rows(
+        (amount[used], (owner[used], np.broadcast_to(np.arange(len(at))[:, None], owner.shape)[used])), shape=(len(corners), len(at))
+    )
+    own = surfaces.shape_functions(spot[at], dim)
+    place, out = _at_corners(first, corners, nodes[0])
+    return Pairing(
+        corners,
+        place,
+        out,
+        part[corners],
+        quadrature @ gap[at],
+        quadrature @ _normal_rows(own, first.nodes[element[at]], normal[at], nodes[0]),
+        quadrature @ _normal_rows(hits.shape[at], second.nodes[hits.element[at]], normal[at], nodes[1]),
+    )
+
+
+def gauss(dim: int) -> tuple[Floats, Floats]:
+    """Points (n, d - 1) and weights (n,) on an edge, or on a triangle by Gauss points of a square with one side drawn together."""
+    node, weight = np.polynomial.legendre.leggauss(ALONG)
+    node, weight = (1 + node) / 2, weight / 2
+    if dim == 2:
+        return node[:, None], weight
+    x, y = np.meshgrid(node, node, indexing="ij")
+    points = np.stack([x.ravel(), (y * (1 - x)).ravel()], axis=1)
+    return points, (np.outer(weight, weight) * (1 - x)).ravel()
+
+
+# ---------------------------------------------------------------------------------------------------------------------- pieces
+
+
+def _normal_rows(shape: Floats, nodes: Ints, normal: Floats, count: int) -> Rows:
+    """Matrix (n, d count) that takes displacements of nodes to u.n at n points."""
+    rows = np.broadcast_to(np.arange(len(shape))[:, None], shape.shape)
+    parts = [
+        Rows(((shape * normal[:, [axis]]).ravel(), (rows.ravel(), nodes.ravel())), shape=(len(shape), count))
+        for axis in range(normal.shape[1])
+    ]
+    return Rows(scipy.sparse.hstack(parts))
+
+
+def _at_corners(skin: Skin, corners: Ints, count: int) -> tuple[Floats, Floats]:
+    """Places (h, d) of corners, and unit normals there, mean over the elements that meet."""
+    dim = skin.places.shape[2]
+    place, normal = np.zeros((count, dim)), np.zeros((count, dim))
+    for number in range(dim):
+        local = np.zeros((len(skin.nodes), dim - 1))
+        if number < dim - 1:
+            local[:, number] = 1.0
+        points, out, stretch = surfaces.normals(skin, np.arange(len(skin.nodes)), local)
+        place[skin.nodes[:, number]] = points
+        np.add.at(normal, skin.nodes[:, number], out * stretch[:, None])
+    out = normal[corners]
+    return place[corners], out / np.linalg.norm(out, axis=1, keepdims=True)
+
+
+def _refuse_apart(met: Bools, distance: Floats, reach: float) -> None:
+    if not met.any():
+        least = np.abs(distance).min()
+        found = (
+            f"the nearest points that face each other are {least:.4g} mm apart" if np.isfinite(least) else "no two points face each other"
+        )
+        raise InputError(
+            f"contact: nothing lies within the reach of {reach:.4g} mm; {found}. Move the bodies together or give a larger reach."
+        )
+
+
+def _refuse_overlap(gap: Floats, points: Floats, size: Floats) -> None:
+    deep = np.where(np.isfinite(gap), -gap, 0.0) - OVERLAP * size
+    worst = int(deep.argmax())
+    if deep[worst] > 0:
+        at = ", ".join(f"{x:.4g}" for x in points[worst])
+        raise InputError(
+            f"contact: the bodies overlap by {-gap[worst]:.3g} mm at ({at}) mm before any load. Move them apart by that much, or say "
+            "press_fit=True where it is meant."
+        )
