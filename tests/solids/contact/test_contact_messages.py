@@ -138,9 +138,10 @@ def test_a_ball_from_a_file_presses_a_block_from_a_file(files):
     assert pressed.pairs == (("ball", "block"),)
     assert pressed.force("ball", "block")[2] == pytest.approx(2000.0, rel=1e-9)
     assert pressed.force("block", "ball")[2] == pytest.approx(-2000.0, rel=1e-9)
-    _, pressure = pressed.pressure("ball", "block")
-    area = pressed.state.model.pairings[0].area
-    assert pressure**2 @ area / (pressure @ area) == pytest.approx(0.75 * top, rel=0.05)  # of Hertz's half ellipsoid
+    points, pressure = pressed.pressure("ball", "block")
+    kept = pressure > 0.3 * pressure.max()
+    fitted = np.sqrt(np.polyfit((points[:, :2] ** 2).sum(axis=1)[kept], pressure[kept] ** 2, 1)[1])  # p^2 = p0^2 (1 - r^2/a^2)
+    assert fitted == pytest.approx(top, rel=0.03)
     assert pressed.area("block", "ball") == pytest.approx(np.pi * half_width**2 / 4, rel=0.2)
     skin = pressed.skin("block")
     assert skin.stress[0][:, 2, 2].min() == pytest.approx(-top, rel=0.25)

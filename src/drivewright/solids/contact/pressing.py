@@ -25,7 +25,8 @@ ROUNDS = 12  # of meshing until the elements of the contact are small enough
 FEW = 0.05  # part of a contact's elements that may be larger than that
 WIDER = 3.0  # reach within which elements are small: beyond the contact too, for what goes on under its edge
 SHRINK = 0.3  # of an element's size, per round
-SLACK = 1.8  # of the size wanted: longest edges of the mesher's elements
+ASKED = 0.7  # of the size wanted, for the mesher's elements turn out larger
+SLACK = 1.4  # of the size wanted: longest edges
 NEAR = 1e-3  # mm: a face so near to a point is the one meant
 
 
@@ -192,7 +193,7 @@ def _too_large(name: str, skins: Mapping[str, Skin], fine: float, reach: float) 
     chosen = near & (own.size > SLACK * fine)
     if chosen.sum() <= FEW * near.sum():
         chosen[:] = False
-    return middles(own)[0][chosen], np.maximum(SHRINK * own.size[chosen], fine)
+    return middles(own)[0][chosen], np.maximum(SHRINK * own.size[chosen], ASKED * fine)
 
 
 def _may_touch(own: Skin, other: Skin, reach: float) -> Bools:
