@@ -62,5 +62,24 @@ PLOTS = (
         style="mesh",
     ),
     Plot("plate_life", "Damage of a revolution around a plate", "plate_life", "x", ("damage",), style="points", log=True),
+    Plot(
+        "solid_history",
+        "Plate and pins as solids over a revolution of the chain",
+        "solid_history",
+        "time",
+        ("plate", "left_pin", "right_pin", "left_seat", "right_seat"),
+    ),
+    *(
+        Plot(name, title, name, x, (y, "depth", size), equal=True, style="mesh")
+        for name, title, x, y, size in (
+            ("solid_plate", "Plate as a solid: von Mises stress at its worst instant", "x", "y", "mises"),
+            ("solid_pin", "Pin as a solid, from its seat: von Mises stress at its worst instant", "x", "y", "mises"),
+            ("hole_section", "Section through the hole: von Mises stress of plate and pin", "x", "z", "mises"),
+            ("seat_pressure", "Pressure of a pin on its seat, unrolled", "along", "height", "pressure"),
+            ("solid_plate_life", "Plate as a solid: life", "x", "y", "life"),
+            ("solid_pin_life", "Pin as a solid, from its seat: life", "x", "y", "life"),
+        )
+    ),
+    Plot("rolling_pressure", "Rolling contact of two pins along the pins", "rolling_pressure", "height", ("line_load", "pressure")),
     Plot("life_map", "Life around a plate", "life_map", "x", ("y", "depth", "life"), equal=True, style="mesh"),
 )

@@ -21,8 +21,13 @@ class SkinStress(NamedTuple):
     @property
     def mises(self) -> Floats:
         """Von Mises stress (L, n) [Pa]."""
-        deviator = self.stress - np.trace(self.stress, axis1=-2, axis2=-1)[..., None, None] / 3 * np.eye(3)
-        return np.sqrt(1.5 * np.sum(deviator**2, axis=(-2, -1)))
+        return mises(self.stress)
+
+
+def mises(stress: Floats) -> Floats:
+    """sqrt(3/2 s:s) of the deviators s of stress tensors (..., 3, 3)."""
+    deviator = stress - np.trace(stress, axis1=-2, axis2=-1)[..., None, None] / 3 * np.eye(3)
+    return np.sqrt(1.5 * np.sum(deviator**2, axis=(-2, -1)))
 
 
 def skin_stress(body: FreeBody, fields: Sequence[Floats], region: str = ".*", parts: int = 1) -> SkinStress:

@@ -155,12 +155,12 @@ def strip_rows(pin: FreeBody, contact: complex, normal: float, sigma: float, end
 
 
 def turn_row(pin: FreeBody) -> EngineObject:
-    """Load vector of a couple about a pin's own axis, spread over its volume: what holds it from turning in its seat without friction."""
+    """Load vector of a couple about a pin's own axis, by tractions along its skin: what holds it from turning in its seat."""
     ng, v = pin.ng, pin.space.TestFunction()
-    volume = ng.Integrate(ng.CF(1) * ng.dx, pin.mesh)
-    x, y = (c - ng.Integrate(c * ng.dx, pin.mesh) / volume for c in (ng.x, ng.y))
-    spread = ng.Integrate((x * x + y * y) * ng.dx, pin.mesh)
-    return ng.LinearForm((x * v[1] - y * v[0]) / spread * ng.dx).Assemble().vec
+    area, skin = pin.area("skin"), ng.ds("skin")
+    x, y = (c - ng.Integrate(c * skin, pin.mesh) / area for c in (ng.x, ng.y))
+    spread = ng.Integrate((x * x + y * y) * skin, pin.mesh)
+    return ng.LinearForm((x * v[1] - y * v[0]) / spread * skin).Assemble().vec
 
 
 def hat_widths(end: float) -> Floats:

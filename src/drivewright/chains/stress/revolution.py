@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._typing import Bools, Floats
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.chains.explicit.motion import Motion
 from drivewright.chains.explicit.simulate import tooth_time
 from drivewright.chains.stress.plate import Basis, Loads
@@ -92,11 +92,21 @@ def open_seats(pins: Floats) -> Bools:
 
 
 def fewer_instants(loads: Loads, most: int) -> Loads:
-    """The loads at `most` instants or fewer: in equal spans of the history that with the largest and that with the smallest forces."""
-    pins, flanks, heights = (np.asarray(part, float) for part in loads)
-    if len(flanks) <= most:
-        return loads
+    """The `loads_at` the `instants`: `most` or fewer."""
+    return loads_at(loads, instants(loads, most))
+
+
+def instants(loads: Loads, most: int) -> Ints:
+    """Rows of a history, `most` or fewer: in equal spans of it that with the largest and that with the smallest forces."""
+    pins, flanks = np.asarray(loads.pins, float), np.asarray(loads.flanks, float)
+    rows = np.arange(len(flanks))
+    if len(rows) <= most:
+        return rows
     size = np.abs(pins).sum(axis=(1, 2)) + flanks.sum(axis=1)
-    parts = np.array_split(np.arange(len(flanks)), most // 2)
-    kept = np.unique([part[pick] for part in parts for pick in (np.argmax(size[part]), np.argmin(size[part]))])
-    return Loads(pins[kept], flanks[kept], heights[kept])
+    parts = np.array_split(rows, most // 2)
+    return np.unique([part[pick] for part in parts for pick in (np.argmax(size[part]), np.argmin(size[part]))])
+
+
+def loads_at(loads: Loads, rows: Ints) -> Loads:
+    """The loads at some instants."""
+    return Loads(*(np.asarray(part, float)[rows] for part in loads))

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, missing, stress
+from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, missing, solid, stress
 from drivewright.mechanisms.silent_chain.build import build
 from drivewright.mechanisms.silent_chain.chain_drive import compile_ahead
 from drivewright.mechanisms.silent_chain.claims import claims
@@ -38,6 +38,14 @@ ANALYSES = (
     ),
     Analysis(
         "life", stress.life, "fatigue life of a plate on its critical planes", default=False, needs=("stress",), missing=missing.no_stress
+    ),
+    Analysis(
+        "solid_stress",
+        solid.solid_stress,
+        "plate and pins as solids in contact as they go round: stress, pressure, life",
+        default=False,
+        needs=("dynamics",),
+        missing=missing.no_solid_stress,
     ),
 )
 

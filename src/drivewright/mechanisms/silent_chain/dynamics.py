@@ -51,7 +51,7 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
     values |= {f"dynamics.{name}": value for name, value in force_values(runs).items()}
     checks = (*checks, settled(values))
     values["dynamics.energy_drift"] = drift
-    return Answer(values, tables, checks, tuple(_remarks(runs, values)), data=runs.first, warnings=tuple(_slipping(values)))
+    return Answer(values, tables, checks, tuple(_remarks(runs, values)), data=runs, warnings=tuple(_slipping(values)))
 
 
 def _seated(model: ChainModel, runs: Ensemble) -> Iterator[Check]:

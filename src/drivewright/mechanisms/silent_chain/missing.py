@@ -46,6 +46,13 @@ def no_stress(spec: SilentChainSpec) -> str | None:
     return "it is for plates of silent chains" if spec.roller else no_phase_map(spec) or no_dynamics(spec)
 
 
+def no_solid_stress(spec: SilentChainSpec) -> str | None:
+    """Why there is no contact of plate and pins as solids."""
+    if spec.joint.kind == "revolute":
+        return "it is for joints whose two pins roll on each other"
+    return no_stress(spec)
+
+
 def unless_impossible(answer: Callable[[ChainModel, Answers], Answer]) -> Callable[[ChainModel, Answers], Answer]:
     """The analysis, left out with the reason where the bodies, the card or the place that it asks for cannot be."""
 

@@ -269,6 +269,23 @@ class Fatigue(Spec):
     fineness: Number = Field(1.0, ge=0.3, le=4, description="of the elements: 2 halves them all")
 
 
+class Solid(Spec):
+    """Plate and pins as elastic solids in contact (extra fe)."""
+
+    clearance: Length = Field("5 um", ge=0, description="of an own pin in its hole, in the radius")
+    edge_radius: Length = Field("50 um", ge=0, description="of the rounded edges of a hole")
+    seat: Angle | None = Field(
+        None,
+        gt=0,
+        description="half the angle about the outer direction on which a pin bears; all of its seat unless given",
+        examples=["45 deg"],
+    )
+    load_steps: Integer = Field(
+        24, ge=2, le=500, description="instants of a revolution of the chain, the largest and smallest forces among them"
+    )
+    fineness: Number = Field(1.0, ge=0.5, le=3, description="of the elements: 2 halves them all")
+
+
 class Limits(Spec):
     """Requirements; each becomes a check."""
 
@@ -314,6 +331,7 @@ class SilentChainSpec(MechanismSpec):
     compare: Compare = Field(Compare(), description="comparisons")
     scatter: Scatter = Field(Scatter(), description="scatter of manufacture")
     fatigue: Fatigue = Field(Fatigue(), description="stress and life")
+    solid: Solid = Field(Solid(), description="plate and pins as solids")
     limits: Limits = Field(Limits(), description="requirements")
 
     @model_validator(mode="after")

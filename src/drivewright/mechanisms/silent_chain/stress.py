@@ -24,7 +24,7 @@ def stress(model: ChainModel, done: Answers) -> Answer:
     reason = model.plate_refusal
     if reason:
         return Answer(findings=(f"stress is left out: no plate can be drawn: {reason}",), outcome="left out")
-    basis, revolution = _basis(model), _revolution(model, done["dynamics"].data)
+    basis, revolution = _basis(model), plate_revolution(model, done["dynamics"].data.first)
     loads = revolution.loads
     peak = worst(basis, loads)
     history = plane_von_mises(stress_history(basis, loads, [peak.row])[:, 0])
@@ -79,7 +79,7 @@ def card_of(model: ChainModel) -> StrainLife:
     )
 
 
-def _revolution(model: ChainModel, motion: Motion) -> PlateRevolution:
+def plate_revolution(model: ChainModel, motion: Motion) -> PlateRevolution:
     """Of the link with fewer plates, which carry the most."""
     on_drive, on_driven = (model.plate.contact(side.tooth, "right")[1] for side in model.sides)
     return PlateRevolution(motion, min(model.spec.plate.lacing), (on_drive, on_driven), 0.5 * model.closure.mean)

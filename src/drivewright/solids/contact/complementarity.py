@@ -20,6 +20,7 @@ INFEASIBLE = 2  # status of SciPy's linear programme
 SMALL = 1e-9  # of complementarity, relative
 BACK = 0.995  # part of the way to the bound that a step may go
 BALANCED = 1e-6  # of the load: what may be missing from its balance
+SHARE = 0.1  # of the usual scale
 TINY = 1e-13  # relative to the diagonal: keeps the matrix regular
 
 
@@ -39,7 +40,7 @@ def solve_complementarity(
 
     SolverError where neither method ends.
     """
-    scale = np.sqrt(np.maximum(np.diag(matrix), TINY * np.diag(matrix).max()))
+    scale = _sizes(matrix, held)
     scaled = matrix / np.outer(scale, scale)
     push = np.linalg.norm(held / scale, axis=1)
     push = np.where(push > 0, push, 1.0)
@@ -56,6 +57,13 @@ def solve_complementarity(
         )
     x, motions, gap, pressing = found
     return Pressed(x / scale, motions / push, gap * scale, pressing)
+
+
+def _sizes(matrix: Floats, held: Floats) -> Floats:
+    """Scale (n,) of the unknowns: the root of the diagonal, or what the rigid motions feel of them where that is far more."""
+    own, weight = np.sqrt(np.maximum(np.diag(matrix), 0.0)), np.linalg.norm(held, axis=0)
+    usual = np.median(own[weight > 0] / weight[weight > 0]) if np.any(weight > 0) else 0.0
+    return np.maximum(np.maximum(own, SHARE * usual * weight), np.sqrt(TINY) * own.max(initial=1e-300))
 
 
 def balance_exists(held: Floats, load: Floats, one_sided: Bools) -> bool:

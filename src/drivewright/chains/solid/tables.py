@@ -1,0 +1,159 @@
+"""Tables of plate and pins as solids: history, deformed bodies, lives, pressure on the seat, rolling contact, section through the hole."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.chains.solid.history import SkinLife, SolidHistory
+from drivewright.chains.solid.joint import RollingPins
+from drivewright.chains.solid.pitch import WAYS
+from drivewright.contact import hertz
+from drivewright.result import Column, Table
+from drivewright.solids.deformation import exaggeration_for
+from drivewright.solids.elastic import MM, FreeBody
+from drivewright.solids.stresses import SkinStress, hooke, mises
+
+DRAWN = 0.03  # of the plate's length: the largest displacement as drawn
+GRID = (160, 60)  # rectangles of a section, along and across
+
+
+def history_table(history: SolidHistory, time: Floats) -> Table:
+    """Table "solid_history": what plate and pins bear at each instant [s]."""
+    pressure = [[part.max(initial=0.0) for part in state.pressure] for state in history.states]
+    left, right = np.array(pressure).T
+    return Table(
+        "solid_history",
+        "Plate and pins as solids over a revolution of the chain",
+        (
+            Column("time", "s", "time", np.asarray(time, float)),
+            Column("plate", "Pa", "greatest von Mises stress of the plate", history.greatest("plate")),
+            Column("left_pin", "Pa", "greatest von Mises stress of the left pin", history.greatest("left")),
+            Column("right_pin", "Pa", "greatest von Mises stress of the right pin", history.greatest("right")),
+            Column("left_seat", "Pa", "greatest pressure on the left seat", left),
+            Column("right_seat", "Pa", "greatest pressure on the right seat", right),
+        ),
+    )
+
+
+def stress_table(name: str, title: str, skin: SkinStress, instant: int, axes: Sequence[int] = (0, 1, 2)) -> Table:
+    """Table for a plot of style "mesh": a skin at one instant, deformed, seen along the last of the axes."""
+    moved = skin.displacement[instant] - skin.displacement[instant].mean(axis=0)
+    times = exaggeration_for(float(np.ptp(skin.points, axis=0).max()), moved, DRAWN)
+    place = skin.points + times * moved
+    rows = skin.parts.ravel()
+    x, y, depth = (place[rows, axis] for axis in axes)
+    words = f"displacements drawn {times:,.0f} times as large".replace(",", " ")
+    return Table(
+        name,
+        title,
+        (
+            Column("x", "m", f"{WORDS[axes[0]]}, {words}", x),
+            Column("y", "m", f"{WORDS[axes[1]]}, {words}", y),
+            Column("depth", "m", "towards the viewer, turned round", -depth),
+            Column("mises", "Pa", "von Mises stress", skin.mises[instant][rows]),
+        ),
+    )
+
+
+WORDS = ("along the chain", "across the chain", "along the pin")
+
+
+def life_table(name: str, title: str, skin: SkinStress, life: SkinLife, axes: Sequence[int] = (0, 1, 2)) -> Table:
+    """Table for a plot of style "mesh": power of ten of the life on a skin, not shorter than the longest that was found."""
+    finite = np.isfinite(life.life)
+    longest = np.log10(life.life[finite].max()) if finite.any() else 0.0
+    power = np.full(len(skin.points), longest)
+    power[life.points[finite]] = np.log10(life.life[finite])
+    rows = skin.parts.ravel()
+    x, y, depth = (skin.points[rows, axis] for axis in axes)
+    return Table(
+        name,
+        title,
+        (
+            Column("x", "m", WORDS[axes[0]], x),
+            Column("y", "m", WORDS[axes[1]], y),
+            Column("depth", "m", "towards the viewer, turned round", -depth),
+            Column("life", "-", "life, power of ten of the revolutions of the chain", power[rows]),
+        ),
+    )
+
+
+def seat_table(history: SolidHistory, side: str, instant: int) -> Table:
+    """Table "seat_pressure": pressure on a seat unrolled, at one instant: angle from the outer direction, height, pressure."""
+    number = tuple(WAYS).index(side)
+    pairing, (skin, _) = history.solid.model.pairings[number], history.solid.model.skins[number]
+    pressure = np.zeros(skin.nodes.max() + 1)
+    pressure[pairing.corners] = history.states[instant].pressure[number]
+    seat = history.solid.plate.seat(side)
+    rows = skin.corners.ravel()
+    place = skin.places[:, :3].reshape(-1, 3) * MM
+    turn = np.angle(((place[:, 0] - seat.center[0]) + 1j * (place[:, 1] - seat.center[1])) * WAYS[side])
+    return Table(
+        "seat_pressure",
+        "Pressure of a pin on its seat, unrolled",
+        (
+            Column("along", "m", "along the seat from the outer direction", seat.radius * turn),
+            Column("height", "m", "along the pin from the plate's middle", place[:, 2]),
+            Column("depth", "m", "flat", np.zeros(len(rows))),
+            Column("pressure", "Pa", "pressure on the seat", pressure[rows]),
+        ),
+    )
+
+
+def rolling_table(rolling: RollingPins, radius: float, modulus: float, poisson: float) -> Table:
+    """Table "rolling_pressure": line load and Hertz pressure between two like pins of a radius [m] along the pins."""
+    found = hertz.line_contact(
+        rolling.line_load, 1.0, hertz.effective_radius(radius, radius), hertz.effective_modulus(modulus, poisson, modulus, poisson)
+    )
+    return Table(
+        "rolling_pressure",
+        "Rolling contact of two pins along the pins",
+        (
+            Column("height", "m", "along the pin from the middle of the chain", rolling.height),
+            Column("line_load", "N/m", "line load between the pins", rolling.line_load),
+            Column("pressure", "Pa", "Hertz pressure between the pins", np.asarray(found.pressure)),
+        ),
+    )
+
+
+def section_table(history: SolidHistory, side: str, instant: int) -> Table:
+    """Table "hole_section": von Mises stress of plate and pin in the plane of both pins' axes, around one hole, at one instant."""
+    solid = history.solid
+    seat = solid.plate.seat(side)
+    x0 = seat.center[0] - WAYS[side] * 2.2 * seat.radius
+    x1 = seat.center[0] + WAYS[side] * 2.2 * seat.radius
+    blocks = [
+        _section(solid.model.bodies[name], history.states[instant].displacement(name), seat.center[1], sorted((x0, x1)), solid.stack.end)
+        for name in ("plate", side)
+    ]
+    x, z, size = (np.concatenate([block[n] for block in blocks]) for n in range(3))
+    return Table(
+        "hole_section",
+        "Section through the hole: von Mises stress of plate and pin",
+        (
+            Column("x", "m", "along the chain", x),
+            Column("z", "m", "along the pin from the middle of the chain", z),
+            Column("depth", "m", "flat", 0 * x),
+            Column("mises", "Pa", "von Mises stress", size),
+        ),
+    )
+
+
+def _section(body: FreeBody, field: Floats, y: float, span: Sequence[float], height: float) -> tuple[Floats, Floats, Floats]:
+    """Triangles (x, z) [m] and von Mises stress [Pa] of the rectangles of a grid in the plane y that lie in a body."""
+    ng = body.ng
+    x, z = np.linspace(span[0], span[1], GRID[0] + 1), np.linspace(0.0, height, GRID[1] + 1)
+    middle = np.array([(a, b) for a in 0.5 * (x[1:] + x[:-1]) for b in 0.5 * (z[1:] + z[:-1])]) / MM
+    inside = [body.mesh.Contains(float(a), y / MM, float(b)) for a, b in middle]
+    kept = middle[inside]
+    if not len(kept):
+        return np.zeros(0), np.zeros(0), np.zeros(0)
+    shape = ng.GridFunction(body.space)
+    shape.vec.FV().NumPy()[:] = field
+    at = body.mesh(kept[:, 0], np.full(len(kept), y / MM), kept[:, 1])
+    size = mises(hooke(body, np.asarray(ng.Grad(shape)(at)).reshape(-1, 3, 3)))
+    half = 0.5 * np.array([x[1] - x[0], z[1] - z[0]])
+    corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)]) * half
+    place = (kept[:, None, :] * MM + corners).reshape(-1, 2)
+    return place[:, 0], place[:, 1], np.repeat(size, 6)

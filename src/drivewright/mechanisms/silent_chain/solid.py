@@ -1,0 +1,168 @@
+"""Plate and pins of the running chain as elastic solids in contact: stress, pressure, life."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.chains.solid import tables
+from drivewright.chains.solid.history import SolidHistory, skin_life, solid_history
+from drivewright.chains.solid.joint import Fit, Material, RollingPins, rolling_pins, stack_of
+from drivewright.chains.solid.meshes import usual_sizes
+from drivewright.chains.solid.pitch import PlateAndPins, plate_and_pins
+from drivewright.chains.stress.revolution import PlateRevolution, instants, loads_at
+from drivewright.mechanisms.silent_chain.build import ChainModel
+from drivewright.mechanisms.silent_chain.missing import unless_impossible
+from drivewright.mechanisms.silent_chain.stress import card_of, plate_revolution
+from drivewright.numerics.ensemble import mean_of_members
+from drivewright.result import Answer, Answers, Check, Value
+
+PIN_VIEW = (2, 1, 0)  # along the pin to the right, seen from outside
+
+
+@unless_impossible
+def solid_stress(model: ChainModel, done: Answers) -> Answer:
+    """Stress and life of a plate and of its pins as solids in contact, over a revolution of the chain."""
+    if model.plate_refusal:
+        return Answer(findings=(f"solid_stress is left out: no plate can be drawn: {model.plate_refusal}",), outcome="left out")
+    runs = done["dynamics"].data
+    if runs is None:
+        return Answer(findings=("solid_stress is left out: the chain does not run",), outcome="left out")
+    revolutions = [plate_revolution(model, run) for run in runs.members]
+    if not all(each.whole for each in revolutions):
+        return Answer(
+            findings=("solid_stress is left out: the run is shorter than a revolution of the chain; give dynamics.duration more, or none",),
+            outcome="left out",
+        )
+    rolling, solid = condensed(model, revolutions)
+    kept = [instants(each.loads, model.spec.solid.load_steps) for each in revolutions]
+    histories = [solid_history(solid, loads_at(each.loads, rows)) for each, rows in zip(revolutions, kept, strict=True)]
+    return _answer(model, rolling, histories, revolutions[0].time[kept[0]])
+
+
+def condensed(model: ChainModel, revolutions: Iterable[PlateRevolution]) -> tuple[RollingPins, PlateAndPins]:
+    """The joint under the greatest force that a pin bears, and the plate with its pins ready for any load."""
+    spec, given = model.spec, model.spec.solid
+    material = Material(spec.material.youngs_modulus, spec.material.poisson_ratio)
+    stack, sizes = stack_of(model.plate, spec.plate.lacing), usual_sizes(model.plate, given.fineness)
+    fit = Fit(given.clearance, given.edge_radius, given.seat)
+    several = list(revolutions)
+    greatest = max(float(np.linalg.norm(np.asarray(each.loads.pins), axis=2).max()) for each in several)
+    rolling = rolling_pins(model.plate, stack, fit, material, 0.5 * greatest, sizes)
+    heights = several[0].contact_heights
+    return rolling, plate_and_pins(model.plate, stack, fit, material, rolling.shares, heights, sizes)
+
+
+def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistory], time: Floats) -> Answer:
+    spec, first = model.spec, histories[0]
+    card = card_of(model)
+    plates = [skin_life(each.skins["plate"], each.searched["plate"], card, spec.fatigue.plane) for each in histories]
+    pins = [
+        {side: skin_life(each.skins[side], each.searched[side], card, spec.fatigue.plane) for side in ("left", "right")}
+        for each in histories
+    ]
+    _, instant, point = first.worst("plate")
+    side = max(("left", "right"), key=lambda name: first.worst(name)[0])
+    _, pin_instant, _ = first.worst(side)
+    x, y, z = first.skins["plate"].points[point]
+    pressure = tables.rolling_table(rolling, model.link.radius, spec.material.youngs_modulus, spec.material.poisson_ratio)
+    values = {
+        "solid.plate.max_stress": _mean(
+            [each.worst("plate")[0] for each in histories],
+            "Pa",
+            "greatest von Mises stress of a plate over a revolution of the chain, as a solid in contact with its pins",
+            "Greatest stress of a plate (solid)",
+        ),
+        "solid.plate.max_stress.x": Value(float(x), "m", "where it is, along the plate from its middle", label="Place along the plate"),
+        "solid.plate.max_stress.y": Value(float(y), "m", "where it is, above the line of the pins", label="Place across the plate"),
+        "solid.plate.max_stress.z": Value(float(z), "m", "where it is, from the middle of the chain", label="Place across the chain"),
+        "solid.pin.max_stress": _mean(
+            [max(each.worst(name)[0] for name in ("left", "right")) for each in histories],
+            "Pa",
+            "greatest von Mises stress of a pin over a revolution of the chain, beside its rolling contact",
+            "Greatest stress of a pin (solid)",
+        ),
+        "solid.seat.max_pressure": _mean(
+            [max(part.max(initial=0.0) for state in each.states for part in state.pressure) for each in histories],
+            "Pa",
+            "greatest pressure of a pin on its seat in a plate; it grows where the edges of the hole are sharper",
+            "Greatest pressure on a seat",
+        ),
+        "solid.rolling.max_pressure": Value(
+            float(np.max(pressure["pressure"].data)),
+            "Pa",
+            "greatest Hertz pressure between two pins, with the line load that their bending leaves along them, under the greatest force",
+            label="Greatest rolling pressure (solid)",
+        ),
+        "solid.rolling.line_load_ratio": Value(
+            float(rolling.line_load.max() / np.average(rolling.line_load, weights=rolling.shares / rolling.line_load)),
+            "-",
+            "greatest line load between two pins over its mean along them",
+            label="Greatest over mean line load",
+        ),
+        "solid.plate.min_life": _mean_life(
+            [each.least for each in plates], "shortest life of a plate as a solid, in revolutions of the chain", "Life of a plate (solid)"
+        ),
+        "solid.pin.min_life": _mean_life(
+            [min(each["left"].least, each["right"].least) for each in pins],
+            "shortest life of a pin beside its rolling contact, in revolutions of the chain",
+            "Life of a pin (solid)",
+        ),
+    }
+    found = (
+        tables.history_table(first, time),
+        tables.stress_table("solid_plate", "Plate as a solid at its worst instant", first.skins["plate"], instant),
+        tables.stress_table("solid_pin", "Pin as a solid at its worst instant", first.skins[side], pin_instant, PIN_VIEW),
+        tables.section_table(first, side, pin_instant),
+        tables.seat_table(first, side, pin_instant),
+        pressure,
+        tables.life_table("solid_plate_life", "Life on the plate as a solid", first.skins["plate"], plates[0]),
+        tables.life_table("solid_pin_life", "Life on the pin as a solid", first.skins[side], pins[0][side], PIN_VIEW),
+    )
+    limit = spec.limits.yield_safety
+    checks = tuple(
+        Check(
+            f"solid.{name}.yield",
+            spec.material.yield_strength / values[f"solid.{name}.max_stress"].value,
+            limit,
+            ">=",
+            "-",
+            f"yield strength over the greatest von Mises stress of a {name} as a solid",
+            ("chain",),
+        )
+        for name in ("plate", "pin")
+    )
+    return Answer(values, found, checks, tuple(_remarks(model, rolling, histories)))
+
+
+def _remarks(model: ChainModel, rolling: RollingPins, histories: list[SolidHistory]) -> Iterable[str]:
+    unknowns = {name: body.unknowns for name, body in histories[0].solid.model.bodies.items()}
+    yield (
+        f"solids: {unknowns['plate']} unknowns of the plate, {unknowns['left']} of a pin; on elements half as large the greatest stress "
+        "changes by about 2 %, pressures at the edges of a hole by up to 20 % (solid.fineness)"
+    )
+    if rolling.state.model.bodies["own pin"].basis.shape[1] < 3:
+        yield "solids: a lacing wider than 1 x 2 is computed as a cell of an endless stack of plates: its pins do not bend"
+    yield (
+        "solids: the stress right in the rolling contact is Hertz's (pin.contact_pressure, pin.shakedown) and not in that of the pins; "
+        "clearance and edges of the holes are assumptions (solid.clearance, solid.edge_radius)"
+    )
+    if card_of(model).estimated:
+        yield "solids: the fatigue data are estimated from the tensile strength by the uniform material law; bring data from tests"
+
+
+def _mean(numbers: list[float], unit: str, meaning: str, label: str) -> Value:
+    """Mean over the runs with its 95 % interval."""
+    mean, half = mean_of_members(np.array(numbers))
+    if not np.isfinite(half):
+        return Value(float(mean), unit, meaning, label=label)
+    return Value(float(mean), unit, meaning, float(mean - half), float(mean + half), "ensemble", label=label)
+
+
+def _mean_life(lives: list[float], meaning: str, label: str) -> Value:
+    """Geometric mean over the runs with its 95 % interval; inf where a run does no damage."""
+    logs = np.log(np.array(lives))
+    mean, half = mean_of_members(logs)
+    if not np.isfinite(mean) or not np.isfinite(half):
+        return Value(float(np.exp(mean)), "-", meaning, label=label)
+    return Value(float(np.exp(mean)), "-", meaning, float(np.exp(mean - half)), float(np.exp(mean + half)), "ensemble", label=label)
