@@ -79,8 +79,8 @@ class RollingJoints:
         self.next, self.previous = (plates + 1) % chain.count, plates - 1
         self.right, self.left = half - 1j * chain.centre_offset, -half - 1j * chain.centre_offset
 
-    def force(self, plates: Plates) -> tuple[Complexes, Complexes, Complexes, Complexes]:
-        """(force k d + c d' [N], mean direction, dB/dangle of the plate before and of the one after) of the joint behind every plate."""
+    def forces(self, plates: Plates) -> tuple[Complexes, Complexes, Complexes, Complexes, Complexes]:
+        """(k d [N], c d' [N], mean direction, B of the angle of the plate before and of the one after) of the joint behind every plate."""
         place, u, velocity, spin = plates
         mean = u + u[self.next]
         mean /= np.abs(mean)
@@ -89,16 +89,17 @@ class RollingJoints:
         common = 1j * (self.radius * mean + 0.5 * d)
         before, after = 1j * right - common, -1j * left - common
         rate = velocity - velocity[self.next] + before * spin + after * spin[self.next]
-        return self.stiffness * d + self.damping * rate, mean, before, after
+        return self.stiffness * d, self.damping * rate, mean, before, after
 
     def tension(self, plates: Plates) -> Floats:
         """Force of every joint along its mean direction, positive where it pulls on the chain (N,)  [N]."""
-        force, mean, _, _ = self.force(plates)
-        return -dot(force, mean)
+        spring, damper, mean, _, _ = self.forces(plates)
+        return -dot(spring + damper, mean)
 
-    def add(self, plates: Plates, load: Floats) -> None:
-        """Add the generalised forces (N, 3) [N], [N m] to `load`."""
-        force, _, before, after = self.force(plates)
+    def add(self, plates: Plates, load: Floats, springs: bool = True) -> None:
+        """Add the generalised forces (N, 3) [N], [N m] to `load`: of springs and dampers, or of the dampers alone."""
+        spring, damper, _, before, after = self.forces(plates)
+        force = spring + damper if springs else damper
         total = force[self.previous] - force
         load[:, 0] += total.real
         load[:, 1] += total.imag

@@ -102,16 +102,18 @@ class _Twin:
         return poses, nodes, bodies
 
     def _hinges(self, bodies):
-        """Joints of a chain that does not roll: a spring and a damper between two pins, in both directions."""
-        chain, halves = self.model.chain, 0.5 * self.model.chain.hole_pitches
-        k, c = chain.joint_stiffness, chain.joint_damping * chain.joint_stiffness
+        """Joints of a chain that does not roll: a spring between two pins, in both directions.
+
+        Its damper would take the rate in the frame at rest, ours is that in a frame that turns with the plates.
+        """
+        chain, halves, k = self.model.chain, 0.5 * self.model.chain.hole_pitches, self.model.chain.joint_stiffness
         for i in range(self.count):
             n = (i + 1) % self.count
             pins = [
                 self.system.AddMarker(item.MarkerBodyPosition(bodyNumber=bodies[at], localPosition=[x, -chain.centre_offset, 0.0]))
                 for at, x in ((i, halves[i]), (n, -halves[n]))
             ]
-            self.system.AddObject(item.ObjectConnectorCartesianSpringDamper(markerNumbers=pins, stiffness=[k, k, 0.0], damping=[c, c, 0.0]))
+            self.system.AddObject(item.ObjectConnectorCartesianSpringDamper(markerNumbers=pins, stiffness=[k, k, 0.0]))
 
     def _articulations(self, nodes):
         if not self.model.chain.articulation_damping:
@@ -141,7 +143,7 @@ class _Twin:
             return None
         place, rate = float(self.begin.q[number]), float(self.begin.rate_q[number])
         node, marker = self._coordinate(nodes, place, rate)
-        self.system.AddObject(item.ObjectMass1D(physicsMass=sprocket.mass, nodeNumber=node))
+        self.system.AddObject(item.ObjectMass1D(mass=sprocket.mass, nodeNumber=node))
         weight = sprocket.mass * float(np.dot(self.model.gravity, (np.cos(slide.direction), np.sin(slide.direction))))
         self.system.AddLoad(item.LoadCoordinate(markerNumber=marker, load=slide.force + weight))
         self.system.AddObject(
@@ -157,7 +159,7 @@ class _Twin:
             return None
         angle, rate = float(self.begin.psi[number]), float(self.begin.rate_psi[number])
         node, marker = self._coordinate(nodes, angle, rate)
-        self.system.AddObject(item.ObjectRotationalMass1D(physicsInertia=sprocket.inertia, nodeNumber=node))
+        self.system.AddObject(item.ObjectRotationalMass1D(inertia=sprocket.inertia, nodeNumber=node))
         self.system.AddLoad(item.LoadCoordinate(markerNumber=marker, load=sprocket.torque + sprocket.damping * sprocket.reference_speed))
         self.system.AddObject(item.ObjectConnectorCoordinateSpringDamper(markerNumbers=[self.ground, marker], damping=sprocket.damping))
         return len(nodes) - 1 - self.count
@@ -170,8 +172,8 @@ class _Twin:
             load[:] = 0.0
             q, rates = np.asarray(q), np.asarray(rates)
             chain, own = plates_of(self.start + q[:plates].reshape(-1, 3), rates[:plates].reshape(-1, 3)), load[:plates].reshape(-1, 3)
-            if not self.hinged:
-                self.joints.add(chain, own)
+            if self.joints.damping or not self.hinged:
+                self.joints.add(chain, own, springs=not self.hinged)
             pulls, moments = self.teeth.add(chain, self._moved(time, q[plates:], rates[plates:]), own)
             for wheel, pull, moment in zip(self.wheels, pulls, moments, strict=True):
                 if wheel.slides is not None:
@@ -203,8 +205,8 @@ class _Twin:
         settings = exudyn.SimulationSettings()
         time = settings.timeIntegration
         time.endTime, time.numberOfSteps, time.verboseMode = duration, steps, 0
-        time.explicitIntegration.computeEndOfStepAccelerations = False
-        settings.linearSolverType = exudyn.LinearSolverType.EigenSparse
+        time.explicit.computeEndOfStepAccelerations = False
+        settings.linearSolver.solverType = exudyn.LinearSolverType.EigenSparse
         settings.solution.file.write = False
         settings.solution.sensors.writePeriod = duration / samples
         try:

@@ -24,19 +24,17 @@ from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.numerics.signals import time_mean
 from drivewright.oracles.silent_chain.chain_forces import unknown
 from drivewright.registry import Row
-from drivewright.result import Result
 
 SAMPLES = 48  # of a window
 OURS, THEIRS = (0.4, 0.2, 0.1), (0.4, 0.2)  # steps of ours and of Exudyn's Runge-Kutta method, over the largest stable step of ours
 MOST_STEPS = 6000  # of the longer ones of these
-PLUCKED, VERLET = (0.6, 0.4, 0.2), 0.6  # the same for the plucked strand; Verlet's method is stable as long as ours
+PLUCKED, VERLET = (0.8, 0.4, 0.2), 0.8  # the same for the plucked strand; Verlet's method is stable as long as ours
 PERIODS, SWING, SHAPES = 2, 0.05, 200  # of the strand's motion, its amplitude in pitches, samples
-LONGEST = 120_000  # steps of the strand's motion: at a fifth of a millisecond
+LONGEST = 130_000  # steps of the strand's motion, a quarter of a millisecond each
 NEAR = 0.5  # of a pitch off its line that a plate of the strand may be
-TIMES = 5  # what an answer changes with the step, times this, is allowed: contacts amplify it
-MEANS = "Exudyn: bodies and Runge-Kutta steps of its own; allowed is five times what both answers change with their steps"
-STRAND = "Exudyn: plucked strand, Verlet steps; allowed is five times what ours changes with its step"
-STRING = "Exudyn: plucked strand; allowed is what half a pitch more or less at each end changes"
+TIMES = 10  # what an answer changes with the step, times this, is allowed: a few steps make a sample, and contacts amplify any difference
+MEANS = "Exudyn: bodies and Runge-Kutta steps of its own; allowed is ten times what both answers change with their steps"
+STRAND = "Exudyn: plucked strand, Verlet steps; allowed is ten times what ours changes with its step"
 
 
 def route(model: ChainModel) -> ModuleType | None:
@@ -51,7 +49,7 @@ def route(model: ChainModel) -> ModuleType | None:
     return exudyn_model
 
 
-def exudyn_rows(twin: ModuleType, model: ChainModel, result: Result[Any]) -> Iterator[Row]:
+def exudyn_rows(twin: ModuleType, model: ChainModel) -> Iterator[Row]:
     """All rows, from the chain after its run-in."""
     system = chain_drive(model)
     begin = running_start(system, Settings(safe_step(system)))
@@ -62,9 +60,6 @@ def exudyn_rows(twin: ModuleType, model: ChainModel, result: Result[Any]) -> Ite
         return
     ours, theirs = frequencies(twin, system, begin, strand, string)
     yield "first frequency of the tight strand", ours[-1], theirs, "Hz", TIMES * float(np.ptp(ours)), STRAND
-    name = "layout.strand_frequency.1"
-    if name in result.values and system.sprockets[1].slide:
-        yield name, result[name], theirs, "Hz", result[name] * system.chain.link.pitch / strand.length, STRING
 
 
 # -- means over a tooth --------------------------------------------------------------------------------------------------------
@@ -78,6 +73,7 @@ def means(twin: ModuleType, system: ChainDrive, begin: Start) -> Iterator[Row]:
     ours = np.array([_our_means(system, begin, share * largest, joints, windows) for share in OURS])
     other = np.array([_their_means(twin, system, begin, share * largest, joints, tooth / windows) for share in THEIRS])
     allowed = TIMES * (np.ptp(ours, axis=0) + np.ptp(other, axis=0))
+    allowed[1:] = allowed[1:].max()  # the two strands are alike
     where = "mean over a tooth" if windows == 1 else f"mean over 1/{windows} tooth"
     names = (("centre distance", "m"), ("force of the tight strand", "N"), ("force of the slack strand", "N"))
     for k, (name, unit) in enumerate(names):
@@ -172,5 +168,5 @@ def fitted_frequency(t: Floats, signal: Floats, guess: float) -> float:
 
     trials = guess * np.linspace(0.6, 1.5, 91)
     best = int(np.clip(np.argmin([miss(f) for f in trials]), 1, len(trials) - 2))
-    found: Any = minimize_scalar(miss, bounds=(trials[best - 1], trials[best + 1]), method="bounded", options={"xatol": 1e-6 * guess})
+    found: Any = minimize_scalar(miss, bounds=(trials[best - 1], trials[best + 1]), method="bounded", options={"xatol": 1e-9 * guess})
     return float(found.x)

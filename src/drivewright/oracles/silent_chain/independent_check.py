@@ -54,7 +54,7 @@ def verify(model: ChainModel, result: Result[Any]) -> Iterator[Row]:
     if running:
         yield from _running(model)
     if twin:
-        yield from exudyn_rows.exudyn_rows(twin, model, result)
+        yield from exudyn_rows.exudyn_rows(twin, model)
 
 
 # -- the published method ------------------------------------------------------------------------------------------------------
