@@ -16,6 +16,7 @@ from drivewright.chains.explicit.simulate import Settings, chain_shapes, placed,
 from drivewright.chains.explicit.stability import largest_step
 from drivewright.chains.explicit.step import accelerate_plates
 from drivewright.chains.model import Slide, SpeedRamp, with_sprocket
+from drivewright.chains.standards import pitch_diameter
 from drivewright.errors import InputError, MissingExtra
 from drivewright.oracles.silent_chain import exudyn_rows
 from drivewright.oracles.silent_chain.chain_forces import RollingJoints, ToothContacts, Wheels, plates_of, unknown
@@ -201,6 +202,11 @@ def test_strands_are_the_tangents_and_their_middles_lie_on_the_chain():
     tight, slack = (exudyn_rows.strand_of(model, begin, each) for each in (True, False))
     assert tight.start.imag < 0 < slack.start.imag
     for strand in (tight, slack):
+        for number, foot in ((0, 0.0), (1, strand.length)):
+            place = complex(*model.sprockets[number].centre) + begin.q[number] * np.exp(0.1j)
+            seen = (place - strand.start) / strand.along
+            assert seen.real == pytest.approx(foot, abs=1e-12)
+            assert abs(seen.imag) == pytest.approx(0.5 * pitch_diameter(model.chain.link.pitch, 9 + number), rel=1e-12)
         s, across = strand.coordinates(begin.poses)
         middle = strand.middle(begin)
         assert abs(s[middle] - 0.5 * strand.length) < 0.5 * model.chain.link.pitch and abs(across[middle]) < 1e-3

@@ -37,7 +37,7 @@ class Run(NamedTuple):
         """Centre of a sprocket (m,), x + iy  [m]."""
         sprocket = model.sprockets[number]
         along = np.exp(1j * sprocket.slide.direction) if sprocket.slide else 0j
-        return complex(*sprocket.centre) + self.slides[:, number] * along
+        return np.asarray(complex(*sprocket.centre) + self.slides[:, number] * along, complex)
 
 
 def run(model: ChainDrive, begin: Start, duration: float, step: float, samples: int, solver: str = "RK44") -> Run:
