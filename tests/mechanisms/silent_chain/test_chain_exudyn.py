@@ -164,12 +164,11 @@ def test_means_agree_and_a_drive_that_differs_a_little_is_noticed(monkeypatch, m
     class Other:
         """Exudyn with teeth that are a little stiffer."""
 
-        @staticmethod
-        def run(drive, *how):
+        def run(self, drive, *how):
             contact = replace(drive.sprockets[1].contact, stiffness=1.03 * drive.sprockets[1].contact.stiffness)
             return exudyn_model.run(with_sprocket(drive, 1, contact=contact), *how)
 
-    rows = tuple(exudyn_rows.means(Other, model, begin))
+    rows = tuple(exudyn_rows.means(Other(), model, begin))
     assert any(abs(ours - other) > allowed for _, ours, other, _, allowed, _ in rows)
 
 
@@ -241,7 +240,9 @@ def test_without_exudyn_the_extra_is_named(monkeypatch):
 @pytest.mark.parametrize("preset", ["default", "roller"])
 def test_running_presets_agree(preset):
     model = MECHANISM.build(spec(preset))
-    rows = tuple(exudyn_rows.exudyn_rows(exudyn_rows.route(model), model))
+    twin = exudyn_rows.route(model)
+    assert twin is not None
+    rows = tuple(exudyn_rows.exudyn_rows(twin, model))
     assert [name.split(",")[0] for name, *_ in rows] == [
         "centre distance",
         "force of the tight strand",

@@ -1,13 +1,12 @@
 """The running chain beside Exudyn's, from the same start after the run-in: centre distance, forces of both strands, a strand's frequency.
 
 Contacts make neighbouring motions part, so means are compared over no more than a tooth.  The strand is plucked, and its first frequency
-fitted to two of its periods: a strand's slow motion is the same whichever teeth chatter.
+fitted to up to two of its periods: a strand's slow motion is the same whichever teeth chatter.
 """
 
 from collections.abc import Iterator
 from dataclasses import replace
-from types import ModuleType
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from scipy.optimize import minimize_scalar
@@ -29,15 +28,23 @@ SAMPLES = 48  # of a window
 OURS, THEIRS = (0.4, 0.2, 0.1), (0.4, 0.2)  # steps of ours and of Exudyn's Runge-Kutta method, over the largest stable step of ours
 MOST_STEPS = 6000  # of the longer ones of these
 PLUCKED, VERLET = (0.8, 0.4, 0.2), 0.8  # the same for the plucked strand; Verlet's method is stable as long as ours
-PERIODS, SWING, SHAPES = 2, 0.05, 200  # of the strand's motion, its amplitude in pitches, samples
-LONGEST = 130_000  # steps of the strand's motion, a quarter of a millisecond each
+PERIODS, SWING, SHAPES = 2.0, 0.05, 200  # of the strand's motion, its amplitude in pitches, samples
+LONGEST = 100_000  # steps of the strand's motion, a quarter of a millisecond each; left out where they hold no period
 NEAR = 0.5  # of a pitch off its line that a plate of the strand may be
 TIMES = 10  # what an answer changes with the step, times this, is allowed: a few steps make a sample, and contacts amplify any difference
 MEANS = "Exudyn: bodies and Runge-Kutta steps of its own; allowed is ten times what both answers change with their steps"
 STRAND = "Exudyn: plucked strand, Verlet steps; allowed is ten times what ours changes with its step"
 
 
-def route(model: ChainModel) -> ModuleType | None:
+class Engine(Protocol):
+    """`exudyn_model`, or what runs a chain in its place."""
+
+    def run(self, model: ChainDrive, begin: Start, duration: float, step: float, samples: int, solver: str = "RK44", /) -> Any:
+        """Its `Run`."""
+        ...
+
+
+def route(model: ChainModel) -> Engine | None:
     """Exudyn's twin; None for a chain that it cannot represent; MissingExtra where Exudyn is not installed."""
     system = chain_drive(model)
     if unknown(system) or len(system.sprockets) > 2:
@@ -49,23 +56,24 @@ def route(model: ChainModel) -> ModuleType | None:
     return exudyn_model
 
 
-def exudyn_rows(twin: ModuleType, model: ChainModel) -> Iterator[Row]:
+def exudyn_rows(twin: Engine, model: ChainModel) -> Iterator[Row]:
     """All rows, from the chain after its run-in."""
     system = chain_drive(model)
     begin = running_start(system, Settings(safe_step(system)))
     yield from means(twin, system, begin)
     strand = strand_of(system, begin, tight=True)
     string = float(strand_frequency(model.strands.tension, system.chain.line_density, strand.length, model.strands.speed))
-    if PERIODS / string / (VERLET * largest_step(system)) > LONGEST:
+    periods = min(PERIODS, LONGEST * VERLET * largest_step(system) * string)
+    if periods < 1.0:
         return
-    ours, theirs = frequencies(twin, system, begin, strand, string)
+    ours, theirs = frequencies(twin, system, begin, strand, string, periods)
     yield "first frequency of the tight strand", ours[-1], theirs, "Hz", TIMES * float(np.ptp(ours)), STRAND
 
 
 # -- means over a tooth --------------------------------------------------------------------------------------------------------
 
 
-def means(twin: ModuleType, system: ChainDrive, begin: Start) -> Iterator[Row]:
+def means(twin: Engine, system: ChainDrive, begin: Start) -> Iterator[Row]:
     """Centre distance, and the forces in the middle of both strands, over a tooth or as much of it as `MOST_STEPS` take."""
     largest, tooth = largest_step(system), tooth_time(system)
     windows = max(1, int(np.ceil(tooth / (MOST_STEPS * THEIRS[0] * largest))))
@@ -142,10 +150,12 @@ def plucked(begin: Start, strand: Strand, rate: float, near: float) -> Start:
     return replace(begin, rates=rates)
 
 
-def frequencies(twin: ModuleType, system: ChainDrive, begin: Start, strand: Strand, guess: float) -> tuple[list[float], float]:
+def frequencies(
+    twin: Engine, system: ChainDrive, begin: Start, strand: Strand, guess: float, periods: float = PERIODS
+) -> tuple[list[float], float]:
     """First frequency of a strand by our runs, one for each of the steps `PLUCKED`, and by Exudyn's  [Hz]."""
     pitch, largest = system.chain.link.pitch, largest_step(system)
-    duration, near = PERIODS / guess, NEAR * pitch
+    duration, near = periods / guess, NEAR * pitch
     start = plucked(begin, strand, SWING * pitch * 2 * np.pi * guess, near)
     runs = [chain_shapes(system, start, duration, share * largest, SHAPES) for share in PLUCKED]
     run = twin.run(system, start, duration, VERLET * largest, SHAPES, "VelocityVerlet")
