@@ -1,10 +1,11 @@
-"""A chain drive in Exudyn: rigid plates, sprockets that slide and turn, and joints as springs are Exudyn's, and so is the integration.
+"""A chain drive in Exudyn: rigid plates, sprockets that slide and turn, springs of hinges and the integration are Exudyn's.
 
-What Exudyn does not have comes from `chain_forces`, by a user function: rolling joints, involute flanks, and the seats of rollers.  Its own
-contact of curves with circles (`ObjectContactCurveCircles`, version 1.13) cannot stand for these: it turns every circle's force into a
-moment with the lever arm of the first circle's marker, which is wrong for all plates that lie at another angle; the curve's own speed of
-rotation enters the rate of the gap with the wrong arm; and its force is a stiffness per length of all segments that overlap the circle, so
-that the number of segments of an arc changes it.  Only `verify`, tests and benchmarks import this: Exudyn is an optional dependency.
+What Exudyn does not have comes from `chain_forces`, by a user function: rolling joints, dampers that turn with the plates, involute
+flanks, seats of rollers.  Its own contact of curves with circles (`ObjectContactCurveCircles`, version 1.13) cannot stand for these: it
+turns every circle's force into a moment with the lever arm of the first circle's marker, which is wrong for all plates that lie at
+another angle; the curve's own speed of rotation enters the rate of the gap with the wrong arm; and its force is a stiffness per length
+of all segments that overlap the circle, so that the number of segments of an arc changes it.  Only `verify`, tests and benchmarks
+import this: Exudyn is an optional dependency.
 """
 
 from typing import Any, NamedTuple
