@@ -123,18 +123,18 @@ def lives():
 
 ROLLER, SEAT, SEAT_ANGLE, FLANK = 3.175e-3, 3.9e-3, 1.9, 9e-3
 STIFFNESS, DAMPING, FORCE, SPEED = 1e8, 300.0, 150.0, -60.0
-SEGMENTS = (9, 2)  # of the seat and of each flank of a tooth space, for Exudyn
-TIME = 1e-4  # [s]; over longer ones Newton's method of this model in Exudyn stops converging, and its times say nothing
+TIME, SAMPLES = 1e-3, 10  # [s]
+SHARE = 0.4  # of the largest stable step
 
 
-def roller_drive(joint):
-    """24 links around 9 and 10 teeth, joints of a stiffness [N/m]."""
+def roller_drive():
+    """24 links around 9 and 10 teeth."""
     from drivewright.chains import model as m
     from drivewright.chains.link import Link
     from drivewright.chains.roller_tooth import RollerTooth
 
     teeth = [RollerTooth(z, 0.5 * PITCH / np.sin(np.pi / z), SEAT, SEAT_ANGLE, FLANK, ROLLER) for z in (9, 10)]
-    chain = m.Chain(Link(PITCH, 0.0, np.pi / 6, 0.0), 24, 2.5e-3, 6.4e-8, joint, 2e-6)
+    chain = m.Chain(Link(PITCH, 0.0, np.pi / 6, 0.0), 24, 2.5e-3, 6.4e-8, 10 * STIFFNESS, 2e-6)
     contact = m.ChainContact(STIFFNESS, DAMPING)
     first = m.Sprocket(teeth[0], contact, angle=0.0, tip_radius=teeth[0].pitch_radius + 2e-3, drive=m.SpeedRamp(SPEED, SPEED))
     second = m.Sprocket(
@@ -149,132 +149,44 @@ def roller_drive(joint):
     return m.ChainDrive(chain, (first, second))
 
 
-def space(tooth):
-    """Corners (n, 2) of a tooth space about the polar angle 0, clockwise to counter-clockwise: flank, seat, flank, touching the arcs."""
-    half, (seats, flanks) = 0.5 * SEAT_ANGLE, SEGMENTS
-    seat, rise = tooth.pitch_radius - ROLLER + SEAT, 0.15  # angle of a flank
-    low = seat - SEAT / np.cos(half / seats) * np.exp(1j * np.linspace(half, -half, seats + 1))  # from its clockwise end
-    centre = seat - (SEAT + FLANK) * np.exp(-1j * half)  # of the flank of the tooth counter-clockwise of the space
-    high = centre + FLANK / np.cos(0.5 * rise / flanks) * np.exp(1j * np.linspace(-half, rise - half, flanks + 1)[1:])
-    points = np.concatenate([high[::-1].conj(), low, high])
-    return np.column_stack([points.real, points.imag])
-
-
-def exudyns(step):
-    """(seconds, centre distance after `TIME` [m]) of Exudyn's chain: rigid plates and joints, rollers as circles."""
-    import exudyn
-    from exudyn import itemInterface as item
-
-    from drivewright.chains.explicit.assembly import start
-
-    exudyn.config.printToConsole = False
-    model = roller_drive(1e13)
-    begin, n = start(model), model.chain.count
-    container = exudyn.SystemContainer()
-    mbs = container.AddSystem()
-    ground = mbs.AddMarker(item.MarkerNodeCoordinate(nodeNumber=mbs.AddNode(item.NodePointGround()), coordinate=0))
-
-    def body(pose, rates, mass, inertia):
-        node = mbs.AddNode(item.NodeRigidBody2D(referenceCoordinates=list(pose), initialVelocities=list(rates)))
-        return node, mbs.AddObject(item.ObjectRigidBody2D(mass=mass, inertia=inertia, nodeNumber=node))
-
-    def marker(number, x=0.0):
-        return mbs.AddMarker(item.MarkerBodyRigid(bodyNumber=number, localPosition=[x, 0.0, 0.0]))
-
-    def held(node, coordinate, **more):
-        own = mbs.AddMarker(item.MarkerNodeCoordinate(nodeNumber=node, coordinate=coordinate))
-        mbs.AddObject(item.ObjectConnectorCoordinate(markerNumbers=[ground, own], **more))
-
-    plates = [body(pose, rate, model.chain.mass, model.chain.inertia)[1] for pose, rate in zip(begin.poses, begin.rates, strict=True)]
-    for i in range(n):
-        pins = [marker(plates[i], PITCH / 2), marker(plates[(i + 1) % n], -PITCH / 2)]
-        mbs.AddObject(item.ObjectJointRevolute2D(markerNumbers=pins))
-    rollers = [marker(plate, PITCH / 2) for plate in plates]
-    slide = None
-    for number, sprocket in enumerate(model.sprockets):
-        place = (sprocket.centre[0] + begin.q[number], 0.0, begin.psi[number])
-        node, wheel = body(place, (0.0, 0.0, begin.rate_psi[number]), sprocket.mass or 1.0, sprocket.inertia or 1e-3)
-        held(node, 1)
-        if sprocket.drive:
-            held(node, 0)
-            held(node, 2, velocityLevel=True, offset=SPEED)
-        else:
-            slide = node
-            along = mbs.AddMarker(item.MarkerNodeCoordinate(nodeNumber=node, coordinate=0))
-            mbs.AddLoad(item.LoadCoordinate(markerNumber=along, load=FORCE))
-            mbs.AddObject(item.ObjectConnectorCoordinateSpringDamper(markerNumbers=[ground, along], damping=sprocket.slide.damping))
-        _contact(mbs, item, marker(wheel), rollers, sprocket.tooth)
-    sensor = mbs.AddSensor(item.SensorNode(nodeNumber=slide, storeInternal=True, outputVariableType=exudyn.OutputVariableType.Position))
-    mbs.Assemble()
-    settings = exudyn.SimulationSettings()
-    settings.timeIntegration.endTime, settings.timeIntegration.numberOfSteps = TIME, round(TIME / step)
-    settings.timeIntegration.verboseMode = 0
-    settings.timeIntegration.newton.useModifiedNewton = True
-    settings.timeIntegration.generalizedAlpha.spectralRadius = 0.8
-    settings.timeIntegration.discontinuous.useRecommendedStepSize = False
-    settings.solution.file.write = False
-    settings.solution.sensors.writePeriod = TIME
-    began = time.perf_counter()
-    mbs.SolveDynamic(settings)
-    seconds = time.perf_counter() - began
-    return seconds, float(mbs.GetSensorStoredData(sensor)[-1, 1])
-
-
-def _contact(mbs, item, wheel, rollers, tooth):
-    """All spaces of a sprocket against all rollers: Exudyn's force is stiffness times length of the segment times penetration."""
-    corners = space(tooth)
-    turns = 2 * np.pi * (np.arange(tooth.teeth) + 0.5) / tooth.teeth
-    for part in (slice(0, SEGMENTS[1] + 1), slice(SEGMENTS[1], SEGMENTS[1] + SEGMENTS[0] + 1), slice(-SEGMENTS[1] - 1, None)):
-        rows = []
-        for turn in turns:
-            c, s = np.cos(turn), np.sin(turn)
-            at = corners[part] @ np.array([[c, s], [-s, c]])
-            rows += [np.concatenate(pair) for pair in zip(at[:-1], at[1:], strict=True)]
-        size = float(np.hypot(*(rows[0][2:] - rows[0][:2])))
-        memory = mbs.AddNode(item.NodeGenericData(initialCoordinates=[-1.0, 0.0, 0.0] * len(rows), numberOfDataCoordinates=3 * len(rows)))
-        mbs.AddObject(
-            item.ObjectContactCurveCircles(
-                markerNumbers=[wheel, *rollers],
-                nodeNumber=memory,
-                circlesRadii=[ROLLER] * len(rollers),
-                segmentsData=np.array(rows),
-                contactStiffness=STIFFNESS / size,
-                contactDamping=DAMPING / size,
-                contactModel=0,
-            )
-        )
-
-
 def beside():
-    """The first tenth of a millisecond of both, from the same start."""
+    """The first millisecond of both, from the same start, with the same joints and contacts: the chain of `verify`."""
+    from drivewright.chains.explicit.assembly import start
     from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
+    from drivewright.chains.explicit.stability import largest_step
 
-    model = roller_drive(10 * STIFFNESS)
-    settings = Settings(1e-7, run_in=0.0, samples_per_tooth=round(tooth_time(model) / TIME))
-    seconds = best(lambda: simulate(model, TIME, settings), 5)
-    motion = simulate(model, TIME, settings)
-    links = model.chain.count * motion.every * (len(motion.t) - 1)
+    model = roller_drive()
+    begin, step = start(model), SHARE * largest_step(model)
+    per_tooth = round(tooth_time(model) / TIME * SAMPLES)
+    duration = tooth_time(model) * SAMPLES / per_tooth
+
+    def ours():
+        return simulate(model, duration, Settings(step, run_in=0.0, samples_per_tooth=per_tooth), begin=begin)
+
+    def remark(step, time, distance):
+        return f"steps of {step:.1e} s; centre distance {1e3 * distance:.6f} mm at {1e3 * time:.4f} ms"
+
+    seconds, motion = best(ours, 5), ours()
     yield (
-        f"ours, 24 links, rollers, 0.1 ms: {1e9 * seconds[0] / links:.0f} ns per link and step",
+        f"ours, 24 links, rollers, 1 ms: {1e9 * seconds[0] * motion.step / (model.chain.count * duration):.0f} ns per link and step",
         seconds,
-        (
-            f"steps of {motion.step:.1e} s, start included; centre distance {1e3 * motion.centre_distance[-1]:.5f} mm at "
-            f"{1e3 * motion.t[-1]:.4f} ms"
-        ),
+        remark(motion.step, motion.t[-1], motion.centre_distance[-1]),
     )
     try:
-        import exudyn  # noqa: F401 - whether it is there
+        from drivewright.oracles.silent_chain import exudyn_model
     except ImportError as error:
         yield "Exudyn", None, f"not available: {error}"
         return
-    for step in (1e-6, 5e-7):
-        runs = [exudyns(step) for _ in range(3)]
-        shortest = min(seconds for seconds, _ in runs)
+    for solver, name, longer in (("VelocityVerlet", "Verlet", 1), ("RK44", "Runge and Kutta, order 4", 2)):
+        began = time.perf_counter()
+        run = exudyn_model.run(model, begin, duration, longer * step, SAMPLES, solver)
+        took = time.perf_counter() - began
+        distance = abs(run.centre(model, 1) - run.centre(model, 0))[-1]
+        each = 1e9 * took * longer * step / (model.chain.count * duration)
         yield (
-            f"Exudyn, the same contact stiffness, rigid joints: {1e9 * shortest / (model.chain.count * round(TIME / step)):,.0f} ns per "
-            "link and step",
-            (shortest, sorted(seconds for seconds, _ in runs)[1]),
-            f"implicit, steps of {step:.1e} s; centre distance {1e3 * runs[0][1]:.5f} mm at {1e3 * TIME:.4f} ms; sprockets as polygons",
+            f"Exudyn, the same joints and contacts, {name}: {each:,.0f} ns per link and step",
+            (took, took),
+            f"{remark(longer * step, run.time[-1], distance)}; forces of the teeth by a function in Python",
         )
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import shapely
 
 from drivewright._jit import plain
 from drivewright.chains.explicit.advance import near
@@ -18,6 +19,7 @@ from drivewright.chains.explicit.step import (
 )
 from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, SpeedRamp, Sprocket
+from drivewright.chains.roller_sprocket import design_roller_sprocket
 from drivewright.chains.roller_tooth import RollerTooth
 from drivewright.chains.tooth import Tooth
 from drivewright.contact import KelvinVoigt, mean_force
@@ -110,6 +112,21 @@ def test_a_seated_plate_touches_neither_flank_and_a_deeper_one_both_alike():
         put(drive, x, y, angle)
         flank(drive, seat)
         np.testing.assert_allclose([drive.touches.right[0], drive.touches.left[0]], force, rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("across, out", [(0.0, -2e-5), (5e-5, -2e-5), (-1.2e-4, -3e-5), (0.28e-3, 0.3e-3), (-0.64e-3, 0.85e-3)])
+def test_a_roller_is_as_deep_as_in_the_drawn_sprocket(across, out):
+    wheel, psi, seat, angle = design_roller_sprocket(12, 9.525e-3, 6.35e-3, 0.7), 0.4, 0.93, 0.05
+    profile = shapely.Polygon(wheel.outline().points(1e-9)).exterior  # a space on its y axis
+    drawn = 0.5 * wheel.roller_diameter - profile.distance(shapely.Point(across, wheel.pitch_radius + out))
+    drive = lowered(wheel.tooth, joint=design_link(9.525e-3, 0.0, A, 2e-4), offset=0.0)
+    pin = 0.02 - 0.01j + (wheel.pitch_radius + out - 1j * across) * np.exp(1j * (psi + seat))
+    middle = pin - drive.plates.half[0] * np.exp(1j * angle)
+    put(drive, middle.real, middle.imag, angle, psi=psi)
+    roller(drive, seat, dt=0.0)
+    force = np.hypot(drive.touches.fx[0], drive.touches.fy[0])
+    assert 1e-6 < drawn < 1e-4
+    assert force / K == pytest.approx(drawn, abs=2e-9)
 
 
 @pytest.mark.parametrize("name", ["both flanks", "belly", "roller seat"])

@@ -8,7 +8,7 @@ from scipy.optimize import brentq
 
 from drivewright.chains.explicit.assembly import start
 from drivewright.chains.explicit.measure import ROW
-from drivewright.chains.explicit.simulate import Settings, simulate
+from drivewright.chains.explicit.simulate import Settings, chain_shapes, running_start, simulate, tooth_time
 from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.model import Chain, ChainContact, ChainDrive, Guide, Slide, SpeedRamp, Sprocket, with_sprocket
 from drivewright.chains.tooth import Tooth
@@ -105,3 +105,19 @@ def test_what_damping_takes_is_counted_exactly():
     assert np.ptp(run.column("joint damping")) > 100 * np.max(np.abs(run.energy_gap))
     assert np.ptp(run.column("contact damping")) > 10 * np.max(np.abs(run.energy_gap))
     assert run.energy_drift < 3e-6
+
+
+def test_a_run_goes_on_from_the_start_after_the_run_in():
+    model = drive(stiffness=1e7, centre_offset=0.4e-3)
+    settings = Settings(1e-6, run_in=0.01)
+    whole = simulate(model, 0.5 * tooth_time(model), settings)
+    begin = running_start(model, settings)
+    later = simulate(model, 0.5 * tooth_time(model), replace(settings, run_in=0.0), begin=begin)
+    assert np.ptp(whole.body(1, "q")) > 1e-7
+    np.testing.assert_allclose(later.body(1, "q"), whole.body(1, "q"), atol=1e-4 * np.ptp(whole.body(1, "q")))
+    for name in ("x", "y", "angle"):
+        np.testing.assert_allclose(later.column(name), whole.column(name), atol=1e-5 * np.ptp(whole.column(name)))
+    t, shapes = chain_shapes(model, begin, later.t[-1], later.step, len(later.t) - 1)
+    np.testing.assert_allclose(t, later.t, rtol=1e-12)
+    np.testing.assert_allclose(shapes[:, 0, 0], later.column("x"), atol=1e-12)
+    np.testing.assert_allclose(shapes[:, 0, 2], later.column("angle"), atol=1e-10)

@@ -8,10 +8,11 @@ from drivewright._typing import Floats
 
 
 class RollerTooth(NamedTuple):
-    """teeth z; pitch radius of the seat centres; seat radius ri and its whole seating angle; flank radius re; roller radius  [m], [rad].
+    """teeth z; pitch radius of the seated rollers' centres; seat radius ri and its whole seating angle; flank radius re; roller radius
+    [m], [rad].
 
-    A gap lies midway between two teeth; its seat is a concave arc about a point of the pitch circle, its flanks convex arcs that
-    continue it smoothly on both sides.
+    A gap lies midway between two teeth; the bottom of its seat, a concave arc, touches the seated roller, so that the arc's centre lies
+    outside the pitch circle where the seat is wider than the roller; convex arcs of flanks continue it smoothly on both sides.
     """
 
     teeth: int
@@ -20,6 +21,11 @@ class RollerTooth(NamedTuple):
     seat_angle: float
     flank_radius: float
     roller_radius: float
+
+    @property
+    def seat_centre(self) -> float:
+        """Distance of the centre of the seat's arc from that of the sprocket, root radius and ri  [m]."""
+        return self.pitch_radius - self.roller_radius + self.seat_radius
 
     @property
     def flank_centre(self) -> Floats:

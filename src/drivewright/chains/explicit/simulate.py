@@ -2,18 +2,19 @@
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, cast
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.chains.explicit.advance import run, settle_rates
 from drivewright.chains.explicit.assembly import Start, start
 from drivewright.chains.explicit.measure import empty_log, measured
 from drivewright.chains.explicit.motion import Motion, RunSettings
 from drivewright.chains.explicit.run_in import PARTS, run_in, run_in_time, steps_of
-from drivewright.chains.explicit.snapshots import Snapshots, empty_snapshots
+from drivewright.chains.explicit.snapshots import PLATES, SCALARS, Snapshots, empty_snapshots
 from drivewright.chains.explicit.stability import refuse_seats, refuse_step
 from drivewright.chains.explicit.state import DriveArrays, compile_model
 from drivewright.chains.model import ChainDrive
@@ -76,6 +77,41 @@ def first_start(model: ChainDrive, settings: RunSettings) -> Start:
     """The `Start` from which `simulate` runs a drive in, so that the clock starts with sprocket 1 at its angle."""
     _, step, _ = stepping(model, tooth_time(model), settings)
     return start(model, PARTS * _run_in_steps(model, settings, step) * step)
+
+
+def running_start(model: ChainDrive, settings: Settings = Settings()) -> Start:
+    """The `Start` of a chain that has been run in: with it any solver begins, at clock 0, where `simulate` does."""
+    _, step, _ = stepping(model, tooth_time(model), settings)
+    drive, begin, offset = _begun(model, None, settings, step, _search_interval(model, step)), start(model), model.chain.centre_offset
+    p, b, n, m = drive.plates, drive.bodies, model.chain.count, len(model.sprockets)
+    angle, w = p.angle[:n], p.w[:n]
+    c, s = np.cos(angle), np.sin(angle)
+    return replace(
+        begin,
+        poses=np.stack([p.x[:n] + offset * s, p.y[:n] - offset * c, angle], axis=1),
+        rates=np.stack([p.vx[:n] + offset * c * w, p.vy[:n] + offset * s * w, w], axis=1),
+        q=b.q[:m].copy(),
+        psi=b.psi[:m].copy(),
+        rate_q=b.vq[:m].copy(),
+        rate_psi=b.w[:m].copy(),
+        hole_pitches=model.chain.hole_pitches,
+        supports=drive.teeth.support.copy(),
+    )
+
+
+def chain_shapes(model: ChainDrive, begin: Start, duration: float, step: float, samples: int) -> tuple[Floats, Floats]:
+    """(times (m,) [s], mass centres and angles of all plates (m, N, 3) [m], [rad]) from `begin`, at the ends of `samples` intervals.
+
+    The step [s] is shortened to fit into these a whole number of times; no run-in.
+    """
+    refuse_step(model, step)
+    every = counted(np.ceil(duration / samples / step - 1e-9), MOST_STEPS, "steps between two samples", "make the step longer")
+    step = duration / samples / every
+    drive = placed(model, begin, step)
+    snapshots = empty_snapshots(samples + 1, len(drive.bodies), drive.chain.count)
+    run(drive, snapshots, 0, samples + 1, every, _search_interval(model, step), step)
+    shapes = snapshots.plates[:, [PLATES.index(name) for name in ("x", "y", "angle")]]
+    return snapshots.scalars[:, SCALARS.index("t")].copy(), np.moveaxis(shapes, 1, 2)
 
 
 def _run_in_steps(model, settings, step):

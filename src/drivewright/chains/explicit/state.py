@@ -404,7 +404,7 @@ def _roller(sprocket, model):
         2 * np.pi / tooth.teeth,
         reach,
         True,
-        tooth.pitch_radius,
+        tooth.seat_centre,
         tooth.seat_radius - tooth.roller_radius,
         tooth.flank_radius + tooth.roller_radius,
         np.sin(edge),
