@@ -21,7 +21,6 @@ from drivewright.solids.stresses import SkinStress, skin_stress
 
 BODIES = ("plate", *SIDES)
 ROLLING = 5.0  # widths of the strip beside the rolling contact that are left out
-NARROW = 0.5  # of the greatest force: under less a contact may be too narrow for the elements
 LEAST = 0.4  # of the greatest stress: points below it are not looked at for life
 
 
@@ -63,11 +62,12 @@ class SkinLife(NamedTuple):
 def solid_history(solid: PlateAndPins, loads: Loads, each: Callable[[], None] = lambda: None) -> SolidHistory:
     """`SolidHistory` through the `Loads` of one plate; `each` is called after every instant."""
     states: list[ContactState] = []
-    size = np.linalg.norm(np.asarray(loads.pins, float), axis=2).max(axis=1)
-    for instant in range(len(size)):
-        light = bool(size[instant] < NARROW * size.max())
-        states.append(solid.model.solve(forces_at(solid, loads, instant), states[-1] if states else None, narrow=light))
+    size = np.linalg.norm(np.asarray(loads.pins, float), axis=2)
+    for instant in range(len(size)):  # under a light load a contact may be too narrow for the elements: it is not what counts
+        states.append(solid.model.solve(forces_at(solid, loads, instant), states[-1] if states else None, narrow=True))
         each()
+    for number, instant in enumerate(size.argmax(axis=0)):
+        solid.model.refuse_narrow(states[instant], number)
     skins = {}
     for name in BODIES:
         skins[name] = skin_stress(solid.model.bodies[name], [state.displacement(name) for state in states], FACES[name])

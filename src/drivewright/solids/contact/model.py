@@ -154,8 +154,23 @@ class ContactModel:
         moved |= _split(basis @ found.motions, {name: len(body.modes) for name, body in self._motions})
         state = ContactState(self, dict(forces), found, tuple(MEGA * part for part in parts), links, moved)
         if not narrow:
-            self._refuse_coarse(state)
+            for number in range(len(self.pairs)):
+                self.refuse_narrow(state, number)
         return state
+
+    def refuse_narrow(self, state: ContactState, number: int) -> None:
+        """InputError where what presses of a pair is narrower than two of the elements there."""
+        pair, each, (skin, _) = self.pairs[number], self.pairings[number], self.skins[number]
+        pressing = state.pressure[number] > 0
+        if not pressing.any():
+            return
+        size = float(np.median(skin.size[np.isin(skin.corners, each.corners[pressing]).any(axis=1)]))
+        width = contact_width(each, pressing, self.bodies[pair.first[0]])
+        if width < ACROSS * size:
+            raise InputError(
+                f"contact: the elements of {size:.3g} mm on {pair.first[1]!r} of {pair.first[0]!r} are larger than half the contact's "
+                f"width of about {width:.3g} mm; give elements of {width / 4:.2g} mm there or smaller."
+            )
 
     def displacement(self, body: str, state: ContactState) -> Floats:
         """Coefficients (unknowns,) [mm] of a body's displacement, rigid motion included."""
@@ -217,19 +232,6 @@ class ContactModel:
         gap = np.concatenate([*own, [link.gap / MM for link in self.links]])
         matrix = whole[:count, :count] + np.diag(soft)
         return matrix, gap + whole[:count, count:] @ amounts, resultants[:, :count], resultants[:, count:] @ amounts
-
-    def _refuse_coarse(self, state: ContactState) -> None:
-        for pair, each, (skin, _), pressure in zip(self.pairs, self.pairings, self.skins, state.pressure, strict=True):
-            pressing = pressure > 0
-            if not pressing.any():
-                continue
-            size = float(np.median(skin.size[np.isin(skin.corners, each.corners[pressing]).any(axis=1)]))
-            width = contact_width(each, pressing, self.bodies[pair.first[0]])
-            if width < ACROSS * size:
-                raise InputError(
-                    f"contact: the elements of {size:.3g} mm on {pair.first[1]!r} of {pair.first[0]!r} are larger than half the contact's "
-                    f"width of about {width:.3g} mm; give elements of {width / 4:.2g} mm there or smaller."
-                )
 
 
 def contact_width(pairing: Pairing, pressing: Bools, body: FreeBody) -> float:
