@@ -6,7 +6,7 @@ meshes  meshes [mm] of cam, split shaft and pin wheel, second order, with named 
 parts   measures that the solids of a pin-wheel indexer have and its reduced model does not; SI
 """
 
-from drivewright.indexing.solid.check import SolidStiffness, solid_stiffness, surface_table
+from drivewright.indexing.solid.assembly import SolidStiffness, solid_stiffness
 from drivewright.indexing.solid.parts import CamBody, ShaftBody, Solids, WheelBody, usual_wheel
 
-__all__ = ["CamBody", "ShaftBody", "SolidStiffness", "Solids", "WheelBody", "solid_stiffness", "surface_table", "usual_wheel"]
+__all__ = ["CamBody", "ShaftBody", "SolidStiffness", "Solids", "WheelBody", "solid_stiffness", "usual_wheel"]
