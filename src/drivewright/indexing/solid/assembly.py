@@ -23,8 +23,7 @@ from drivewright.indexing.solid.parts import Solids, check
 from drivewright.indexing.solid.springs import Position, PositionSettings, Spring, springs_between
 from drivewright.indexing.solid.surfaces import deformed_surfaces
 from drivewright.indexing.stiffness import TorsionalStiffness, solve_torsional_stiffness
-from drivewright.indexing.stiffness.result import CARRIED, FAR, REASONS, ROTATION_LIMIT
-from drivewright.indexing.stiffness.solve import CONTACT_GAP
+from drivewright.indexing.stiffness.result import FAR, REASONS, ROTATION_LIMIT
 from drivewright.solids.coupling import CoupledSolution, InterfaceSpring, functional_offsets
 from drivewright.solids.deformation import DisplacedSurface
 from drivewright.solids.nonlinear_coupling import NonlinearSpring, solve_nonlinear
@@ -61,6 +60,19 @@ class SolidStiffness:
         return self.secant / self.reduced.secant
 
 
+class SolidAssembly(NamedTuple):
+    """Condensed bodies and positions of a drive, and the time [s] that it took to mesh and condense them."""
+
+    wheel: PinWheel
+    drive: Drivetrain
+    solids: Solids
+    cams: int
+    theta: Floats
+    places: tuple[Position, ...]
+    bodies: Bodies
+    seconds: float
+
+
 class _Loaded(NamedTuple):
     """One position in equilibrium."""
 
@@ -68,6 +80,68 @@ class _Loaded(NamedTuple):
     shares: dict[str, float]
     pins: Floats
     energy: float
+
+
+def condense_assembly(
+    wheel: PinWheel,
+    drive: Drivetrain,
+    solids: Solids,
+    theta: ArrayLike,
+    contacts: Sequence[CamContacts],
+    *,
+    cams: int = 2,
+    fineness: float = 1.0,
+    strip: float = STRIP,
+) -> SolidAssembly:
+    """The `SolidAssembly` of a `PinWheel`, its `Drivetrain` and `Solids` at the angles theta (p,) [rad], to be loaded as often as wanted.
+
+    contacts: `CamContacts` of cam 0, one a position, as for the reduced model; fineness: factor on all element sizes; strip: width sigma of
+    a contact on the cam in radii of a pin.  InputError where bodies have no meaning, overlap or do not fit.
+    """
+    started = perf_counter()
+    check(solids, wheel, drive, cams)
+    theta = np.atleast_1d(np.asarray(theta, dtype=float))
+    places = tuple(_position(wheel, float(angle), here, i) for i, (angle, here) in enumerate(zip(theta, contacts, strict=True)))
+    bodies = condensed(wheel, drive, solids, places, cams, fineness, strip)
+    return SolidAssembly(wheel, drive, solids, cams, theta, places, bodies, perf_counter() - started)
+
+
+def load_assembly(
+    assembly: SolidAssembly, torque: float, model: Literal["unilateral", "bonded"] = "unilateral", pictures: bool = True
+) -> SolidStiffness:
+    """`SolidStiffness` of a `SolidAssembly` under a torque [N m]; without `pictures` no surfaces.
+
+    model: "unilateral" - contacts press, also those whose gap closes; "bonded" - the intended ones without a gap stick, no others.
+    SolverError where the reduced model carries the torque somewhere and the assembly nowhere.
+    """
+    started = perf_counter()
+    wheel, drive, _, cams, theta, places, bodies, _ = assembly
+    reduced = solve_torsional_stiffness(
+        drive, theta, [each.contacts for each in places], wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model
+    )
+    settings = PositionSettings(cams, model == "bonded", assembly.solids.wheel is not None, 2 * abs(torque) / drive.spacing)
+    found, reasons = {}, list(reduced.reasons)
+    for i in np.flatnonzero(reduced.carried):
+        try:
+            found[int(i)] = _loaded(assembly, places[i], settings, torque)
+        except (DoesNotAssemble, SolverError) as error:
+            reasons[i] = str(error)
+    if reduced.carried.any() and not found:
+        raise SolverError(reasons[int(reduced.carried.argmax())])
+    shares = {group: _spread(theta, {i: each.shares[group] for i, each in found.items()}) for group in GROUPS}
+    return SolidStiffness(
+        theta,
+        torque,
+        1 / np.sum(list(shares.values()), axis=0),
+        reduced,
+        shares,
+        tuple(found[i].pins if i in found else np.full((cams, len(each.contacts.gap)), np.nan) for i, each in enumerate(places)),
+        _spread(theta, {i: each.energy for i, each in found.items()}),
+        tuple(reasons),
+        {name: bodies[key].unknowns for name, key in (("cam", ("cam", 0)), ("shaft", ("shaft", 0)), ("wheel", ("wheel",)))},
+        assembly.seconds + perf_counter() - started,
+        deformed_surfaces(bodies, {i: each.coupled for i, each in found.items()}, len(theta)) if pictures and found else {},
+    )
 
 
 def solid_stiffness(
@@ -83,68 +157,37 @@ def solid_stiffness(
     fineness: float = 1.0,
     strip: float = STRIP,
 ) -> SolidStiffness:
-    """`SolidStiffness` of a `PinWheel`, its `Drivetrain` and `Solids` at the angles theta (p,) [rad] under a torque [N m].
-
-    contacts: `CamContacts` of cam 0, one a position, as for the reduced model; fineness: factor on all element sizes; strip: width sigma of
-    a contact on the cam in radii of a pin.
-    """
-    started = perf_counter()
+    """`condense_assembly` and `load_assembly` at once; InputError where no position carries the torque."""
     check(solids, wheel, drive, cams)
     theta = np.atleast_1d(np.asarray(theta, dtype=float))
     reduced = solve_torsional_stiffness(drive, theta, contacts, wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model)
-    carried = [i for i, outcome in enumerate(reduced.outcome) if outcome == CARRIED]
-    if not carried:
+    if not reduced.carried.any():
         raise InputError(f"assembly: no position carries the torque: {reduced.reasons[0]}.")
-    settings = PositionSettings(cams, model == "bonded", solids.wheel is not None, 2 * abs(torque) / drive.spacing)
-    places = [_position(wheel, reduced, contacts, i, settings.bonded) for i in carried]
-    bodies = condensed(wheel, drive, solids, places, cams, fineness, strip)
-    found, reasons = {}, list(reduced.reasons)
-    for place in places:
-        try:
-            found[place.number] = _loaded(bodies, drive, wheel, place, settings, torque)
-        except (DoesNotAssemble, SolverError) as error:
-            reasons[place.number] = str(error)
-    if not found:
-        raise SolverError(next(reason for reason in reasons if reason))
-    shares = {group: _spread(theta, {i: each.shares[group] for i, each in found.items()}) for group in GROUPS}
-    return SolidStiffness(
-        theta,
-        torque,
-        1 / np.sum(list(shares.values()), axis=0),
-        reduced,
-        shares,
-        tuple(found[i].pins if i in found else np.full((cams, len(each.gap)), np.nan) for i, each in enumerate(contacts)),
-        _spread(theta, {i: each.energy for i, each in found.items()}),
-        tuple(reasons),
-        {name: bodies[key].unknowns for name, key in (("cam", ("cam", 0)), ("shaft", ("shaft", 0)), ("wheel", ("wheel",)))},
-        perf_counter() - started,
-        deformed_surfaces(bodies, {i: each.coupled for i, each in found.items()}, len(theta)),
-    )
+    assembly = condense_assembly(wheel, drive, solids, theta, contacts, cams=cams, fineness=fineness, strip=strip)
+    return load_assembly(assembly, torque, model)
 
 
 def _spread(theta: Floats, values: Mapping[int, float]) -> Floats:
     return np.array([values.get(i, np.nan) for i in range(len(theta))])
 
 
-def _position(wheel: PinWheel, reduced: TorsionalStiffness, contacts: Sequence[CamContacts], i: int, bonded: bool) -> Position:
-    here = contacts[i]
+def _position(wheel: PinWheel, angle: float, here: CamContacts, number: int) -> Position:
     turned = float(np.angle(np.mean(here.centre * np.exp(-2j * np.pi * here.pin / wheel.pins))))
-    kept = here.intended & (here.gap < CONTACT_GAP) if bonded else np.isfinite(here.gap)
-    return Position(i, wheel.sense * reduced.theta[i], turned, wheel.pins, here, kept)
+    return Position(number, wheel.sense * angle, turned, wheel.pins, here)
 
 
-def _loaded(bodies: Bodies, drive: Drivetrain, wheel: PinWheel, place: Position, settings: PositionSettings, torque: float) -> _Loaded:
+def _loaded(assembly: SolidAssembly, place: Position, settings: PositionSettings, torque: float) -> _Loaded:
     """The position under the torque; SolverError where the wheel turns so far that other contacts act."""
-    springs = list(springs_between(drive, place, settings))
+    springs = list(springs_between(assembly.drive, place, settings))
     linear = [each for each in springs if isinstance(each, InterfaceSpring)]
     laws = [each for each in springs if isinstance(each, NonlinearSpring)]
-    found = solve_nonlinear(bodies, linear, laws, (("wheel",), ("flange", 5), torque / wheel.circle_radius))
+    found = solve_nonlinear(assembly.bodies, linear, laws, (("wheel",), ("flange", 5), torque / assembly.wheel.circle_radius))
     groups = [each.group for each in linear] + [each.group for each in laws for _ in each.rows]
-    shares = _shares(bodies, drive, groups, found.coupled, torque)
+    shares = _shares(assembly.bodies, assembly.drive, groups, found.coupled, torque)
     if abs(torque) * sum(shares.values()) > ROTATION_LIMIT:
         raise SolverError(REASONS[FAR])
-    pins = np.zeros((settings.cams, len(place.kept)))
-    pins[:, place.kept] = found.coupled.forces[[group == "pin" for group in groups]].reshape(settings.cams, -1)
+    pins = np.zeros((settings.cams, len(place.contacts.gap)))
+    pins[:, place.kept(settings.bonded)] = found.coupled.forces[[group == "pin" for group in groups]].reshape(settings.cams, -1)
     return _Loaded(found.coupled, shares, pins, found.energy)
 
 

@@ -35,7 +35,7 @@ def condensed(
     strip: float = STRIP,
 ) -> Bodies:
     """{("cam", j), ("shaft", side), ("ring", side, end), ("wheel",): Substructure} for all positions at once."""
-    pairs = sorted({(place.pin(int(c), j, cams), j) for place in places for c in np.flatnonzero(place.kept) for j in range(cams)})
+    pairs = sorted({(place.pin(int(c), j, cams), j) for place in places for c in np.flatnonzero(place.kept(False)) for j in range(cams)})
     width = solids.cam.thickness if solids.cam else None
     throws = [complex(c) for c in wheel.eccentricity * cam_phases(cams)]
     shaft = of.shaft(drive, solids.shaft, throws, fineness)
@@ -54,7 +54,7 @@ def _cams(
     strips = {
         (place.number, int(c)): (touching_point(wheel, place, int(c)), complex(place.contacts.normal[c]))
         for place in places
-        for c in np.flatnonzero(place.kept)
+        for c in np.flatnonzero(place.kept(False))
     }
     outline = wheel.profile.outline() if body else None
     half = cams // 2 if cams % 2 == 0 else cams

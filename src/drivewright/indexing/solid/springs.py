@@ -23,14 +23,18 @@ Spring: TypeAlias = InterfaceSpring | NonlinearSpring
 
 
 class Position(NamedTuple):
-    """One position: number, crank angle with its sense, wheel's angle and number of pins, contacts of cam 0 and which of them take part."""
+    """One position: number, crank angle with its sense, wheel's angle and number of pins, contacts of cam 0."""
 
     number: int
     crank: float
     wheel: float
     of_wheel: int
     contacts: CamContacts
-    kept: Bools
+
+    def kept(self, bonded: bool) -> Bools:
+        """Which contacts take part: all that may close, of bonded ones the intended ones without a gap."""
+        here = self.contacts
+        return here.intended & (here.gap < CONTACT_GAP) if bonded else np.isfinite(here.gap)
 
     def pin(self, c: int, cam: int, cams: int) -> int:
         """Number of the pin at contact c of a cam: what touches cam 0, a part j/n of the wheel on."""
@@ -76,7 +80,7 @@ def _pins(drive: Drivetrain, place: Position, settings: PositionSettings) -> Ite
     law = None if rigid else PinContactLaw(pin, settings.bonded)
     back = np.exp(-1j * place.wheel)
     for j, way in enumerate(cam_phases(settings.cams)):
-        for c in np.flatnonzero(place.kept):
+        for c in np.flatnonzero(place.kept(settings.bonded)):
             normal, number = place.contacts.normal[c] * way * back, place.pin(int(c), j, settings.cams)
             terms = (
                 (("cam", j), ("contact", place.number, int(c)), 1.0),
