@@ -9,7 +9,7 @@ from drivewright.errors import InputError
 from drivewright.indexing.solid.assembly import SolidStiffness
 from drivewright.indexing.stiffness import TorsionalStiffness
 from drivewright.result import Column, Plot, Table
-from drivewright.solids.deformation import displaced_table, exaggeration_for
+from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for
 
 DRAWN = 0.03  # the largest displacement is drawn as about this part of the body
 BODIES = {  # label, shares of the assembly, shares of the lumped model
@@ -23,7 +23,7 @@ BODIES = {  # label, shares of the assembly, shares of the lumped model
 SURFACES = {  # title, axes that are drawn (right, up, away) and their meanings
     "cam": ("Deformed cam", ((0, "across"), (1, "height"), (2, "along the axis"))),
     "shaft": ("Deformed split shaft", ((2, "along the axis"), (1, "height"), (0, "across"))),
-    "wheel": ("Deformed pin wheel", ((0, "across"), (1, "height"), (2, "along the axis"))),
+    "wheel": ("Deformed pins and wheel, seen from the axis", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards"))),
 }
 
 
@@ -55,13 +55,14 @@ def assembly_table(
     return Table("assembly", title, tuple(columns))
 
 
-def share_table(angles: Floats, solid: SolidStiffness, lumped: TorsionalStiffness) -> Table:
+def share_tables(angles: Floats, solid: SolidStiffness, lumped: TorsionalStiffness) -> Iterator[Table]:
     """Compliance by bodies of the assembly, and what each adds to that of the lumped model, over the input angles (p,) [rad]."""
-    own, added = compliance_by_body(solid), added_compliance(solid, lumped)
-    columns = [Column("angle", "rad", "input angle", angles)]
-    columns += [Column(name, "rad/(N m)", label, own[name]) for name, (label, _, _) in BODIES.items()]
-    columns += [Column(f"added_{name}", "rad/(N m)", f"{label}, added", added[name]) for name, (label, _, _) in BODIES.items()]
-    return Table("assembly_shares", "Compliance of the assembly by bodies", tuple(columns))
+    for name, title, shares in (
+        ("assembly_shares", "Compliance of the assembly by bodies", compliance_by_body(solid)),
+        ("assembly_added", "Compliance that the lumped model leaves out, by bodies", added_compliance(solid, lumped)),
+    ):
+        columns = [Column(body, "rad/(N m)", label, shares[body]) for body, (label, _, _) in BODIES.items()]
+        yield Table(name, title, (Column("angle", "rad", "input angle", angles), *columns))
 
 
 def surface_table(
@@ -69,16 +70,29 @@ def surface_table(
 ) -> Table:
     """Table of a deformed body ("cam", "shaft", "wheel") at one position for a plot of style "mesh": three rows a triangle.
 
-    The cam without its motion as a whole, the shaft against the housing, the wheel against its output; `where` ends the title.
+    The cam without its motion as a whole, the shaft against the housing; of the wheel, against its output, the half that moves most, seen
+    from its axis outwards.  `where` ends the title.
     """
     title, drawn = SURFACES[body]
     surface = solid.surfaces.get(body)
     if surface is None:
         raise InputError(f"assembly: the {body} is not a solid and has no deformed surface; give it as one.")
     displacement = surface.displacements[position]
+    if body == "wheel":
+        surface, displacement = _half_from_axis(surface, displacement)
     factor = exaggeration or exaggeration_for(np.ptp(surface.points[:, drawn[0][0]]), displacement, DRAWN)
     rest = tuple((axis, f"{words}, unloaded") for axis, words in drawn[:2])
     return displaced_table(f"assembly_{body}", title + where, surface, displacement, factor, drawn, rest)
+
+
+def _half_from_axis(surface: DisplacedSurface, displacement: Floats) -> tuple[DisplacedSurface, Floats]:
+    """The half of a wheel about the point that moves most, turned so that this point lies along y."""
+    x, y, _ = surface.points[np.linalg.norm(displacement, axis=1).argmax()]
+    away, around = np.array([x, y, 0.0]) / np.hypot(x, y), np.array([y, -x, 0.0]) / np.hypot(x, y)
+    turn = np.array([around, away, [0.0, 0.0, 1.0]])
+    points = surface.points @ turn.T
+    half = surface.triangles[points[surface.triangles, 1].mean(axis=1) > 0]
+    return DisplacedSurface(points, half, surface.displacements), displacement @ turn.T
 
 
 def assembly_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
@@ -87,11 +101,9 @@ def assembly_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
         curves = ("lumped_unilateral", "unilateral", "lumped_bonded", "bonded")
         title = "Torsional stiffness: lumped model and assembly of solids"
         yield Plot("assembly", title, "assembly", "angle", curves)
-    if "assembly_shares" in tables:
-        yield Plot("assembly_shares", "Compliance of the assembly by bodies", "assembly_shares", "angle", tuple(BODIES), style="bars")
-        added = tuple(f"added_{name}" for name in BODIES)
-        title = "Compliance that the lumped model leaves out, by bodies"
-        yield Plot("assembly_added", title, "assembly_shares", "angle", added, style="bars")
+    for name in ("assembly_shares", "assembly_added"):
+        if name in tables:
+            yield Plot(name, tables[name].title, name, "angle", tuple(BODIES), style="bars")
     if "assembly_pins" in tables:
         title = "Forces on the pins in the assembly"
         yield Plot("assembly_pins", title, "assembly_pins", "angle", ("force", "pressure"), style="points")

@@ -47,7 +47,7 @@ def assembly(model: IndexerModel, done: Answers) -> Answer:
     forces = pin_force_table(
         loaded.angles, loaded.contacts, own.pin_forces, *model.pin_measures, "assembly_pins", "Forces on the pins in the assembly"
     )
-    found = (tables.assembly_table(loaded.angles, loaded.solids, loaded.lumped), tables.share_table(loaded.angles, own, lumped), forces)
+    found = (tables.assembly_table(loaded.angles, loaded.solids, loaded.lumped), *tables.share_tables(loaded.angles, own, lumped), forces)
     pictures = tuple(_pictures(loaded.angles, own))
     return Answer(assembly_values(loaded, model.spec.contact.model, forces), found + pictures, (), tuple(_findings(loaded.angles, own)))
 
@@ -69,21 +69,24 @@ def assembly_values(loaded: LoadedAssembly, model: str, forces: Table) -> dict[s
     """Stiffness and compliance of the positions that carry, under the spec's contact model, and the mean with pins that stick."""
     own, lumped, angles = loaded.solids[model], loaded.lumped[model], loaded.angles
     carried = np.isfinite(own.secant)
-    values = {"assembly.undefined_fraction": Value(float(np.mean(~carried)), "-", "part of the positions where the assembly carries nothing")}
+    words = "part of the positions where the assembly carries nothing"
+    values = {"assembly.undefined_fraction": Value(float(np.mean(~carried)), "-", words)}
     if not carried.any():
         return values
     secant, least = own.secant[carried], int(np.nanargmin(own.secant))
     ratio = float(np.mean(secant) / np.mean(lumped.secant[carried]))
     values |= {
-        "assembly.stiffness.mean": _within_mesh(float(np.mean(secant)), "N m/rad", "mean secant stiffness, bodies as solids"),
-        "assembly.stiffness.minimum": _within_mesh(float(own.secant[least]), "N m/rad", "least secant stiffness, bodies as solids"),
+        "assembly.stiffness.mean": _within_mesh(float(np.mean(secant)), "N m/rad", "mean secant stiffness of the assembly of solids"),
+        "assembly.stiffness.minimum": _within_mesh(
+            float(own.secant[least]), "N m/rad", "least secant stiffness of the assembly of solids"
+        ),
         "assembly.stiffness.minimum.at": Value(float(angles[least]), "rad", "input angle of the least stiffness of the assembly"),
         "assembly.stiffness.ratio": _within_mesh(ratio, "-", "mean stiffness of the assembly over that of the lumped model"),
     }
     values |= dict(_body_values(own, lumped, carried))
     bonded = loaded.solids["bonded"].secant
     if np.isfinite(bonded).any():
-        words = "mean secant stiffness, bodies as solids, pins that stick"
+        words = "mean secant stiffness of the assembly with pins that stick"
         values["assembly.bonded.stiffness.mean"] = _within_mesh(float(np.nanmean(bonded)), "N m/rad", words)
     if len(forces["force"].data):
         values["assembly.pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", "largest force on a pin in the assembly")
@@ -104,11 +107,13 @@ def _body_values(own: SolidStiffness, lumped: TorsionalStiffness, carried: Bools
     whole, added = tables.compliance_by_body(own), tables.added_compliance(own, lumped)
     total = float(np.mean(1 / own.secant[carried]))
     missing = total - float(np.mean(1 / lumped.secant[carried]))
-    for name, (label, _, _) in tables.BODIES.items():
+    for name, (body, _, _) in tables.BODIES.items():
         part = float(np.mean(whole[name][carried])) / total
-        yield f"assembly.share.{name}", Value(part, "-", f"part of the compliance of the assembly: {label}")
+        meaning = f"part of the compliance of the assembly, mean over its positions: {body}"
+        yield f"assembly.share.{name}", Value(part, "-", meaning, label=f"Share of compliance: {body}")
         part = float(np.mean(added[name][carried])) / missing
-        yield f"assembly.added.{name}", Value(part, "-", f"part of the compliance that the lumped model leaves out: {label}")
+        meaning = f"part of the compliance that the lumped model leaves out, mean over the positions: {body}"
+        yield f"assembly.added.{name}", Value(part, "-", meaning, label=f"Share of added compliance: {body}")
 
 
 def _pictures(angles: Floats, own: SolidStiffness) -> Iterator[Table]:
