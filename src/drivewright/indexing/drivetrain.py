@@ -11,10 +11,12 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.bearings import BallBearing, RollerBearing, approximate_stiffness, contact_of
 from drivewright.bearings.approximate_stiffness import RadialStiffness
 from drivewright.errors import InputError
-from drivewright.shafts import Section
+from drivewright.indexing.body_compliance import BodyCompliance
+from drivewright.shafts import EULER_BERNOULLI, Section
 
 PALMGREN_LINE = 8.06e10  # N/m^2: F = 8.06e4 b^(8/9) s^(10/9) of one steel line contact in N and mm; Palmgren, recalled
 FORMULAS = {  # of the radial stiffness, by name and kind of contact
@@ -27,10 +29,13 @@ SIDES = (-1.0, 1.0)  # of the two split shafts
 
 
 class PinContact(NamedTuple):
-    """Approach of cam and pin under the force F: (F/line)^0.9 + F/series; line [N/m^(10/9)], series [N/m], None leaves its part out."""
+    """Approach of cam and pin under the force F: (F/line)^0.9 + F/series; line [N/m^(10/9)], series [N/m], None leaves its part out.
+
+    series is an array where contacts differ, as those of elastic bodies do.
+    """
 
     line: float | None = None
-    series: float | None = None
+    series: float | Floats | None = None
 
 
 class PowerLawBearing(NamedTuple):
@@ -45,7 +50,10 @@ BearingModel: TypeAlias = PowerLawBearing | BallBearing | RollerBearing
 
 
 class SplitShaft(NamedTuple):
-    """A stepped shaft from z = 0: places of its gear, of its front and rear support and of the cams; Euler-Bernoulli beam and rod."""
+    """A stepped shaft from z = 0: places of its gear, of its front and rear support and of the cams; beam and rod.
+
+    shear: as in `shafts.model`, EULER_BERNOULLI or COWPER.
+    """
 
     sections: tuple[Section, ...]
     gear: float
@@ -53,6 +61,7 @@ class SplitShaft(NamedTuple):
     cams: tuple[float, ...]
     modulus: float
     poisson: float
+    shear: float = EULER_BERNOULLI
 
 
 class GearMesh(NamedTuple):
@@ -70,6 +79,7 @@ class Drivetrain(NamedTuple):
 
     crank, support, wheel: bearings of the cams, the shafts, the wheel: a PowerLawBearing or a rolling bearing of `drivewright.bearings`;
     housing [N/m]: radial stiffness of a seat of the supports, in series; wheel_torsion [N m/rad]: between pins and output.
+    bodies: what cams and wheel yield at every contact, in place of the spring behind it.
     """
 
     spacing: float
@@ -81,6 +91,7 @@ class Drivetrain(NamedTuple):
     gear: GearMesh | None = None
     wheel: BearingModel | None = None
     wheel_torsion: float | None = None
+    bodies: BodyCompliance | None = None
 
 
 def pin_contact(width: float, series: float | None = None) -> PinContact:

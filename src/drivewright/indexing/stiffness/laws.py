@@ -133,11 +133,11 @@ class PinContactLaw(NamedTuple):
 
     def secant(self, force: float) -> float:
         """F/d [N/m]."""
-        return 1.0 / pin_compliance(self.pin, force)
+        return 1.0 / float(np.mean(pin_compliance(self.pin, force)))
 
 
-def pin_compliance(pin: PinContact, force: float) -> float:
-    """d/F of a pin [m/N] under a force above 0: (F/c)^0.9/F + 1/k."""
+def pin_compliance(pin: PinContact, force: float) -> Numbers:
+    """d/F of a pin [m/N] under a force above 0: (F/c)^0.9/F + 1/k, of the shape of k."""
     line = 0.0 if pin.line is None else (force / pin.line) ** 0.9 / force
     return line + (0.0 if pin.series is None else 1.0 / pin.series)
 

@@ -96,8 +96,9 @@ def newton_work(unknowns: int, strains: int) -> NewtonWork:
 
 
 def is_compiled(system: ConvexEnergy) -> bool:
-    """Whether all laws of the energy have a formula of single strains here."""
-    return all(isinstance(part.law, COMPILED) for part in system.parts)
+    """Whether all laws of the energy have a formula of single strains here, with the same constants at all contacts."""
+    alike = (np.ndim(part.law.pin.series) == 0 for part in system.parts if isinstance(part.law, PinContactLaw))
+    return all(isinstance(part.law, COMPILED) for part in system.parts) and all(alike)
 
 
 def constants_of(law: StrainLaw) -> tuple[int, tuple[float, float, float]]:

@@ -55,9 +55,9 @@ def assembly(model: IndexerModel, done: Answers) -> Answer:
 def load(model: IndexerModel, fineness: float = 1.0, positions: int = POSITIONS) -> LoadedAssembly:
     """The `LoadedAssembly` at `positions` over the index period, or at the one input angle asked for."""
     angles = model.angles if len(model.angles) == 1 else np.linspace(0.0, model.wheel.motion.motion_angle, positions)
-    contacts, wheel = contacts_at(model.wheel, angles, REACH), model.loaded_wheel
-    bodies = solid_parts(model)
-    train = wheel.train._replace(shaft=solid.seated(wheel.train.shaft, bodies.shaft))
+    contacts, bodies = contacts_at(model.wheel, angles, REACH), solid_parts(model)
+    rigid, wheel = model.rigid_wheel.train, model.loaded_wheel
+    train = rigid._replace(shaft=solid.seated(rigid.shaft, bodies.shaft))
     condensed = solid.condense_assembly(model.wheel, train, bodies, angles, contacts, cams=model.spec.cams, fineness=fineness)
     solids = {each: solid.load_assembly(condensed, model.torque, each, each == model.spec.contact.model) for each in MODELS}
     return LoadedAssembly(

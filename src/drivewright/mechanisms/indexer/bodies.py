@@ -1,10 +1,14 @@
 """The bodies of an indexer that its spec tells the size of, as solids."""
 
+from typing import TYPE_CHECKING
+
 from drivewright.indexing import solid
-from drivewright.mechanisms.indexer.build import IndexerModel
+
+if TYPE_CHECKING:
+    from drivewright.mechanisms.indexer.build import IndexerModel
 
 
-def solid_parts(model: IndexerModel) -> solid.Solids:
+def solid_parts(model: "IndexerModel") -> solid.Solids:
     """The bodies that the spec tells the size of; what it does not is as in the reduced model."""
     spec, entry = model.spec, model.crank_bearing
     cam = shaft = None
