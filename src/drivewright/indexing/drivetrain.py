@@ -11,7 +11,6 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from drivewright._typing import Floats
 from drivewright.bearings import BallBearing, RollerBearing, approximate_stiffness, contact_of
 from drivewright.bearings.approximate_stiffness import RadialStiffness
 from drivewright.errors import InputError
@@ -29,13 +28,10 @@ SIDES = (-1.0, 1.0)  # of the two split shafts
 
 
 class PinContact(NamedTuple):
-    """Approach of cam and pin under the force F: (F/line)^0.9 + F/series; line [N/m^(10/9)], series [N/m], None leaves its part out.
-
-    series is an array where contacts differ, as those of elastic bodies do.
-    """
+    """Approach of cam and pin under the force F: (F/line)^0.9 + F/series; line [N/m^(10/9)], series [N/m], None leaves its part out."""
 
     line: float | None = None
-    series: float | Floats | None = None
+    series: float | None = None
 
 
 class PowerLawBearing(NamedTuple):

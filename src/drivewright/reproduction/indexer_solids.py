@@ -65,8 +65,8 @@ def assembly_rows(folder: Path) -> Iterator[Row]:
         **common,
     )
     shape = (
-        f"{numbers.NOT_FOLLOWING}solids in contact keep the lumped curve's shape, {np.nanmax(fixed) / np.nanmin(fixed):.1f} times stiffer in "
-        "the dwell than near 90 deg: contacts that change in number cannot make up for bearings that yield."
+        f"{numbers.NOT_FOLLOWING}solids in contact keep the lumped curve's shape, {np.nanmax(fixed) / np.nanmin(fixed):.1f} times stiffer "
+        "in the dwell than near 90 deg: contacts that change in number cannot make up for bearings that yield."
     )
     for name, printed, ours in (
         ("mean stiffness", about("about 1020 N m/arcmin", 1020 / PER_ARCMIN, 45 / PER_ARCMIN), float(np.nanmean(fixed))),

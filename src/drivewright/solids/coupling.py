@@ -93,7 +93,7 @@ class StrainSystem(NamedTuple):
     def solve(self, compliance: Floats, offset: Floats, turn: Floats | None = None) -> tuple[Floats, Floats]:
         """(forces (S,), motions (m,)) of springs with compliances [m/N] and offsets [m], DoesNotAssemble where something moves freely.
 
-        turn (S', S): the springs are combinations of the strains, as along the principal axes of a bearing; forces are those of the strains.
+        turn (S', S): springs are combinations of the strains, as along the principal axes of a bearing; forces are those of the strains.
         Flexibilities are brought to 1 on the diagonal first, so that soft springs do not cost the stiff ones their digits.
         """
         turn = np.eye(len(self.rows)) if turn is None else turn

@@ -10,8 +10,8 @@ principal axes of K where it has several strains; the linear springs of `couplin
 resists a change of its strain by a trifle, which no result depends on.  Along a step the slope of P is followed until half of it is lost.
 """
 
-from collections.abc import Sequence
-from typing import Mapping, NamedTuple, Protocol
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple, Protocol
 
 import numpy as np
 

@@ -20,7 +20,7 @@ from drivewright.indexing.drivetrain import Drivetrain
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.solid.condensation import STRIP, Bodies, condensed
 from drivewright.indexing.solid.parts import Solids, check
-from drivewright.indexing.solid.springs import Position, PositionSettings, Spring, springs_between
+from drivewright.indexing.solid.springs import Position, PositionSettings, springs_between
 from drivewright.indexing.solid.surfaces import deformed_surfaces
 from drivewright.indexing.stiffness import TorsionalStiffness, solve_torsional_stiffness
 from drivewright.indexing.stiffness.result import FAR, REASONS, ROTATION_LIMIT

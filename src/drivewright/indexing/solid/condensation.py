@@ -26,13 +26,7 @@ SHIFTS = (0, 1)  # rigid motions of the ring of a support in its housing
 
 
 def condensed(
-    wheel: PinWheel,
-    drive: Drivetrain,
-    solids: Solids,
-    places: Sequence[Position],
-    cams: int,
-    fineness: float = 1.0,
-    strip: float = STRIP,
+    wheel: PinWheel, drive: Drivetrain, solids: Solids, places: Sequence[Position], cams: int, fineness: float = 1.0, strip: float = STRIP
 ) -> Bodies:
     """{("cam", j), ("shaft", side), ("ring", side, end), ("wheel",): Substructure} for all positions at once."""
     pairs = sorted({(place.pin(int(c), j, cams), j) for place in places for c in np.flatnonzero(place.kept(False)) for j in range(cams)})

@@ -57,14 +57,16 @@ def elastic_train(
 
 
 def profile_nodes(wheel: PinWheel, spacing: float) -> tuple[Complexes, Complexes]:
-    """(points, normals out of the cam) in equal steps of about `spacing` [m] along the profile, complex, in the middle of its chords."""
+    """(points, normals out of the cam) in equal steps of about `spacing` [m] along the profile, complex, on its chords."""
     nodes = wheel.nodes
     chord = nodes.b - nodes.a
     along = np.cumsum(np.abs(chord))
     count = int(np.ceil(along[-1] / spacing))
-    at = np.searchsorted(along, (np.arange(count) + 0.5) * along[-1] / count)
+    place = (np.arange(count) + 0.5) * along[-1] / count
+    at = np.searchsorted(along, place)
+    back = (along[at] - place) / np.abs(chord[at])
     outwards = -1j * wheel.orientation * (1.0 if wheel.side == "inside" else -1.0)
-    return 0.5 * (nodes.a + nodes.b)[at], outwards * (chord / np.abs(chord))[at]
+    return nodes.b[at] - back * chord[at], outwards * (chord / np.abs(chord))[at]
 
 
 def _cam_compliance(

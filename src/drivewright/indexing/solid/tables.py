@@ -65,9 +65,7 @@ def share_tables(angles: Floats, solid: SolidStiffness, lumped: TorsionalStiffne
         yield Table(name, title, (Column("angle", "rad", "input angle", angles), *columns))
 
 
-def surface_table(
-    solid: SolidStiffness, position: int, body: str = "cam", where: str = "", exaggeration: float | None = None
-) -> Table:
+def surface_table(solid: SolidStiffness, position: int, body: str = "cam", where: str = "", exaggeration: float | None = None) -> Table:
     """Table of a deformed body ("cam", "shaft", "wheel") at one position for a plot of style "mesh": three rows a triangle.
 
     The cam without its motion as a whole, the shaft against the housing; of the wheel, against its output, the half that moves most, seen
@@ -112,6 +110,4 @@ def assembly_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
         if name in tables:
             right, up, away = ("xyz"[axis] for axis, _ in drawn)
             reference = (f"rest_{right}", f"rest_{up}")
-            yield Plot(
-                name, tables[name].title, name, right, (up, away, "displacement"), equal=True, style="mesh", reference=reference
-            )
+            yield Plot(name, tables[name].title, name, right, (up, away, "displacement"), equal=True, style="mesh", reference=reference)

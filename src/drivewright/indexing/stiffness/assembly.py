@@ -93,8 +93,9 @@ def _pin_group(
     gap = np.zeros_like(pins.gap) if bonded else pins.gap
     offset = -np.tile(gap, layout.cams)[:, :, None]
     pin = drive.pins
-    if drive.bodies is not None and pin is not None:
-        return NonlinearGroup("pin", rows, offset, PinContactLaw(pin._replace(series=1 / _body_compliance(drive.bodies, pins, centres, layout.cams)), bonded))
+    if drive.bodies is not None and pin is not None and pin.line is not None:
+        compliance = _body_compliance(drive.bodies, pins, centres, layout.cams)
+        return NonlinearGroup("pin", rows, offset, PinContactLaw(pin, bonded, compliance))
     if pin is None or (pin.line is None and pin.series is None):
         return NonlinearGroup("pin", rows, offset, RigidContactLaw(np.zeros_like(offset), np.zeros(()), bonded))
     return NonlinearGroup("pin", rows, offset, PinContactLaw(pin, bonded))

@@ -77,9 +77,7 @@ def assembly_values(loaded: LoadedAssembly, model: str, forces: Table) -> dict[s
     ratio = float(np.mean(secant) / np.mean(lumped.secant[carried]))
     values |= {
         "assembly.stiffness.mean": _within_mesh(float(np.mean(secant)), "N m/rad", "mean secant stiffness of the assembly of solids"),
-        "assembly.stiffness.minimum": _within_mesh(
-            float(own.secant[least]), "N m/rad", "least secant stiffness of the assembly of solids"
-        ),
+        "assembly.stiffness.minimum": _within_mesh(float(own.secant[least]), "N m/rad", "least secant stiffness of the assembly of solids"),
         "assembly.stiffness.minimum.at": Value(float(angles[least]), "rad", "input angle of the least stiffness of the assembly"),
         "assembly.stiffness.ratio": _within_mesh(ratio, "-", "mean stiffness of the assembly over that of the lumped model"),
     }
