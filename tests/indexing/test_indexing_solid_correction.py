@@ -10,6 +10,7 @@ from drivewright.indexing.plane import find_contacts
 from drivewright.indexing.solid import Solids, solid_stiffness, usual_wheel
 from drivewright.indexing.solid.correction import elastic_train, profile_nodes
 from drivewright.indexing.stiffness import solve_torsional_stiffness
+from drivewright.indexing.stiffness.assembly import assemble_drivetrain, pad_contacts
 from drivewright.indexing.stiffness.layout import bending_flexibility
 from drivewright.shafts import COWPER
 
@@ -54,10 +55,23 @@ def test_a_cam_yields_as_at_its_nearest_nodes():
     points, normals = np.array([0j, 0.004 + 0j, 0.002 - 0.001j]), np.array([1j, 1j, -1j])
     bodies = BodyCompliance(0.008, points, normals, np.array([[1e-9, 3e-9, 9e-9], [2e-9, 6e-9, 9e-9]]), np.zeros((2, 2, 2)))
     gap = np.array([0.0, 0.0, 5e-4])
-    seen = np.array([0.0, 0.001, 0.002]) + 1j * (0.008 + gap)
+    seen = np.array([0.0, 0.001, 0.001]) + 1j * (0.008 + gap)
     centre, normal = np.full(3, 0.1 + 0j), np.full(3, 1j)
-    assert bodies.at(0, seen, centre, normal, gap) == pytest.approx([1e-9, 1.5e-9, 2e-9], rel=1e-6)
-    assert bodies.at(1, seen, centre, normal, gap) == pytest.approx([2e-9, 3e-9, 4e-9], rel=1e-6)
+    assert bodies.at(0, seen, centre, normal, gap) == pytest.approx([1e-9, 1.5e-9, 1.5e-9], rel=1e-6)
+    assert bodies.at(1, seen, centre, normal, gap) == pytest.approx([2e-9, 3e-9, 3e-9], rel=1e-6)
+
+
+def test_each_contact_gets_the_compliance_of_its_place():
+    """A cam that yields by the distance of the place from its centre; opposite cams are touched at the same places."""
+    bodies = alike(0.0, np.zeros((2, 2)))
+    bodies = bodies._replace(cams=np.abs(bodies.points) * np.array([[1e-8], [2e-8]]))
+    here, cam = find_contacts(wheel(), ANGLES[1]), 0.01 * np.exp(1j * ANGLES[1])
+    pins = pad_contacts([here], [here.intended])
+    law = assemble_drivetrain(drive(bodies=bodies), 2, np.array([cam]), pins, False).groups[0].law
+    at = (here.centre - 0.008 * here.normal - cam)[here.intended]
+    first, second = law.compliance.reshape(2, -1)
+    assert first == pytest.approx(1e-8 * np.abs(at), rel=0.03)
+    assert second == pytest.approx(2 * first, rel=1e-12)
 
 
 @pytest.mark.parametrize("side", ["inside", "outside"])

@@ -113,6 +113,31 @@ def test_a_bearing_yields_along_its_load(law):
     assert abs(y) > 0.05 * x
 
 
+def test_three_strains_that_act_on_one_another():
+    """A law F = K d with a full matrix K, between a point and the ground: d = K^-1 P, to a tangent of any axes."""
+    matrix = 1e8 * np.array([[3.0, 0.4, -0.9], [0.4, 1.0, 0.6], [-0.9, 0.6, 2.0]])
+    point = rigid_substructure([InterfaceLoad((n,), np.eye(3)[n], np.zeros(3)) for n in range(3)], (0, 1, 2))
+    rows = tuple(((("p",), (n,), 1.0),) for n in range(3))
+    law = NonlinearSpring("full", rows, lambda d: (0.5 * d @ matrix @ d, matrix @ d, matrix), 2e7, (0.0, 0.0, 0.0))
+    found = solve_nonlinear({("p",): point}, [], [law], (("p",), (1,), 2000.0))
+    assert found.coupled.displacements == pytest.approx(np.linalg.solve(matrix, [0, 2000.0, 0]), rel=1e-9)
+    assert found.steps <= 6
+
+
+def test_a_law_that_softens_needs_the_safeguard():
+    """F = F0 atan(d/d0): whole steps of Newton's method run away from a start beyond 1.4 d0."""
+    f0, d0, load = 1000.0, 1e-5, 1400.0
+
+    def soft(d):
+        x = d / d0
+        return float(f0 * d0 * (x * np.arctan(x) - 0.5 * np.log1p(x**2))[0]), f0 * np.arctan(x), np.diag(f0 / d0 / (1 + x**2))
+
+    spring = NonlinearSpring("soft", (((BAR, (0,), 1.0),),), soft, load / 30 / d0, (0.0,))
+    found = solve_nonlinear({BAR: bar(1e-9)}, [], [spring], (BAR, (1,), load))
+    assert found.coupled.strains == pytest.approx([d0 * np.tan(load / f0)], rel=1e-9)
+    assert found.steps < 40
+
+
 def test_at_its_secant_it_is_the_linear_solution():
     laws = [contact(Power(3e9, 1.3)), contact(Power(5e9, 1.4), end=1)]
     bodies, load = {BAR: bar(3e-9)}, (BAR, (1,), 800.0)
