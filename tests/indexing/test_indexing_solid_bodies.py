@@ -139,7 +139,8 @@ def test_the_mirrored_drive_is_as_stiff():
         for at, torque in ((theta, -900.0), (np.pi - theta, 900.0))
     )
     assert there.secant == pytest.approx(back.secant, rel=1e-3)
-    assert np.all(there.astray == 0)
+    for own, image in zip(there.pin_forces, back.pin_forces, strict=True):
+        assert np.sort(own.ravel())[-6:] == pytest.approx(np.sort(image.ravel())[-6:], rel=0.01, abs=0.01 * own.max())
 
 
 @needs_fe
@@ -151,8 +152,8 @@ def test_set_a_is_softer_than_the_reduced_model_says():
     assert sum(found.shares.values()) == pytest.approx(1 / found.secant, rel=1e-12)
     assert np.all(found.shares["shaft"] > found.reduced.shares["bending"] + found.reduced.shares["torsion"])  # shear, webs of the cranks
     assert np.all((found.shares["wheel"] < found.reduced.shares["pin"])[1:])  # pins held at both ends are stiffer than those of set A
-    assert 0.02 < found.astray[0] < 0.3, "horns as soft as those leave a pin that would have to pull"
-    assert np.all(found.astray[1:] == 0)
+    alike = [np.array_equal(own > 0, theirs > 0) for own, theirs in zip(found.pin_forces, found.reduced.pin_forces, strict=True)]
+    assert not alike[0], "horns as soft as those lift pins that the reduced model loads"
     assert found.unknowns["cam"] > 10_000 and found.seconds < 120
 
 

@@ -4,6 +4,7 @@ motion          the wheel's angle over the input's: step and dwell
 plane           plate cams and pins: paths, trimmed profiles, contacts, pitch point
 pin_wheel       cams on cranks inside or around the pins
 parallel        two plate cams on the input shaft
+body_compliance what cam, pin and wheel yield under one contact alone
 contacts        contacts of one cam with the pins at one position
 play            free rotation of the wheel
 pin_pressure    Hertz pressure of a pin, the contact that resists a torque best
@@ -13,7 +14,7 @@ drawing         outlines, poses and common normals of plate cams
 plate_views     scene, drawings and solids of drives with plate cams
 drivetrain      what yields: pins, bearings, split shafts, gears, wheel
 stiffness/      torsional stiffness, forces of pins and bearings, statics
-solid/          the same with finite elements (extra `fe`)
+solid/          the same with cams, shafts and wheel as solids in contact (extra `fe`)
 batch/          many pin wheels at once in compiled code
 roller_gear/    barrel and globoidal cams: flanks, trimming, play, stress, tables, scene, solids
 torsion_test/   evaluation of measured loops of torque and angle

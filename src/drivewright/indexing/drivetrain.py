@@ -14,7 +14,8 @@ import numpy as np
 from drivewright.bearings import BallBearing, RollerBearing, approximate_stiffness, contact_of
 from drivewright.bearings.approximate_stiffness import RadialStiffness
 from drivewright.errors import InputError
-from drivewright.shafts import Section
+from drivewright.indexing.body_compliance import BodyCompliance
+from drivewright.shafts import EULER_BERNOULLI, Section
 
 PALMGREN_LINE = 8.06e10  # N/m^2: F = 8.06e4 b^(8/9) s^(10/9) of one steel line contact in N and mm; Palmgren, recalled
 FORMULAS = {  # of the radial stiffness, by name and kind of contact
@@ -45,7 +46,10 @@ BearingModel: TypeAlias = PowerLawBearing | BallBearing | RollerBearing
 
 
 class SplitShaft(NamedTuple):
-    """A stepped shaft from z = 0: places of its gear, of its front and rear support and of the cams; Euler-Bernoulli beam and rod."""
+    """A stepped shaft from z = 0: places of its gear, of its front and rear support and of the cams; beam and rod.
+
+    shear: as in `shafts.model`, EULER_BERNOULLI or COWPER.
+    """
 
     sections: tuple[Section, ...]
     gear: float
@@ -53,6 +57,7 @@ class SplitShaft(NamedTuple):
     cams: tuple[float, ...]
     modulus: float
     poisson: float
+    shear: float = EULER_BERNOULLI
 
 
 class GearMesh(NamedTuple):
@@ -70,6 +75,7 @@ class Drivetrain(NamedTuple):
 
     crank, support, wheel: bearings of the cams, the shafts, the wheel: a PowerLawBearing or a rolling bearing of `drivewright.bearings`;
     housing [N/m]: radial stiffness of a seat of the supports, in series; wheel_torsion [N m/rad]: between pins and output.
+    bodies: what cams and wheel yield at every contact, in place of the spring behind it.
     """
 
     spacing: float
@@ -81,6 +87,7 @@ class Drivetrain(NamedTuple):
     gear: GearMesh | None = None
     wheel: BearingModel | None = None
     wheel_torsion: float | None = None
+    bodies: BodyCompliance | None = None
 
 
 def pin_contact(width: float, series: float | None = None) -> PinContact:

@@ -10,7 +10,8 @@ from drivewright import registry
 from drivewright._typing import Floats
 from drivewright.bearings import approximate_stiffness
 from drivewright.indexing import torsion_test
-from drivewright.reproduction.document import read_paper, still
+from drivewright.reproduction import indexer_solids as solids
+from drivewright.reproduction.document import LongRows, read_paper, still
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import drawing_of, scene_figure
 from drivewright.result import Result, Table
@@ -253,10 +254,16 @@ DRAW: dict[str, Callable[[], Any]] = {
     "Bearing stiffness": bearing_stiffness,
     "Fig. 11": contact_map,
     "Play": play,
+    "Assembly of solids": solids.assembly_stiffness,
+    "Assembly of solids, by bodies": solids.assembly_bodies,
     "Fig. 16": stiffness_curves,
     "Fig. 17": constant_bearings,
     "Band of fits and grades": clearances,
     "Compliance budget": budget,
 }
 
-paper = read_paper(numbers.source, {name: still(function) for name, function in DRAW.items()})
+paper = read_paper(
+    numbers.source,
+    {name: still(function) for name, function in DRAW.items()},
+    (LongRows("assembly of solids", solids.assembly_rows, solids=True),),
+)

@@ -5,6 +5,7 @@ Knows shapes, loads and springs, and no machine.  Volumes and surfaces of simple
 contact        elastic bodies pressed on each other
 cad            CAD solids of parts with Netgen's OpenCASCADE kernel
 coupling       the equilibrium of substructures on linear springs
+nonlinear_coupling  the same on springs with laws of their own: contacts, bearings
 deformation    the displaced surface of a solid
 engine         the door to Netgen and NGSolve
 facets         closed triangle surfaces of parts
@@ -29,6 +30,7 @@ _WHERE = {
     "elastic": ("FreeBody", "Plane", "Response", "SpringSupported", "spring_supported", "superposed_field"),
     "facets": ("surface_triangles",),
     "meshing": ("boundary_measure", "check_boundary_measures", "solid_mesh"),
+    "nonlinear_coupling": ("NonlinearSolution", "NonlinearSpring", "solve_nonlinear"),
     "plane": ("PlaneBody", "Rim", "StressSurface", "field_table", "order_error", "plane_von_mises"),
     "plane_meshing": ("plane_mesh",),
     "stresses": ("SkinStress", "skin_stress"),

@@ -242,7 +242,8 @@ def _draw_intervals(axis, series, x, isolated):
 def _draw_bars(axis, lines, x):
     """Stacked bars, what is negative below zero; a diamond marks the sum of several, error bars the intervals of a single one."""
     above, below = np.zeros(len(x)), np.zeros(len(x))
-    width = 0.6 if len(x) <= FEW else 0.85 * np.min(np.diff(x))
+    apart = np.min(np.diff(x)) if len(x) > 1 else 1.0
+    width = (0.6 if len(x) <= FEW else 0.85) * apart
     for number, series in enumerate(lines):
         up, down = np.maximum(series.data, 0.0), np.minimum(series.data, 0.0)
         look = {"width": width, "color": colour(series.role), "edgecolor": "white", "lw": 0.4, "hatch": "//" * (number // len(SERIES))}

@@ -8,10 +8,10 @@ import pytest
 import drivewright as dw
 from drivewright import bearings, registry
 from drivewright.indexing.solid import ShaftBody
+from drivewright.indexing.solid.parts import seated
 from drivewright.indexing.stiffness import statics
 from drivewright.indexing.stiffness.laws import radial_bearing_law
 from drivewright.indexing.stiffness.rolling import rolling_bearing_law
-from drivewright.oracles.indexer.independent_check import seated
 from drivewright.runner import build
 from drivewright.units import SI
 

@@ -8,8 +8,9 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.errors import InputError
-from drivewright.indexing.drivetrain import Drivetrain
+from drivewright.indexing.drivetrain import Drivetrain, SplitShaft
 from drivewright.indexing.pin_wheel import PinWheel
+from drivewright.shafts import Section
 
 STEEL, POISSON = 206e9, 0.3
 
@@ -76,6 +77,22 @@ def usual_wheel(wheel: PinWheel, drive: Drivetrain, width: float, ends: int = 2)
     first, last = min(drive.shaft.cams) - 0.75 * width, max(drive.shaft.cams) + 0.75 * width
     rings = ((first - 3 * pin, first), (last, last + 3 * pin))[2 - ends :]
     return WheelBody(rings, bore, rim, drum, drum if ends == 2 else None)
+
+
+def seated(shaft: SplitShaft | None, body: ShaftBody | None) -> SplitShaft | None:
+    """The split shaft with seats under its supports, as wide as the bearings and of the thinner of the diameters that meet there."""
+    if shaft is None or body is None:
+        return shaft
+    ends = np.cumsum([0.0, *(section.length for section in shaft.sections)])
+    edges = [(z - body.support_width / 2, z + body.support_width / 2) for z in shaft.supports]
+    cuts = np.unique(np.round([*ends, *(min(max(z, 0.0), ends[-1]) for edge in edges for z in edge)], 12))
+    pieces = []
+    for low, high in zip(cuts[:-1], cuts[1:], strict=True):
+        middle = 0.5 * (low + high)
+        spots = [middle, *(z for a, b in edges if a < middle < b for z in (a, b))]
+        meeting = [shaft.sections[min(int(np.searchsorted(ends, z, side="right")) - 1, len(shaft.sections) - 1)].start for z in spots]
+        pieces.append(Section(float(high - low), min(meeting), min(meeting)))
+    return shaft._replace(sections=tuple(pieces))
 
 
 def check(solids: Solids, wheel: PinWheel, drive: Drivetrain, cams: int) -> None:

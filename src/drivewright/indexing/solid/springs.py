@@ -1,6 +1,6 @@
-"""The linear springs between the bodies at one position: each law at its secant in the equilibrium of the reduced model.
+"""The springs between the bodies of an indexer at one position, with the laws of the reduced model.
 
-A spring's force is s = stiffness (d - offset) at the strain d.  With the bodies of the reduced model they give its own displacements.
+Bodies are ("cam", j), ("shaft", side), ("ring", side, end) of a support in its housing and ("wheel",).
 """
 
 from collections.abc import Iterator, Sequence
@@ -8,138 +8,128 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from drivewright._typing import Complexes, Floats
-from drivewright.contact import PowerLaw, power_law_depth
-from drivewright.errors import SolverError
+from drivewright._typing import Bools
 from drivewright.indexing.contacts import CamContacts
-from drivewright.indexing.drivetrain import SIDES, BearingModel, Drivetrain, GearMesh, PinContact, PowerLawBearing
+from drivewright.indexing.drivetrain import SIDES, BearingModel, Drivetrain, GearMesh, PinContact
 from drivewright.indexing.solid.bodies import TURN_RADIUS
 from drivewright.indexing.stiffness.assembly import cam_phases, flank_directions
-from drivewright.indexing.stiffness.laws import pin_compliance, radial_bearing_law
-from drivewright.solids.coupling import BodyName, InterfaceSpring
+from drivewright.indexing.stiffness.laws import GearFlankLaw, PinContactLaw, radial_bearing_law
+from drivewright.indexing.stiffness.solve import CONTACT_GAP
+from drivewright.solids.coupling import BodyName, InterfaceSpring, StrainTerm
+from drivewright.solids.nonlinear_coupling import NonlinearSpring
 from drivewright.solids.substructures import InterfaceName
 
-Term: TypeAlias = tuple[BodyName, InterfaceName, float]  # body, functional, factor
-
-LEAST = 1e-6  # of the typical force: below it a bearing keeps the secant that it has there
-MOST_STEPS = 100
+Spring: TypeAlias = InterfaceSpring | NonlinearSpring
 
 
 class Position(NamedTuple):
-    """One position of the reduced model: crank angle with its sense, wheel's angle and number of pins, contacts, forces."""
+    """One position: number, crank angle with its sense, wheel's angle and number of pins, contacts of cam 0."""
 
+    number: int
     crank: float
     wheel: float
     of_wheel: int
     contacts: CamContacts
-    pins: Floats  # (cams, k) [N]
-    cranks: Complexes  # (2, cams) [N]
-    supports: Complexes  # (2, 2) [N]
-    gears: Complexes  # (2,) [N]
-    bearing: complex
+
+    def kept(self, bonded: bool) -> Bools:
+        """Which contacts take part: all that may close, of bonded ones the intended ones without a gap."""
+        here = self.contacts
+        return here.intended & (here.gap < CONTACT_GAP) if bonded else np.isfinite(here.gap)
+
+    def pin(self, c: int, cam: int, cams: int) -> int:
+        """Number of the pin at contact c of a cam: what touches cam 0, a part j/n of the wheel on."""
+        return int(self.contacts.pin[c] + self.of_wheel * cam // cams) % self.of_wheel
 
 
-def springs(drive: Drivetrain, place: Position, number: int, both: bool, solid_pins: bool) -> Iterator[InterfaceSpring]:
-    """All `InterfaceSpring`s of a `Position`; bodies are ("cam", j), ("shaft", side), ("wheel",), `number` is that of the position."""
-    typical = np.abs(place.cranks).max()
-    yield from _pins(drive, place, number, both, solid_pins)
+class PositionSettings(NamedTuple):
+    """What is alike at all positions: number of cams, whether pins stick, whether the wheel is a solid, a usual force [N]."""
+
+    cams: int
+    bonded: bool
+    solid_wheel: bool
+    usual: float
+
+
+def springs_between(drive: Drivetrain, place: Position, settings: PositionSettings) -> Iterator[Spring]:
+    """All springs of a `Position`, linear ones and those with laws of their own."""
+    yield from _pins(drive, place, settings)
     for side in (0, 1):
-        for j, way in enumerate(cam_phases(len(place.pins))):
-            seat = _vector(("cam", j), ("seat", side), 1 / way, 1.0)
-            journal = _vector(("shaft", side), ("crank", j), np.exp(-1j * place.crank), -1.0)
-            yield from _bearing("crank", drive.crank, place.cranks[side, j], typical, [a + b for a, b in zip(seat, journal, strict=True)])
+        yield from _cranks(drive, place, settings, side)
         for end in (0, 1):
-            rows = _vector(("shaft", side), ("support", end), np.exp(-1j * place.crank), 1.0)
-            yield from _bearing("support", drive.support, place.supports[side, end], typical, rows, drive.housing)
+            yield from _support(drive, place, settings, side, end)
         yield from _gear(drive.gear, place, side)
     flange = _vector(("wheel",), ("flange",), np.exp(-1j * place.wheel), 1.0)
-    yield from _bearing("wheel bearing", drive.wheel, place.bearing, typical, flange)
+    yield from _bearing("wheel bearing", drive.wheel, settings.usual, flange)
+    if settings.solid_wheel:  # its output does not move along the axis, nor tilt
+        for motion in (2, 3, 4):
+            yield InterfaceSpring("output", ((("wheel",), ("flange", motion), 1.0),), 0.0)
 
 
-def _vector(body: BodyName, name: InterfaceName, back: complex, factor: float) -> list[tuple[Term, ...]]:
+def _vector(body: BodyName, name: InterfaceName, back: complex, factor: float) -> list[tuple[StrainTerm, ...]]:
     """Terms of the two components of a displacement, `back` turning them into the body's own frame."""
     return [
         tuple((body, (*name, axis), factor * part) for axis, part in enumerate((turned.real, turned.imag))) for turned in (back, 1j * back)
     ]
 
 
-def _pins(drive: Drivetrain, place: Position, number: int, both: bool, solid_pins: bool) -> Iterator[InterfaceSpring]:
-    """d = n . u_cam - n . u_pin of the contacts that carry; a solid pin yields itself, in place of the spring behind the contact."""
-    yielding = PinContact() if drive.pins is None else drive.pins._replace(series=None) if solid_pins else drive.pins
+def _pins(drive: Drivetrain, place: Position, settings: PositionSettings) -> Iterator[Spring]:
+    """d = n . u_cam - n . u_pin less the gap of every contact; a solid pin yields itself, in place of the spring behind the contact."""
+    yielding = PinContact() if drive.pins is None else drive.pins
+    pin = yielding._replace(series=None) if settings.solid_wheel else yielding
+    rigid = pin.line is None and pin.series is None
+    law = None if rigid else PinContactLaw(pin, settings.bonded)
     back = np.exp(-1j * place.wheel)
-    for j, way in enumerate(cam_phases(len(place.pins))):
-        for c, force in enumerate(place.pins[j]):
-            if force == 0:
-                continue
-            normal = place.contacts.normal[c] * way * back
-            pin = _pin(place, c, j)
+    for j, way in enumerate(cam_phases(settings.cams)):
+        for c in np.flatnonzero(place.kept(settings.bonded)):
+            normal, number = place.contacts.normal[c] * way * back, place.pin(int(c), j, settings.cams)
             terms = (
-                (("cam", j), ("contact", number, c), 1.0),
-                (("wheel",), ("pin", pin, j, 0), -normal.real),
-                (("wheel",), ("pin", pin, j, 1), -normal.imag),
+                (("cam", j), ("contact", place.number, int(c)), 1.0),
+                (("wheel",), ("pin", number, j, 0), -normal.real),
+                (("wheel",), ("pin", number, j, 1), -normal.imag),
             )
-            yield InterfaceSpring("pin", terms, pin_compliance(yielding, abs(force)), 0.0 if both else place.contacts.gap[c])
+            if rigid and settings.bonded:
+                yield InterfaceSpring("pin", terms, 0.0)
+                continue
+            gap = 0.0 if settings.bonded else float(place.contacts.gap[c])
+            usual = settings.usual if law is None else law.secant(settings.usual)
+            yield NonlinearSpring("pin", (terms,), law, usual if gap < CONTACT_GAP else 0.0, (gap,))
 
 
-def _pin(place: Position, c: int, j: int) -> int:
-    """Number of the pin at contact c of cam j: what touches cam 0, a part j/n of the wheel on."""
-    return int(place.contacts.pin[c] + place.of_wheel * j // len(place.pins)) % place.of_wheel
+def _cranks(drive: Drivetrain, place: Position, settings: PositionSettings, side: int) -> Iterator[Spring]:
+    for j, way in enumerate(cam_phases(settings.cams)):
+        seat = _vector(("cam", j), ("seat", side), 1 / way, 1.0)
+        journal = _vector(("shaft", side), ("crank", j), np.exp(-1j * place.crank), -1.0)
+        yield from _bearing("crank", drive.crank, settings.usual, [a + b for a, b in zip(seat, journal, strict=True)])
 
 
-def touched(place: Position) -> tuple[set[tuple[int, int]], set[int]]:
-    """({(pin, cam)}, {contact}) of all contacts that carry."""
-    at = [(int(j), int(c)) for j, c in np.argwhere(place.pins)]
-    return {(_pin(place, c, j), j) for j, c in at}, {c for _, c in at}
+def _support(drive: Drivetrain, place: Position, settings: PositionSettings, side: int, end: int) -> Iterator[Spring]:
+    """A support bearing between the shaft and its ring, and the ring in the housing."""
+    rows = _vector(("shaft", side), ("support", end), np.exp(-1j * place.crank), 1.0)
+    ring = _vector(("ring", side, end), (), 1.0, -1.0)
+    yield from _bearing("support", drive.support, settings.usual, [a + b for a, b in zip(rows, ring, strict=True)])
+    for axis in (0, 1):
+        yield InterfaceSpring("support", ((("ring", side, end), (axis,), 1.0),), 0.0 if drive.housing is None else 1 / drive.housing)
 
 
-def _bearing(
-    group: str, bearing: BearingModel | None, force: complex, typical: float, rows: Sequence[Sequence[Term]], behind: float | None = None
-) -> Iterator[InterfaceSpring]:
-    """Two springs with the secant of a bearing's law, alike in all directions, and a stiffness behind it."""
-    softness = 0.0 if behind is None else 1 / behind
-    offset = 0j
-    if bearing is not None:
-        force = force if abs(force) > LEAST * typical else complex(LEAST * typical)
-        away = displacement(bearing, force)
-        secant = (away / force).real
-        softness, offset = softness + secant, away - secant * force
-    for row, part in zip(rows, (offset.real, offset.imag), strict=True):
-        yield InterfaceSpring(group, tuple(row), softness, part)
+def _bearing(group: str, bearing: BearingModel | None, usual: float, rows: Sequence[tuple[StrainTerm, ...]]) -> Iterator[Spring]:
+    if bearing is None:
+        yield from (InterfaceSpring(group, row, 0.0) for row in rows)
+    else:
+        law = radial_bearing_law(bearing)
+        yield NonlinearSpring(group, tuple(rows), law, float(law.secant(usual)), (0.0, 0.0))
 
 
-def displacement(bearing: BearingModel, force: complex) -> complex:
-    """Displacement [m] of a bearing under a radial force [N], both complex."""
-    if isinstance(bearing, PowerLawBearing):
-        depth = float(power_law_depth(PowerLaw(bearing.constant, bearing.exponent), abs(force)))
-        return force / abs(force) * (depth + bearing.clearance)
-    law, wanted = radial_bearing_law(bearing), np.array([force.real, force.imag])
-    at = wanted / law.secant(abs(force))
-    energy, found, slope = law(at)
-    for _ in range(MOST_STEPS):
-        missing = wanted - found
-        if np.abs(missing).max() < 1e-10 * abs(force):
-            return complex(at[0], at[1])
-        step, value = np.linalg.solve(slope + 1e-9 * np.trace(slope) * np.eye(2), missing), energy - wanted @ at
-        while (trial := law(at + step))[0] - wanted @ (at + step) > value + 1e-14 * abs(value):
-            step = step / 2
-        at, (energy, found, slope) = at + step, trial
-    raise SolverError(f"solid check: no displacement of a bearing under {abs(force):.4g} N found; is that far beyond what it carries?")
-
-
-def _gear(gear: GearMesh | None, place: Position, side: int) -> Iterator[InterfaceSpring]:
-    """The flanks that carry, or the shaft held where the gear would sit."""
+def _gear(gear: GearMesh | None, place: Position, side: int) -> Iterator[Spring]:
+    """Both flanks, of which only one presses, or the shaft held where the gear would sit."""
     if gear is None:
         yield InterfaceSpring("gear", ((("shaft", side), ("gear", "turn"), 1.0),), 0.0)
         return
-    directions = flank_directions(gear, side)
-    pressed = np.linalg.solve([directions.real, directions.imag], [place.gears[side].real, place.gears[side].imag])
-    for force, along in zip(pressed, directions, strict=True):
-        if force > LEAST * np.abs(pressed).max():
-            turned = along * np.exp(-1j * place.crank)
-            arm = -SIDES[side] * gear.pitch_radius * along.imag
-            terms = (
-                (("shaft", side), ("gear", 0), -turned.real),
-                (("shaft", side), ("gear", 1), -turned.imag),
-                (("shaft", side), ("gear", "turn"), -arm / TURN_RADIUS),
-            )
-            yield InterfaceSpring("gear", terms, 1 / gear.stiffness, gear.backlash / 2)
+    for along in flank_directions(gear, side):
+        turned = along * np.exp(-1j * place.crank)
+        arm = -SIDES[side] * gear.pitch_radius * along.imag
+        terms = (
+            (("shaft", side), ("gear", 0), -turned.real),
+            (("shaft", side), ("gear", 1), -turned.imag),
+            (("shaft", side), ("gear", "turn"), -arm / TURN_RADIUS),
+        )
+        yield NonlinearSpring("gear", (terms,), GearFlankLaw(gear.stiffness), gear.stiffness, (gear.backlash / 2,))

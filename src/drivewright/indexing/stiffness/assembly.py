@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Bools, Complexes, Floats
+from drivewright.indexing.body_compliance import BodyCompliance
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.drivetrain import SIDES, Drivetrain, GearMesh
 from drivewright.indexing.stiffness import layout as unknowns
@@ -92,9 +93,21 @@ def _pin_group(
     gap = np.zeros_like(pins.gap) if bonded else pins.gap
     offset = -np.tile(gap, layout.cams)[:, :, None]
     pin = drive.pins
+    if drive.bodies is not None and pin is not None and pin.line is not None:
+        compliance = _body_compliance(drive.bodies, pins, centres, layout.cams)
+        return NonlinearGroup("pin", rows, offset, PinContactLaw(pin, bonded, compliance))
     if pin is None or (pin.line is None and pin.series is None):
         return NonlinearGroup("pin", rows, offset, RigidContactLaw(np.zeros_like(offset), np.zeros(()), bonded))
     return NonlinearGroup("pin", rows, offset, PinContactLaw(pin, bonded))
+
+
+def _body_compliance(bodies: BodyCompliance, pins: PaddedContacts, centres: Complexes, cams: int) -> Floats:
+    """(p, cams k, 1) [m/N]: what cams and pins yield at every contact, cam 0's first; of padding anything above 0."""
+    p, k = pins.real.shape
+    seen, found = pins.centre - centres[:, None], np.full((p, cams, k), np.inf)
+    for j in range(cams):
+        found[:, j][pins.real] = bodies.at(j, seen[pins.real], pins.centre[pins.real], pins.normal[pins.real], pins.gap[pins.real])
+    return np.where(np.isfinite(found), found, np.nanmin(found, initial=1.0)).reshape(p, cams * k, 1)
 
 
 def _crank_group(drive: Drivetrain, layout: StiffnessLayout, lever: float, centres: Complexes) -> NonlinearGroup:

@@ -20,10 +20,13 @@ TINY = 1e-300
 
 
 class LineContact(NamedTuple):
-    """A one-sided line contact F = line s^(10/9) with a compliance [m/N], F compliance, in series; line in [N/m^(10/9)]."""
+    """A one-sided line contact F = line s^(10/9) with a compliance [m/N], F compliance, in series; line in [N/m^(10/9)].
+
+    An array of compliances, in the shape of the approaches, where contacts differ.
+    """
 
     line: float
-    compliance: float
+    compliance: float | Floats
 
 
 class ContactResponse(NamedTuple):
@@ -112,17 +115,21 @@ class ForceLaw(Protocol):
 
 
 class PinContactLaw(NamedTuple):
-    """Contacts (cams' pins): force of a `PinContact` against approach; `bonded`: they also pull, as if bonded."""
+    """Contacts (cams' pins): force of a `PinContact` against approach; `bonded`: they also pull, as if bonded.
+
+    compliance [m/N], of the shape of the strains: behind each contact in place of `pin.series`, where contacts differ.
+    """
 
     pin: PinContact
     bonded: bool
+    compliance: Floats | None = None
 
     @property
     def one_sided(self) -> LineContact | PowerLaw:
         """The law of an approach that closes the contact."""
         line, series = self.pin
         if line is not None:
-            return LineContact(line, 0.0 if series is None else 1.0 / series)
+            return LineContact(line, self.compliance if self.compliance is not None else 0.0 if series is None else 1.0 / series)
         assert series is not None  # a pin without both is rigid
         return PowerLaw(series, 1.0)
 
@@ -133,7 +140,9 @@ class PinContactLaw(NamedTuple):
 
     def secant(self, force: float) -> float:
         """F/d [N/m]."""
-        return 1.0 / pin_compliance(self.pin, force)
+        if self.compliance is None:
+            return 1.0 / pin_compliance(self.pin, force)
+        return 1.0 / (pin_compliance(self.pin._replace(series=None), force) + float(np.median(self.compliance)))
 
 
 def pin_compliance(pin: PinContact, force: float) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.indexing.drivetrain import SIDES, Drivetrain, SplitShaft
-from drivewright.shafts import EULER_BERNOULLI, Shaft
+from drivewright.shafts import Shaft
 
 if TYPE_CHECKING:
     from drivewright.shafts.beam import Beam
@@ -184,5 +184,5 @@ def _beam_of(shaft: SplitShaft) -> "Beam":
     from drivewright.shafts.beam import beam
 
     return beam(
-        Shaft(shaft.sections, shaft.modulus, shaft.poisson, 0.0, (), shear=EULER_BERNOULLI), (*shaft.supports, *station_positions(shaft))
+        Shaft(shaft.sections, shaft.modulus, shaft.poisson, 0.0, (), shear=shaft.shear), (*shaft.supports, *station_positions(shaft))
     )

@@ -96,8 +96,9 @@ def newton_work(unknowns: int, strains: int) -> NewtonWork:
 
 
 def is_compiled(system: ConvexEnergy) -> bool:
-    """Whether all laws of the energy have a formula of single strains here."""
-    return all(isinstance(part.law, COMPILED) for part in system.parts)
+    """Whether all laws of the energy have a formula of single strains here, with the same constants at all contacts."""
+    alike = (part.law.compliance is None for part in system.parts if isinstance(part.law, PinContactLaw))
+    return all(isinstance(part.law, COMPILED) for part in system.parts) and all(alike)
 
 
 def constants_of(law: StrainLaw) -> tuple[int, tuple[float, float, float]]:
@@ -111,7 +112,7 @@ def constants_of(law: StrainLaw) -> tuple[int, tuple[float, float, float]]:
     assert isinstance(law, PinContactLaw)
     one_sided = law.one_sided
     if isinstance(one_sided, LineContact):
-        return LINE, (one_sided.line, one_sided.compliance, float(law.bonded))
+        return LINE, (one_sided.line, float(one_sided.compliance), float(law.bonded))
     return SPRING, (one_sided.k, 0.0, float(law.bonded))
 
 

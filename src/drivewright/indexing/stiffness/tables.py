@@ -46,19 +46,29 @@ def stiffness_table(
 
 
 def pin_force_table(
-    angles: Floats, contacts: Sequence[CamContacts], result: TorsionalStiffness, pin_radius: float, width: float, modulus: float
+    angles: Floats,
+    contacts: Sequence[CamContacts],
+    pin_forces: Sequence[Floats],
+    pin_radius: float,
+    width: float,
+    modulus: float,
+    name: str = "pin_forces",
+    title: str = "Forces of the cams on the pins",
 ) -> Table:
-    """Force and Hertz pressure of every loaded contact, one row each; lengths [m], effective modulus E* [Pa]."""
+    """Force and Hertz pressure of every loaded contact, one row each.
+
+    pin_forces: (cams, k) [N] a position, as of a `TorsionalStiffness`; lengths [m], effective modulus E* [Pa].
+    """
     rows = []
-    for angle, each, forces in zip(angles, contacts, result.pin_forces, strict=True):
+    for angle, each, forces in zip(angles, contacts, pin_forces, strict=True):
         for cam, row in enumerate(forces):
             for k in np.flatnonzero(np.nan_to_num(row) != 0):
                 pressure = pin_pressure(row[k], each.curvature[k], pin_radius, width, modulus)
                 rows.append((angle, cam, each.pin[k], row[k], each.arm[k], pressure))
     data = np.array(rows, dtype=float).reshape(-1, 6).T
     return Table(
-        "pin_forces",
-        "Forces of the cams on the pins",
+        name,
+        title,
         (
             Column("angle", "rad", "input angle", data[0]),
             Column("cam", "-", "cam", data[1]),

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
-from drivewright.mechanisms.indexer import geometry, loads, roller, stiffness, stress, torsion
+from drivewright.mechanisms.indexer import assembly, geometry, loads, roller, stiffness, stress, torsion
 from drivewright.mechanisms.indexer.batch import batch
 from drivewright.mechanisms.indexer.build import IndexerModel, build
 from drivewright.mechanisms.indexer.claims import claims
@@ -34,6 +34,13 @@ ANALYSES = (
     Analysis("play", by_kind(geometry.free_play, roller.free_play), "free rotation of the wheel in either direction", needs=("profile",)),
     Analysis("stress", stress.stress, "forces and contact pressure of the rollers", needs=("profile",), missing=stress.no_stress),
     Analysis("stiffness", stiffness.torsional, "torsional stiffness and who yields", missing=stiffness.no_stiffness),
+    Analysis(
+        "assembly",
+        assembly.assembly,
+        "cams, shafts and wheel as solids in contact: torsional stiffness, and which body yields",
+        default=False,
+        missing=assembly.no_assembly,
+    ),
     Analysis("bearings", loads.bearing_loads, "loads and lives of the bearings", missing=loads.no_loads),
 )
 
@@ -52,6 +59,9 @@ HEADLINE = (
     "stiffness.minimum.at",
     "stiffness.range",
     "stiffness.undefined_fraction",
+    "assembly.stiffness.mean",
+    "assembly.stiffness.minimum",
+    "assembly.stiffness.ratio",
     "pins.max_force",
     "crank.max_load",
     "support.max_load",

@@ -46,7 +46,12 @@ def batch(spec: IndexerSpec, keys: Sequence[str], names: Sequence[str]) -> Calla
 
     A design that is refused is nan in every name; a value that does not exist for a design is nan.
     """
-    if spec.kind not in TRANSLATING or spec.load.angle is not None or not all(_is_number(spec, key) for key in keys):
+    if (
+        spec.kind not in TRANSLATING
+        or spec.bodies != "rigid"
+        or spec.load.angle is not None
+        or not all(_is_number(spec, key) for key in keys)
+    ):
         return None
     refuse_contradictions(spec)
     measures = _measures(with_columns(spec, {key: sample_of(spec, key) for key in keys if value_at(spec, key) is None}), names)

@@ -18,6 +18,7 @@ from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.plane import index_angles
 from drivewright.indexing.roller_gear.design import RollerGear, barrel, globoidal
 from drivewright.indexing.stiffness.loading import LoadedWheel
+from drivewright.mechanisms.indexer.bodies import solid_parts
 from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, required, unused
 from drivewright.mechanisms.indexer.spec import IndexerBearings, IndexerShafts, IndexerSpec
 
@@ -81,6 +82,12 @@ class IndexerModel:
     @property
     def loaded_wheel(self) -> LoadedWheel:
         """The pin wheel with its drive train, for the stiffness; of translating kinds alone."""
+        train = _of_kind(self.train, drivetrain.Drivetrain) if self.spec.bodies == "rigid" else _elastic_train(self)
+        return LoadedWheel(self.wheel, train, self.spec.cams, self.spec.contact.model, self.compiled)
+
+    @property
+    def rigid_wheel(self) -> LoadedWheel:
+        """The same with rigid bodies, whatever the spec says of them."""
         return LoadedWheel(self.wheel, _of_kind(self.train, drivetrain.Drivetrain), self.spec.cams, self.spec.contact.model, self.compiled)
 
     @property
@@ -116,6 +123,14 @@ def once(function: Callable[[IndexerModel], ResultT]) -> Callable[[IndexerModel]
         return model.results[name]
 
     return kept
+
+
+@once
+def _elastic_train(model: IndexerModel) -> drivetrain.Drivetrain:
+    """The drive train whose contacts and shafts yield as its bodies do; of an analysis, since it takes long."""
+    from drivewright.indexing.solid.correction import elastic_train
+
+    return elastic_train(model.wheel, _of_kind(model.train, drivetrain.Drivetrain), solid_parts(model), cams=model.spec.cams)
 
 
 def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from typing import Any
 
+from drivewright.indexing.solid.tables import assembly_plots
 from drivewright.indexing.stiffness.tables import stiffness_plots
 from drivewright.result import Plot, Result
 
@@ -30,3 +31,4 @@ def _all(result: Result[Any]) -> Iterator[Plot]:
     ways, limit = ("forward", "backward"), (("play.forward", "limit"),)
     yield Plot("play", title, "play", "angle", ways, limit, unit="arcmin", whole=True)
     yield from stiffness_plots(result.tables)
+    yield from assembly_plots(result.tables)

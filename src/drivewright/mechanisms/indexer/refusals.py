@@ -19,6 +19,7 @@ OWN = {  # keys that only some kinds have
     "cams": TRANSLATING,
     "side": TRANSLATING,
     "shaft_spacing": TRANSLATING,
+    "bodies": TRANSLATING,
     "cam_width": (*TRANSLATING, "parallel"),
     "centre_distance": ("parallel", "barrel", "globoidal"),
     "pin_length": ("barrel", "globoidal"),
@@ -39,7 +40,7 @@ def required(spec: IndexerSpec, key: str) -> float:
 
 def refuse_contradictions(spec: IndexerSpec) -> None:
     """SpecError for the first key that is missing for the kind or contradicts another."""
-    for check in (_kind, _motion, _pins, _drive, _bearings):
+    for check in (_kind, _motion, _pins, _drive, _bearings, _bodies):
         check(spec)
 
 
@@ -132,3 +133,13 @@ def _bearings(spec: IndexerSpec) -> None:
             )
         if given.stiffness is not None and given.law != "elements":
             raise SpecError(f"law = {given.law!r} needs a bearing; a constant stiffness is a law of its own", f"{key}.law")
+
+
+def _bodies(spec: IndexerSpec) -> None:
+    sizes = spec.crank_bearings is not None and spec.crank_bearings.bearing is not None
+    if spec.kind in TRANSLATING and spec.bodies == "elastic" and not sizes:
+        raise SpecError(
+            '"elastic" needs the size of the bodies: give crank_bearings.bearing, which tells the holes of the cams and the crank pins, or '
+            'take "rigid"',
+            "bodies",
+        )

@@ -164,6 +164,11 @@ class IndexerSpec(MechanismSpec):
     shafts: IndexerShafts | None = Field(None, description="split shafts; rigid unless given")
     gear: IndexerGear | None = Field(None, description="gears; rigid unless given")
     housing: IndexerHousing | None = Field(None, description="housing and wheel; rigid unless given")
+    bodies: Literal["rigid", "elastic"] = Field(
+        "rigid",
+        description="cams, pins and wheel in the stiffness: rigid, pins by contact.pin_stiffness; elastic: each contact yields as finite "
+        "elements of its bodies do, and shafts shear (some 30 s once, extra fe)",
+    )
     manufacture: Machining = Field(Machining(), description="milling of plate cams, for exports")
     limits: IndexerLimits = Field(IndexerLimits(), description="requirements")
 

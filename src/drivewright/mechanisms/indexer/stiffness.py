@@ -48,7 +48,7 @@ def dwell_stiffness(model: IndexerModel) -> Answer:
     if model.spec.load.angle is not None or not len(angles):
         return Answer()
     result, contacts = solve_loaded(model.loaded_wheel, angles, model.torque)
-    values = dwell_values(angles, result, pin_force_table(angles, contacts, result, *model.pin_measures))
+    values = dwell_values(angles, result, pin_force_table(angles, contacts, result.pin_forces, *model.pin_measures))
     return Answer(values, checks=tuple(_held(model, "held.dwell", values.get("dwell.undefined_fraction"), "dwell")))
 
 
@@ -74,7 +74,7 @@ def _after_play(model):
 def _pin_forces(model):
     """Table of the forces on the pins after the play."""
     loaded, touching, _ = _after_play(model)
-    return pin_force_table(model.angles, touching, loaded, *model.pin_measures)
+    return pin_force_table(model.angles, touching, loaded.pin_forces, *model.pin_measures)
 
 
 def _held(model: IndexerModel, name: str, lost: Value | None, words: str) -> Iterator[Check]:

@@ -10,16 +10,15 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.indexing import roller_gear, solid
-from drivewright.indexing.drivetrain import SplitShaft
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.plane import PlaneDrive, find_contacts, pitch_point
 from drivewright.indexing.roller_gear import RollerGear
 from drivewright.indexing.roller_gear.envelope import rotate_about_y
 from drivewright.indexing.stiffness.loading import solve_loaded
+from drivewright.mechanisms.indexer.bodies import solid_parts
 from drivewright.mechanisms.indexer.build import IndexerModel
 from drivewright.registry import Row
 from drivewright.result import Result
-from drivewright.shafts import Section
 
 POLYGON = "centre curve widened by the pin, as a polygon"
 SWEPT = "distance of points of the flanks from the axes of all rollers at 2880 input angles"
@@ -94,45 +93,16 @@ def _flanks(cam: RollerGear, count: int = 200) -> Iterator[Row]:
 
 
 def _solids(model: IndexerModel) -> Iterator[Row]:
-    """Torsional stiffness at three angles with the contact state and the bearing values of the reduced model."""
+    """Torsional stiffness at three angles, the contact state and the forces of the bearings those of the solids."""
     parts, train = solid_parts(model), model.train
     if train is None or not any(parts):
         return
     angles = model.angles if len(model.angles) == 1 else model.wheel.motion.motion_angle * np.array(ANGLES)
     reduced, near = solve_loaded(model.loaded_wheel, angles, model.torque)
-    train = train._replace(shaft=seated(train.shaft, parts.shaft))
+    train = train._replace(shaft=solid.seated(train.shaft, parts.shaft))
     elastic = solid.solid_stiffness(
         model.wheel, train, parts, angles, near, model.torque, cams=model.spec.cams, model=model.spec.contact.model
     )
     for angle, ours, other in zip(angles, reduced.secant, elastic.secant, strict=True):
         if np.isfinite(other) and np.isfinite(ours):
             yield f"stiffness at {np.degrees(angle):.4g} deg", float(ours), float(other), "N m/rad", ALLOWED * ours, SOLID
-
-
-def seated(shaft: SplitShaft | None, body: solid.ShaftBody | None) -> SplitShaft | None:
-    """The split shaft with seats under its supports, as wide as the bearings and of the thinner of the diameters that meet there."""
-    if shaft is None or body is None:
-        return shaft
-    ends = np.cumsum([0.0, *(section.length for section in shaft.sections)])
-    edges = [(z - body.support_width / 2, z + body.support_width / 2) for z in shaft.supports]
-    cuts = np.unique(np.round([*ends, *(min(max(z, 0.0), ends[-1]) for edge in edges for z in edge)], 12))
-    pieces = []
-    for low, high in zip(cuts[:-1], cuts[1:], strict=True):
-        middle = 0.5 * (low + high)
-        spots = [middle, *(z for a, b in edges if a < middle < b for z in (a, b))]
-        meeting = [shaft.sections[min(int(np.searchsorted(ends, z, side="right")) - 1, len(shaft.sections) - 1)].start for z in spots]
-        pieces.append(Section(float(high - low), min(meeting), min(meeting)))
-    return shaft._replace(sections=tuple(pieces))
-
-
-def solid_parts(model: IndexerModel) -> solid.Solids:
-    """The bodies that the spec tells the size of; what it does not is as in the reduced model."""
-    spec, entry = model.spec, model.crank_bearing
-    cam = shaft = None
-    if entry and entry.outer_diameter:
-        cam = solid.CamBody(spec.cam_width, entry.outer_diameter)
-    if entry and entry.bore and spec.shafts:
-        seat = model.support_bearing.width if model.support_bearing and model.support_bearing.width else 0.4 * min(spec.shafts.diameters)
-        shaft = solid.ShaftBody(entry.bore, spec.cam_width, seat, 0.7 * spec.shafts.diameters[0])
-    wheel = solid.usual_wheel(model.wheel, model.train, spec.cam_width) if model.train and model.train.shaft else None
-    return solid.Solids(cam, shaft, wheel)

@@ -1,0 +1,113 @@
+"""The assembly of solids as tables, and their plots."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.errors import InputError
+from drivewright.indexing.solid.assembly import SolidStiffness
+from drivewright.indexing.stiffness import TorsionalStiffness
+from drivewright.result import Column, Plot, Table
+from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for
+
+DRAWN = 0.03  # the largest displacement is drawn as about this part of the body
+BODIES = {  # label, shares of the assembly, shares of the lumped model
+    "cam": ("cams", ("cam",), ()),
+    "wheel": ("pins, wheel and their contacts", ("pin", "wheel", "output", "wheel bearing"), ("pin", "wheel")),
+    "shaft": ("shafts", ("shaft",), ("bending", "torsion")),
+    "crank": ("crank bearings", ("crank",), ("crank",)),
+    "support": ("support bearings", ("support",), ("support", "housing")),
+    "gear": ("gears", ("gear",), ("gear",)),
+}
+SURFACES = {  # title, axes that are drawn (right, up, away) and their meanings
+    "cam": ("Deformed cam", ((0, "across"), (1, "height"), (2, "along the axis"))),
+    "shaft": ("Deformed split shaft", ((2, "along the axis"), (1, "height"), (0, "across"))),
+    "wheel": ("Deformed pins and wheel, seen from the axis", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards"))),
+}
+
+
+def compliance_by_body(solid: SolidStiffness) -> dict[str, Floats]:
+    """Compliance [rad/(N m)] of each of BODIES in the assembly (p,)."""
+    return {name: np.sum([solid.shares[group] for group in groups], axis=0) for name, (_, groups, _) in BODIES.items()}
+
+
+def added_compliance(solid: SolidStiffness, lumped: TorsionalStiffness) -> dict[str, Floats]:
+    """What each of BODIES yields more in the assembly than in a lumped model at the same positions [rad/(N m)] (p,).
+
+    They add up to 1/K - 1/K_lumped; bearings and gears differ only by the forces that the other bodies give them.
+    """
+    own = compliance_by_body(solid)
+    return {name: own[name] - np.sum([lumped.shares[group] for group in groups], axis=0) for name, (_, _, groups) in BODIES.items()}
+
+
+def assembly_table(
+    angles: Floats, solids: Mapping[str, SolidStiffness], lumped: Mapping[str, TorsionalStiffness], title: str = "Stiffness of the assembly"
+) -> Table:
+    """Secant stiffness of assembly and lumped model over the input angles (p,) [rad], {"unilateral", "bonded"} each."""
+    words = {"unilateral": "pins that press only", "bonded": "pins that stick"}
+    columns = [Column("angle", "rad", "input angle", angles)]
+    for model, text in words.items():
+        columns.append(Column(f"lumped_{model}", "N m/rad", f"lumped model, {text}", lumped[model].secant))
+        columns.append(Column(model, "N m/rad", f"assembly of solids, {text}", solids[model].secant))
+    for model, text in words.items():
+        columns.append(Column(f"ratio_{model}", "-", f"assembly over lumped model, {text}", solids[model].secant / lumped[model].secant))
+    return Table("assembly", title, tuple(columns))
+
+
+def share_tables(angles: Floats, solid: SolidStiffness, lumped: TorsionalStiffness) -> Iterator[Table]:
+    """Compliance by bodies of the assembly, and what each adds to that of the lumped model, over the input angles (p,) [rad]."""
+    for name, title, shares in (
+        ("assembly_shares", "Compliance of the assembly by bodies", compliance_by_body(solid)),
+        ("assembly_added", "Compliance that the lumped model leaves out, by bodies", added_compliance(solid, lumped)),
+    ):
+        columns = [Column(body, "rad/(N m)", label, shares[body]) for body, (label, _, _) in BODIES.items()]
+        yield Table(name, title, (Column("angle", "rad", "input angle", angles), *columns))
+
+
+def surface_table(solid: SolidStiffness, position: int, body: str = "cam", where: str = "", exaggeration: float | None = None) -> Table:
+    """Table of a deformed body ("cam", "shaft", "wheel") at one position for a plot of style "mesh": three rows a triangle.
+
+    The cam without its motion as a whole, the shaft against the housing; of the wheel, against its output, the half that moves most, seen
+    from its axis outwards.  `where` ends the title.
+    """
+    title, drawn = SURFACES[body]
+    surface = solid.surfaces.get(body)
+    if surface is None:
+        raise InputError(f"assembly: the {body} is not a solid and has no deformed surface; give it as one.")
+    displacement = surface.displacements[position]
+    if body == "wheel":
+        surface, displacement = _half_from_axis(surface, displacement)
+    factor = exaggeration or exaggeration_for(np.ptp(surface.points[:, drawn[0][0]]), displacement, DRAWN)
+    rest = tuple((axis, f"{words}, unloaded") for axis, words in drawn[:2])
+    return displaced_table(f"assembly_{body}", title + where, surface, displacement, factor, drawn, rest)
+
+
+def _half_from_axis(surface: DisplacedSurface, displacement: Floats) -> tuple[DisplacedSurface, Floats]:
+    """The half of a wheel about the point that moves most, turned so that this point lies along y."""
+    x, y, _ = surface.points[np.linalg.norm(displacement, axis=1).argmax()]
+    away, around = np.array([x, y, 0.0]) / np.hypot(x, y), np.array([y, -x, 0.0]) / np.hypot(x, y)
+    turn = np.array([around, away, [0.0, 0.0, 1.0]])
+    points = surface.points @ turn.T
+    half = surface.triangles[points[surface.triangles, 1].mean(axis=1) > 0]
+    return DisplacedSurface(points, half, surface.displacements), displacement @ turn.T
+
+
+def assembly_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
+    """The plots of the tables above, of those that are among the tables of a result."""
+    if "assembly" in tables:
+        curves = ("lumped_unilateral", "unilateral", "lumped_bonded", "bonded")
+        title = "Torsional stiffness: lumped model and assembly of solids"
+        yield Plot("assembly", title, "assembly", "angle", curves)
+    for name in ("assembly_shares", "assembly_added"):
+        if name in tables:
+            yield Plot(name, tables[name].title, name, "angle", tuple(BODIES), style="bars")
+    if "assembly_pins" in tables:
+        title = "Forces on the pins in the assembly"
+        yield Plot("assembly_pins", title, "assembly_pins", "angle", ("force", "pressure"), style="points")
+    for body, (_, drawn) in SURFACES.items():
+        name = f"assembly_{body}"
+        if name in tables:
+            right, up, away = ("xyz"[axis] for axis, _ in drawn)
+            reference = (f"rest_{right}", f"rest_{up}")
+            yield Plot(name, tables[name].title, name, right, (up, away, "displacement"), equal=True, style="mesh", reference=reference)
