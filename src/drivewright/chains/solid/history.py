@@ -4,7 +4,7 @@ Stress that belongs to a line contact alone is not in the elements and not searc
 their loaded flanks; what acts there is Hertz's (`chains.stress.rolling`).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -59,12 +59,14 @@ class SkinLife(NamedTuple):
         return float(self.life.min(initial=np.inf))
 
 
-def solid_history(solid: PlateAndPins, loads: Loads, each: Callable[[], None] = lambda: None) -> SolidHistory:
-    """`SolidHistory` through the `Loads` of one plate; `each` is called after every instant."""
+def solid_history(
+    solid: PlateAndPins, loads: Loads, each: Callable[[], None] = lambda: None, gaps: Sequence[Floats] | None = None
+) -> SolidHistory:
+    """`SolidHistory` through the `Loads` of one plate; `each` is called after every instant; `gaps`: other ones of the seats."""
     states: list[ContactState] = []
     size = np.linalg.norm(np.asarray(loads.pins, float), axis=2)
     for instant in range(len(size)):  # under a light load a contact may be too narrow for the elements: it is not what counts
-        states.append(solid.model.solve(forces_at(solid, loads, instant), states[-1] if states else None, narrow=True))
+        states.append(solid.model.solve(forces_at(solid, loads, instant), states[-1] if states else None, gaps, narrow=True))
         each()
     for number, instant in enumerate(size.argmax(axis=0)):
         solid.model.refuse_narrow(states[instant], number)

@@ -5,16 +5,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.chains.solid.history import SkinLife, SolidHistory
+from drivewright.chains.solid.history import FACES, SkinLife, SolidHistory
 from drivewright.chains.solid.joint import RollingPins
 from drivewright.chains.solid.pitch import WAYS
 from drivewright.contact import hertz
 from drivewright.result import Column, Table
 from drivewright.solids.deformation import exaggeration_for
 from drivewright.solids.elastic import MM, FreeBody
-from drivewright.solids.stresses import SkinStress, hooke, mises
+from drivewright.solids.stresses import SkinStress, hooke, mises, skin_stress
 
 DRAWN = 0.03  # of the plate's length: the largest displacement as drawn
+FINER = 3  # parts of an element's edge in a picture
 GRID = (160, 60)  # rectangles of a section, along and across
 
 
@@ -36,9 +37,10 @@ def history_table(history: SolidHistory, time: Floats) -> Table:
     )
 
 
-def stress_table(name: str, title: str, skin: SkinStress, instant: int, axes: Sequence[int] = (0, 1, 2)) -> Table:
-    """Table for a plot of style "mesh": a skin at one instant, deformed, seen along the last of the axes."""
-    moved = skin.displacement[instant] - skin.displacement[instant].mean(axis=0)
+def stress_table(name: str, title: str, history: SolidHistory, body: str, instant: int, axes: Sequence[int] = (0, 1, 2)) -> Table:
+    """Table for a plot of style "mesh": a body's skin at one instant, deformed, seen against the last of the axes."""
+    skin = skin_stress(history.solid.model.bodies[body], [history.states[instant].displacement(body)], FACES[body], FINER)
+    moved = skin.displacement[0] - skin.displacement[0].mean(axis=0)
     times = exaggeration_for(float(np.ptp(skin.points, axis=0).max()), moved, DRAWN)
     place = skin.points + times * moved
     rows = skin.parts.ravel()
@@ -51,7 +53,7 @@ def stress_table(name: str, title: str, skin: SkinStress, instant: int, axes: Se
             Column("x", "m", f"{WORDS[axes[0]]}, {words}", x),
             Column("y", "m", f"{WORDS[axes[1]]}, {words}", y),
             Column("depth", "m", "towards the viewer, turned round", -depth),
-            Column("mises", "Pa", "von Mises stress", skin.mises[instant][rows]),
+            Column("mises", "Pa", "von Mises stress", skin.mises[0][rows]),
         ),
     )
 
@@ -86,15 +88,19 @@ def seat_table(history: SolidHistory, side: str, instant: int) -> Table:
     pressure = np.zeros(skin.nodes.max() + 1)
     pressure[pairing.corners] = history.states[instant].pressure[number]
     seat = history.solid.plate.seat(side)
-    rows = skin.corners.ravel()
-    place = skin.places[:, :3].reshape(-1, 3) * MM
-    turn = np.angle(((place[:, 0] - seat.center[0]) + 1j * (place[:, 1] - seat.center[1])) * WAYS[side])
+    place = skin.places[:, :3] * MM
+    turn = np.angle(((place[..., 0] - seat.center[0]) + 1j * (place[..., 1] - seat.center[1])) * WAYS[side])
+    flat = np.stack([seat.radius * turn, place[..., 2]], axis=-1)
+    (ax, ay), (bx, by) = np.moveaxis(flat[:, 1] - flat[:, 0], -1, 0), np.moveaxis(flat[:, 2] - flat[:, 0], -1, 0)
+    order = np.where((ax * by > ay * bx)[:, None], [0, 1, 2], [0, 2, 1])  # counter-clockwise
+    along, height = np.take_along_axis(flat, order[..., None], axis=1).reshape(-1, 2).T
+    rows = np.take_along_axis(skin.corners, order, axis=1).ravel()
     return Table(
         "seat_pressure",
         "Pressure of a pin on its seat, unrolled",
         (
-            Column("along", "m", "along the seat from the outer direction", seat.radius * turn),
-            Column("height", "m", "along the pin from the plate's middle", place[:, 2]),
+            Column("along", "m", "along the seat from the outer direction", along),
+            Column("height", "m", "along the pin from the plate's middle", height),
             Column("depth", "m", "flat", np.zeros(len(rows))),
             Column("pressure", "Pa", "pressure on the seat", pressure[rows]),
         ),

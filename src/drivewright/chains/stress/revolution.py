@@ -92,17 +92,16 @@ def open_seats(pins: Floats) -> Bools:
 
 
 def fewer_instants(loads: Loads, most: int) -> Loads:
-    """The `loads_at` the `instants`: `most` or fewer."""
-    return loads_at(loads, instants(loads, most))
-
-
-def instants(loads: Loads, most: int) -> Ints:
-    """Rows of a history, `most` or fewer: in equal spans of it that with the largest and that with the smallest forces."""
+    """The loads at `most` instants or fewer: in equal spans of the history that with the largest and that with the smallest forces."""
     pins, flanks = np.asarray(loads.pins, float), np.asarray(loads.flanks, float)
-    rows = np.arange(len(flanks))
+    return loads_at(loads, turning_points(np.abs(pins).sum(axis=(1, 2)) + flanks.sum(axis=1), most))
+
+
+def turning_points(size: Floats, most: int) -> Ints:
+    """Rows of a history (n,), `most` or fewer: in equal spans of it the largest and the smallest."""
+    rows = np.arange(len(size))
     if len(rows) <= most:
         return rows
-    size = np.abs(pins).sum(axis=(1, 2)) + flanks.sum(axis=1)
     parts = np.array_split(rows, most // 2)
     return np.unique([part[pick] for part in parts for pick in (np.argmax(size[part]), np.argmin(size[part]))])
 

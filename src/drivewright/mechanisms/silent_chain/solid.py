@@ -4,18 +4,20 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._typing import Floats, Ints
 from drivewright.chains.solid import tables
 from drivewright.chains.solid.history import SolidHistory, skin_life, solid_history
 from drivewright.chains.solid.joint import Fit, Material, RollingPins, rolling_pins, stack_of
 from drivewright.chains.solid.meshes import usual_sizes
 from drivewright.chains.solid.pitch import PlateAndPins, plate_and_pins
-from drivewright.chains.stress.revolution import PlateRevolution, instants, loads_at
+from drivewright.chains.stress.plate import stress_history, worst
+from drivewright.chains.stress.revolution import PlateRevolution, loads_at, turning_points
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.missing import unless_impossible
-from drivewright.mechanisms.silent_chain.stress import card_of, plate_revolution
+from drivewright.mechanisms.silent_chain.stress import card_of, plane_basis, plate_revolution
 from drivewright.numerics.ensemble import mean_of_members
 from drivewright.result import Answer, Answers, Check, Value
+from drivewright.solids.plane import plane_von_mises
 
 PIN_VIEW = (2, 1, 0)  # along the pin to the right, seen from outside
 
@@ -35,9 +37,16 @@ def solid_stress(model: ChainModel, done: Answers) -> Answer:
             outcome="left out",
         )
     rolling, solid = condensed(model, revolutions)
-    kept = [instants(each.loads, model.spec.solid.load_steps) for each in revolutions]
+    kept = [steps(model, each) for each in revolutions]
     histories = [solid_history(solid, loads_at(each.loads, rows)) for each, rows in zip(revolutions, kept, strict=True)]
     return _answer(model, rolling, histories, revolutions[0].time[kept[0]])
+
+
+def steps(model: ChainModel, revolution: PlateRevolution) -> Ints:
+    """Instants of a revolution that become load steps: turning points of the stress of the plane plate where it is worst."""
+    basis = plane_basis(model)
+    size = plane_von_mises(stress_history(basis, revolution.loads, [worst(basis, revolution.loads).row])[:, 0])
+    return turning_points(size, model.spec.solid.load_steps)
 
 
 def condensed(model: ChainModel, revolutions: Iterable[PlateRevolution]) -> tuple[RollingPins, PlateAndPins]:
@@ -111,8 +120,8 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
     }
     found = (
         tables.history_table(first, time),
-        tables.stress_table("solid_plate", "Plate as a solid at its worst instant", first.skins["plate"], instant),
-        tables.stress_table("solid_pin", "Pin as a solid at its worst instant", first.skins[side], pin_instant, PIN_VIEW),
+        tables.stress_table("solid_plate", "Plate as a solid at its worst instant", first, "plate", instant),
+        tables.stress_table("solid_pin", "Pin as a solid at its worst instant", first, side, pin_instant, PIN_VIEW),
         tables.section_table(first, side, pin_instant),
         tables.seat_table(first, side, pin_instant),
         pressure,

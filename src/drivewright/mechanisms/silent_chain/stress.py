@@ -24,7 +24,7 @@ def stress(model: ChainModel, done: Answers) -> Answer:
     reason = model.plate_refusal
     if reason:
         return Answer(findings=(f"stress is left out: no plate can be drawn: {reason}",), outcome="left out")
-    basis, revolution = _basis(model), plate_revolution(model, done["dynamics"].data.first)
+    basis, revolution = plane_basis(model), plate_revolution(model, done["dynamics"].data.first)
     loads = revolution.loads
     peak = worst(basis, loads)
     history = plane_von_mises(stress_history(basis, loads, [peak.row])[:, 0])
@@ -85,7 +85,8 @@ def plate_revolution(model: ChainModel, motion: Motion) -> PlateRevolution:
     return PlateRevolution(motion, min(model.spec.plate.lacing), (on_drive, on_driven), 0.5 * model.closure.mean)
 
 
-def _basis(model: ChainModel) -> Basis:
+def plane_basis(model: ChainModel) -> Basis:
+    """The plate in plane stress under unit loads."""
     material = model.spec.material
     return plate_basis(
         model.plate, plate_body(model.plate, material.youngs_modulus, material.poisson_ratio, fineness=model.spec.fatigue.fineness)

@@ -29,7 +29,8 @@ class Pairing(NamedTuple):
     """h hats of pressure between a first and a second skin.
 
     corners (h,): numbers of the first skin's nodes; places, normals (h, d) there; area (h,) [mm^2] and gap (h,) [mm^3] of the hats;
-    first, second (h, d nodes): the functionals int h u.n of either body.
+    first, second (h, d nodes): the functionals int h u.n of either body.  weights (h, q): of the integrals over q points (q, d), which lie
+    `apart` (q,) [mm] from the second body as meshed, along the normals `outward`.
     """
 
     corners: Ints
@@ -39,6 +40,14 @@ class Pairing(NamedTuple):
     gap: Floats
     first: Rows
     second: Rows
+    weights: Rows
+    points: Floats
+    outward: Floats
+    apart: Floats
+
+    def gap_with(self, more: GapOf) -> Floats:
+        """Gap (h,) [mm^3] of the hats with something else added to the meshes' own."""
+        return self.weights @ (self.apart + more(self.points, self.outward))
 
 
 def paired(
@@ -84,6 +93,10 @@ def paired(
         quadrature @ gap[at],
         quadrature @ _normal_rows(own, first.nodes[element[at]], normal[at], nodes[0]),
         quadrature @ _normal_rows(hits.shape[at], second.nodes[hits.element[at]], normal[at], nodes[1]),
+        quadrature,
+        points[at],
+        normal[at],
+        hits.distance[at],
     )
 
 
