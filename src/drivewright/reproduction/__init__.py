@@ -11,6 +11,7 @@ shaft_paper    the shafts of a pipe-lining machine of Li, Zhang and Chen
 indexer_paper  the inner-translation indexing cam of Liu, Zhai, Li and Guo
 indexer_solids  the same as an assembly of solids in contact
 hyvo_paper     the Hy-Vo chain with a small rolling radius of An, Cheng, Li and Xu
+hyvo_solids    its plates and pins as solids in contact
 folding_linkage  the knife-folding four-bar with play of Yuan, Liu and Wang
 pusher_paper   the conjugate-cam seedling pusher of Chen et al.
 """

@@ -10,6 +10,7 @@ from drivewright._typing import Floats
 from drivewright.chains import meshing
 from drivewright.chains.stress import rolling
 from drivewright.report.comparison import compare
+from drivewright.reproduction import hyvo_solids as solids
 from drivewright.reproduction.document import Draw, LongRows, PaperStudy, read_paper, still
 from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
 from drivewright.reproduction.views import drawing_of, scene_figure
@@ -230,6 +231,14 @@ FIGURES: dict[str, Draw] = {
     "Fig. 21, group 3": still(plate_picture, "paper-load", "plate_stress"),
     "Fig. 21, control group": still(plate_picture, "classical", "plate_stress"),
     "Fig. 22": still(plate_in_time),
+    "Plates and pins in contact, stress": still(solids.map_of_stress),
+    "Plates and pins in contact, load": still(solids.map_of_load),
+    "Plates and pins in contact, life": still(solids.map_of_life),
+    "Plate as a solid, group 3": still(solids.picture, "group 3", "solid_plate"),
+    "Plate as a solid, control group": still(solids.picture, "control group", "solid_plate"),
+    "Pin as a solid, group 3": still(solids.picture, "group 3", "solid_pin"),
+    "Pin as a solid, control group": still(solids.picture, "control group", "solid_pin"),
+    "Section through the hole": still(solids.picture, "group 3", "hole_section"),
     "Fig. 24, group 3": still(plate_picture, "paper-load", "life_map"),
     "Fig. 24, control group": still(plate_picture, "classical", "life_map"),
 }
@@ -237,6 +246,10 @@ FIGURES: dict[str, Draw] = {
 paper = read_paper(
     numbers.source,
     FIGURES,
-    (LongRows("running", running.running_rows), LongRows("plates", running.plate_rows, solids=True)),
+    (
+        LongRows("running", running.running_rows),
+        LongRows("plates", running.plate_rows, solids=True),
+        LongRows("plates and pins in contact", solids.solid_rows, solids=True),
+    ),
     tuple(PaperStudy(name, study, name.startswith("load")) for name, study in running.all_studies()),
 )

@@ -1,0 +1,279 @@
+"""The Hy-Vo paper's plates and pins as solids in contact: stress and life over what the paper leaves out, and rows of section 6.
+
+The new chain is group 3, the classical one the control group; plates are drawn by us with one outer profile.  At rest every plate is
+pulled by 200 N, the paper's F1; running, it bears what the chain under the paper's load case does to it.
+"""
+
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from drivewright import registry
+from drivewright._typing import Floats
+from drivewright.chains.solid.assumptions import borne, over_fits
+from drivewright.chains.solid.history import SolidHistory, skin_life, solid_history
+from drivewright.chains.solid.joint import Fit
+from drivewright.chains.solid.pitch import PlateAndPins
+from drivewright.chains.stress.plate import Loads
+from drivewright.chains.stress.revolution import PlateRevolution, loads_at
+from drivewright.errors import InputError
+from drivewright.mechanisms.silent_chain.build import ChainModel
+from drivewright.mechanisms.silent_chain.solid import condensed, steps
+from drivewright.mechanisms.silent_chain.stress import card_of, plate_revolution
+from drivewright.reproduction.figures import Chart, Curve, Stated, chart_figure
+from drivewright.result import Result
+from drivewright.runner import build, run
+from drivewright.validation import hyvo_running as running
+from drivewright.validation.hyvo_strength import PLATE_STRESSES
+from drivewright.validation.source import ABOVE_ONE, BELOW_ONE, OPEN, Printed, Row, rounded
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Drawn
+
+DESIGNS = {"group 3": ("paper-load", ()), "control group": ("classical", running.LOAD)}
+FINENESS = 1.3  # with which contacts of pins 0.04 mm narrower in radius than their holes are wide enough for the elements
+PULL = 200.0  # N on a plate: F1
+CLEARANCES = (0.0, 2.0, 5.0, 10.0, 20.0, 40.0)  # um in the radius
+SEATS = {"all of the seat": None, "30° to either side": np.radians(30.0)}
+PULLS = (50.0, 100.0, 200.0, 400.0)  # N
+LOAD_STEPS = 24
+USUAL = 5.0  # um: clearance of the analysis, and of the rows
+EDGE = 5e-5  # m: rounding of the holes' edges
+MICRO, MEGA = 1e-6, 1e6
+PIN_STRESSES = {"group 3": 162.026855, "control group": 245.183578}  # printed, MPa
+
+
+class Design(NamedTuple):
+    """A chain as solids: its model, condensed plate and pins, and the revolutions that its runs give."""
+
+    model: ChainModel
+    solid: PlateAndPins
+    revolutions: tuple[PlateRevolution, ...]
+
+
+class Point(NamedTuple):
+    """Greatest stresses [Pa] of plate and pins and their shortest lives [revolutions]; nan where the elements cannot carry the contact."""
+
+    plate: float
+    pin: float
+    plate_life: float
+    pin_life: float
+
+
+NOWHERE = Point(np.nan, np.nan, np.nan, np.nan)
+
+
+@cache
+def design(name: str) -> Design:
+    """The `Design` of "group 3" or of the "control group" under the paper's load case."""
+    preset, changes = DESIGNS[name]
+    model: Any = build(running.preset(preset, *changes, f"solid.fineness={FINENESS}", f"solid.load_steps={LOAD_STEPS}"))
+    dynamics = next(each for each in registry.mechanism("silent-chain").analyses if each.name == "dynamics")
+    runs = dynamics.answer(model, {}).data.members
+    revolutions = tuple(plate_revolution(model, run) for run in runs)
+    return Design(model, condensed(model, revolutions)[1], revolutions)
+
+
+def pull(force: float) -> Loads:
+    """A straight pull on a plate [N]."""
+    return Loads(np.array([[[-force, 0.0], [force, 0.0]]]), np.zeros((1, 2)), np.zeros((1, 2)))
+
+
+def running_loads(name: str, number: int = 0) -> Loads:
+    """Load steps of one of the runs."""
+    each = design(name)
+    return loads_at(each.revolutions[number].loads, steps(each.model, each.revolutions[number]))
+
+
+@cache
+def at_rest(name: str, clearance: float, seat: float | None = None, force: float = PULL) -> Point:
+    """`Point` of a straight pull, once from 0 in a revolution."""
+    return _point(name, Fit(clearance * MICRO, EDGE, seat), pull(force), repeated=True)
+
+
+@cache
+def in_motion(name: str, clearance: float, seat: float | None = None) -> Point:
+    """`Point` of the first run."""
+    return _point(name, Fit(clearance * MICRO, EDGE, seat), running_loads(name))
+
+
+def _point(name: str, fit: Fit, loads: Loads, repeated: bool = False) -> Point:
+    each = design(name)
+    try:
+        (history,) = over_fits(each.solid, [fit], loads)
+    except InputError:  # the contact is too narrow for the elements
+        return NOWHERE
+    most = borne(history)
+    plate, *pins = (_life(each.model, history, body, repeated) for body in ("plate", "left", "right"))
+    return Point(most.plate, most.pin, plate, min(pins))
+
+
+def _life(model: ChainModel, history: SolidHistory, body: str, repeated: bool = False) -> float:
+    skin = history.skins[body]
+    if repeated:  # from nothing to the load
+        skin = skin._replace(stress=np.concatenate([0 * skin.stress, skin.stress]))
+    return skin_life(skin, history.searched[body], card_of(model), model.spec.fatigue.plane).least
+
+
+@cache
+def runs_of(name: str) -> tuple[Floats, ...]:
+    """Greatest stress of plate and pin [Pa], and their lives [revolutions], in each run: four arrays."""
+    each, found = design(name), []
+    for number in range(len(each.revolutions)):
+        history = solid_history(each.solid, running_loads(name, number))
+        most = borne(history)
+        lives = [_life(each.model, history, body) for body in ("plate", "left", "right")]
+        found.append((most.plate, most.pin, lives[0], min(lives[1:])))
+    return tuple(np.array(found).T)
+
+
+# -- rows ----------------------------------------------------------------------------------------------------------------------
+
+
+def solid_rows(folder: Path) -> Iterator[Row]:
+    """Section 6 beside plates and pins as solids in contact: running, and under the same pull."""
+    new, old = (runs_of(name) for name in DESIGNS)
+    rest = {name: at_rest(name, USUAL) for name in DESIGNS}
+    worn = at_rest("control group", CLEARANCES[-1])
+    common: dict[str, Any] = {
+        "kind": "other code",
+        "inputs": "F1 = 200 N, F0 = 50 N, 2000 rpm, 1 x 2, 2 mm",
+        "assumed": f"{running.PLATE.partition(';')[0]}; pins {USUAL:g} um narrower in radius than their holes, edges of holes rounded with "
+        f"{EDGE / MICRO:g} um; elastic plate and pins in contact",
+        "pinned": OPEN,
+    }
+    rest_common: dict[str, Any] = common | {"idealised": True}
+    for body, number, printed_of, place in (("plate", 0, PLATE_STRESSES, "section 6.2"), ("pin", 1, PIN_STRESSES, "section 6.1")):
+        means = [running.mean_of_cases(each[number]) for each in (new, old)]
+        beside = "" if body == "plate" else " Beside the rolling contact, whose own stress is Hertz's."
+        for (name, printed), ours in zip(printed_of.items(), means, strict=True):
+            note = f"{_order(body)}{beside}"
+            yield _row(f"greatest stress of a {body} as a solid, {name}, running", printed, ours, place, body, name, note, common)
+        below = Printed("below 1", *BELOW_ONE)
+        quotient = running.ratio(*means)
+        claim = f"greatest stress of {'the plate' if body == 'plate' else 'a pin'}, group 3 over control"
+        yield Row(
+            f"greatest stress of a {body} as a solid, group 3 over control, running",
+            below,
+            quotient.value,
+            "-",
+            where=place,
+            low=quotient.low,
+            high=quotient.high,
+            note=_order(body),
+            reading_of=claim,
+            **common,
+        )
+        for words, under in (("same fit", rest["control group"]), (f"control with {CLEARANCES[-1]:g} um of clearance", worn)):
+            yield Row(
+                f"greatest stress of a {body} as a solid, group 3 over control, both pulled by 200 N, {words}",
+                below,
+                getattr(rest["group 3"], body) / getattr(under, body),
+                "-",
+                where=place,
+                note=_order(body),
+                reading_of=claim,
+                **rest_common,
+            )
+    ours = running.quotient(*(running.mean_of_cases(each[3], logarithmic=True) for each in (new, old)))
+    yield Row(
+        "life of a pin as a solid, new over classical, running",
+        Printed("above 1", *ABOVE_ONE),
+        ours.value,
+        "-",
+        where="section 6.1",
+        low=ours.low,
+        high=ours.high,
+        note=_order("pin"),
+        reading_of="life of the pins, new over classical",
+        **common,
+    )
+
+
+def _row(name: str, printed: float, ours: running.Interval, where: str, body: str, of: str, note: str, common: dict[str, Any]) -> Row:
+    quantity = f"greatest stress of the plate, {of}" if body == "plate" else f"greatest stress of a pin, {of}"
+    return Row(
+        name,
+        rounded(f"{printed} MPa", "Pa"),
+        ours.value,
+        "Pa",
+        where=where,
+        low=ours.low,
+        high=ours.high,
+        note=note,
+        reading_of=quantity,
+        **common,
+    )
+
+
+def _order(body: str) -> str:
+    """What decides the order of both chains, with our numbers."""
+    new, old = (at_rest(name, USUAL) for name in DESIGNS)
+    worn = at_rest("control group", CLEARANCES[-1])
+    values = [getattr(each, body) / MEGA for each in (new, old, worn)]
+    return (
+        f"Pulled by the same 200 N and with the same fit, the {body} bears {values[0]:.0f} MPa in the new and {values[1]:.0f} MPa in the "
+        f"classical chain; {values[2]:.0f} MPa where the classical pin has {CLEARANCES[-1]:g} um of clearance instead of {USUAL:g}."
+    )
+
+
+# -- figures -------------------------------------------------------------------------------------------------------------------
+
+
+def _over_clearance(of: Any, field: str, scale: float) -> list[Curve]:
+    curves = []
+    for name in DESIGNS:
+        for words, seat in SEATS.items():
+            values = [getattr(of(name, clearance, seat), field) / scale for clearance in CLEARANCES]
+            curves.append(Curve(f"{name}, {words}", np.array(CLEARANCES), np.array(values), "both"))
+    return curves
+
+
+def map_of_stress() -> "Drawn":
+    """Greatest stress of plate and pin over clearance and seat, both chains pulled alike."""
+    stated = [Stated(f"{name} as printed, {stress:.0f} MPa", y=stress) for name, stress in PLATE_STRESSES.items()]
+    pins = [Stated(f"{name} as printed, {stress:.0f} MPa", y=stress) for name, stress in PIN_STRESSES.items()]
+    charts = [
+        Chart("Stress of the plate [MPa]", _over_clearance(at_rest, "plate", MEGA), stated, "Both plates pulled by 200 N", from_zero=True),
+        Chart("Stress of the pin [MPa]", _over_clearance(at_rest, "pin", MEGA), pins, "Pins, beside their rolling contact", from_zero=True),
+    ]
+    return chart_figure("Greatest stress over the fit of the pins", "Clearance of a pin in its hole, radial [µm]", charts, height=3.4)
+
+
+def map_of_life() -> "Drawn":
+    """Shortest life of plate and pin over clearance and seat, running under the paper's load case."""
+    charts = [
+        Chart("Life [revolutions]", _over_clearance(in_motion, "plate_life", 1.0), (), "Plates, running", log=True),
+        Chart(
+            "Life [revolutions]", _over_clearance(in_motion, "pin_life", 1.0), (), "Pins beside their rolling contact, running", log=True
+        ),
+    ]
+    return chart_figure("Shortest life over the fit of the pins", "Clearance of a pin in its hole, radial [µm]", charts, height=3.4)
+
+
+def map_of_load() -> "Drawn":
+    """Greatest stress of plate and pin over the pull."""
+    curves = [
+        [
+            Curve(name, np.array(PULLS), np.array([getattr(at_rest(name, USUAL, None, force), body) / MEGA for force in PULLS]), "both")
+            for name in DESIGNS
+        ]
+        for body in ("plate", "pin")
+    ]
+    charts = [Chart("Stress of the plate [MPa]", curves[0], from_zero=True), Chart("Stress of the pin [MPa]", curves[1], from_zero=True)]
+    return chart_figure("Greatest stress over the pull of the strand", "Pull on a plate [N]", charts, columns=2, height=3.0)
+
+
+@cache
+def solid_result(name: str) -> Result:
+    """The analysis `solid_stress` of a design under the paper's load case."""
+    preset, changes = DESIGNS[name]
+    return run(running.preset(preset, *changes), ("solid_stress",))
+
+
+def picture(name: str, plot: str) -> "Drawn":
+    """A plot of plate or pin as solids."""
+    return solid_result(name).plot(plot)
