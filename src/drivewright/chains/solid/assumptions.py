@@ -48,4 +48,4 @@ def borne(history: SolidHistory) -> Borne:
 
 def over_fits(solid: PlateAndPins, fits: Sequence[Fit], loads: Loads, each: Callable[[], None] = lambda: None) -> list[SolidHistory]:
     """The `SolidHistory` of each fit under the same loads."""
-    return [solid_history(solid, loads, each, with_fit(solid, fit)) for fit in fits]
+    return [solid_history(solid._replace(fit=fit), loads, each, with_fit(solid, fit)) for fit in fits]

@@ -19,15 +19,17 @@ from drivewright.solids.contact.model import ContactModel, Functional, Link
 from drivewright.solids.elastic import FreeBody, superposed_field
 
 FLANK = 0.5  # width sigma of a flank's strip in radii of the seat
+MARGIN = np.radians(10.0)  # of a force's direction from the end of a seat that bears in part
 WAYS = {"left": -1.0, "right": 1.0}
 
 
 class PlateAndPins(NamedTuple):
-    """A condensed plate "plate" with pins "left" and "right"; heights [m] of the flanks' contacts; model: its loads are "left x", "left y",
-    "left flank 0", ..."""
+    """A condensed plate "plate" with pins "left" and "right" in a `Fit`; heights [m] of the flanks' contacts; model: its loads are "left x",
+    "left y", "left flank 0", ..."""
 
     plate: Plate
     stack: Stack
+    fit: Fit
     heights: tuple[float, ...]
     model: ContactModel
 
@@ -56,7 +58,7 @@ def plate_and_pins(
         loads[f"{side} y"] = Functional(side, pin.volume_mean((0, 1, 0)))
         for number, height in enumerate(heights):
             loads[f"{side} flank {number}"] = Functional("plate", _flank(body, plate, side, height))
-    return PlateAndPins(plate, stack, tuple(heights), ContactModel(bodies, pairs, links, loads, ("plate",), each))
+    return PlateAndPins(plate, stack, fit, tuple(heights), ContactModel(bodies, pairs, links, loads, ("plate",), each))
 
 
 def forces_at(solid: PlateAndPins, loads: Loads, instant: int) -> dict[str, float]:
@@ -64,11 +66,21 @@ def forces_at(solid: PlateAndPins, loads: Loads, instant: int) -> dict[str, floa
     pins, flanks, heights = (np.asarray(part, float)[instant] for part in loads)
     half, found = 0.5, {}
     for number, side in enumerate(SIDES):
-        found[f"{side} x"], found[f"{side} y"] = half * pins[number]
+        found[f"{side} x"], found[f"{side} y"] = half * _on_seat(pins[number], side, solid.fit)
         if flanks[number] > 0:
             nearest = int(np.abs(np.array(solid.heights) - heights[number]).argmin())
             found[f"{side} flank {nearest}"] = half * flanks[number]
     return found
+
+
+def _on_seat(force: Floats, side: str, fit: Fit) -> Floats:
+    """A pin's force (2,) [N], turned back onto a seat that bears only in part: its shape, not its contact, holds a real pin there."""
+    if fit.seat is None:
+        return force
+    along = complex(*force) * WAYS[side]
+    most = max(fit.seat - MARGIN, 0.0)
+    turned = abs(along) * np.exp(1j * np.clip(np.angle(along), -most, most)) * WAYS[side]
+    return np.array([turned.real, turned.imag])
 
 
 def _flank(body: FreeBody, plate: Plate, side: str, height: float):
