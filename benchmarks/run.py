@@ -13,6 +13,7 @@ import indexing
 import linkages
 import numpy as np
 import shafts
+import solids
 import studies
 import studio
 from timing import best
@@ -320,6 +321,7 @@ SECTIONS = (
     *shafts.SECTIONS,
     *indexing.SECTIONS,
     *chains.SECTIONS,
+    *solids.SECTIONS,
     *studies.SECTIONS,
     *studio.SECTIONS,
 )

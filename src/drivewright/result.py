@@ -83,6 +83,9 @@ class UncertainNumber(Protocol):
         ...
 
 
+BOUNDED = ("mesh", "outlines", "periodic")  # intervals that bound an error of computing; all others are of 95 %
+
+
 class Value(NamedTuple):
     """One number [SI unit] and what it means; where it is uncertain with its 95 % interval.
 
@@ -104,6 +107,13 @@ class Value(NamedTuple):
     settled: bool = True
     error: float | None = None
     label: str = ""
+
+    @property
+    def made(self) -> str:
+        """How its interval was made: "95 %, ensemble", "bound, mesh"; "" where it has none."""
+        if not self.interval:
+            return ""
+        return f"{'bound' if self.interval in BOUNDED else '95 %'}, {self.interval}"
 
     @classmethod
     def of(cls, estimate: UncertainNumber, unit: str, meaning: str, label: str = "") -> "Value":

@@ -16,6 +16,11 @@ def _meshed(shape, size, dim, grading=0.3):
 
 def quarter_disc(radius, way, size, patch):
     """A quarter of a disc that touches the line y = 0 at the origin from above (1) or below (-1): "contact", "free", "flat", "sym"."""
+    return _meshed(quarter_disc_face(radius, way, size, patch), radius / 6, 2)
+
+
+def quarter_disc_face(radius, way, size, patch, contact="contact", flat="flat"):
+    """The shape of a `quarter_disc`, a material "disc1" or "disc-1", with names of its own for two of its edges."""
     import netgen.occ as occ
 
     def at(turn):
@@ -24,10 +29,10 @@ def quarter_disc(radius, way, size, patch):
     end, centre = patch / radius, occ.Pnt(0, way * radius, 0)
     arcs = [occ.ArcOfCircle(at(0), at(end / 2), at(end)), occ.ArcOfCircle(at(end), at((end + np.pi / 2) / 2), at(np.pi / 2))]
     face = occ.Face(occ.Wire([*arcs, occ.Segment(at(np.pi / 2), centre), occ.Segment(centre, at(0))]))
-    for edge, name in zip(face.edges, ("contact", "free", "flat", "sym"), strict=True):
+    for edge, name in zip(face.edges, (contact, "free", flat, "sym"), strict=True):
         edge.name = name
-    face.edges[0].maxh = size
-    return _meshed(face, radius / 6, 2)
+    face.name, face.edges[0].maxh = f"disc{way}", size
+    return face
 
 
 def half_disc(radius, size):

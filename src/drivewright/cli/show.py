@@ -214,7 +214,7 @@ def _value(value: "Value") -> str:
 
 def _meaning(value: "Value") -> str:
     """What it is, and how its interval was made where one is shown."""
-    interval = f"95 %, {value.interval}" if " to " in _value(value) else value.interval
+    interval = value.made if " to " in _value(value) else value.interval
     return f"{value.meaning} ({interval})" if interval else value.meaning
 
 

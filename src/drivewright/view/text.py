@@ -107,7 +107,7 @@ def uncertain(value: float, unit: str, low: float | None, high: float | None, di
 
 def interval_hint(value: Value) -> str:
     """How the interval of a `result.Value` was made, '95 %, ensemble'; "" where it has none."""
-    made = f"95{SOLID}%, {value.interval}" if value.interval else ""
+    made = value.made.replace(" %", f"{SOLID}%")
     return made if value.settled else ", ".join(filter(None, (made, "not settled")))
 
 

@@ -23,12 +23,14 @@ from drivewright.contact import hertz
 from drivewright.errors import InputError
 from drivewright.scene import Outline
 from drivewright.solids.contact.model import ContactModel, ContactState, Functional, Link, Pair
+from drivewright.solids.contact.pairing import GapOf
 from drivewright.solids.elastic import FreeBody
 from drivewright.solids.engine import EngineObject, fe_module
 
 EULER = 0.5772156649015329
 STRIP = 0.08  # width sigma of a rolling contact's strip in radii of the seat
 HATS = 12  # of the rolling contact along half a pin
+APART = 1.0  # mm: gap of a part of a seat that does not bear
 REACH = 2e-5  # m: beyond the clearance, what may close
 
 
@@ -124,23 +126,29 @@ def pin_body(outline: Outline, stack: Stack, material: Material, sizes: Sizes, s
 
 
 def seat_pair(plate: Plate, name: str, side: str, pin: str, fit: Fit, edges: tuple[float, float], shift: float) -> Pair:
-    """The `Pair` of a plate's seat and its pin: clearance, rounded edges of the hole, and the part of the seat that bears."""
-    seat, outward = plate.seat(side), 1.0 if side == "right" else -1.0
-    centre = complex(*seat.center) + shift
+    """The `Pair` of a plate's seat and its pin in a `Fit`, between a plate's faces at `edges` [m]."""
+    more = seat_gap(plate, side, fit, edges, shift)
+    return Pair((name, f"seat {side}.*"), (pin, "skin"), fit.clearance + 0.5 * fit.edge_radius + REACH, more)
 
-    def more(points: Floats, normals: Floats) -> Floats:
-        """Gap [mm] that the mesh does not have."""
-        relief = np.zeros(len(points))
+
+def seat_gap(plate: Plate, side: str, fit: Fit, edges: tuple[float, float], shift: float = 0.0) -> GapOf:
+    """Gap of a seat that the mesh does not have: clearance, rounded edges of the hole, and the part of the seat that does not bear."""
+    seat, outward = plate.seat(side), 1.0 if side == "right" else -1.0
+    centre, radius = (complex(*seat.center) + shift) / MM, fit.edge_radius / MM
+
+    def gap(points: Floats, normals: Floats) -> Floats:
+        """Gap [mm] at points [mm]."""
+        relief = np.full(len(points), fit.clearance / MM)
         for edge in edges:
             if edge > 0:  # 0 is the middle plane
-                near = np.maximum(fit.edge_radius / MM - np.abs(points[:, 2] - edge / MM), 0.0)
-                relief += fit.edge_radius / MM - np.sqrt(np.maximum((fit.edge_radius / MM) ** 2 - near**2, 0.0))
+                near = np.maximum(radius - np.abs(points[:, 2] - edge / MM), 0.0)
+                relief += radius - np.sqrt(np.maximum(radius**2 - near**2, 0.0))
         if fit.seat is not None:
-            turn = np.angle((points[:, 0] + 1j * points[:, 1] - centre / MM) * outward)
-            relief += np.where(np.abs(turn) > fit.seat, 1.0, 0.0)
-        return fit.clearance / MM + relief
+            turn = np.angle((points[:, 0] + 1j * points[:, 1] - centre) * outward)
+            relief += np.where(np.abs(turn) > fit.seat, APART, 0.0)
+        return relief
 
-    return Pair((name, f"seat {side}.*"), (pin, "skin"), fit.clearance + 0.5 * fit.edge_radius + REACH, more)
+    return gap
 
 
 def strip_rows(pin: FreeBody, contact: complex, normal: float, sigma: float, end: float) -> list[EngineObject]:

@@ -24,7 +24,7 @@ WAYS = {"left": -1.0, "right": 1.0}
 
 
 class PlateAndPins(NamedTuple):
-    """A condensed plate "plate" with pins "left" and "right" in a `Fit`; heights [m] of the flanks' contacts; model: its loads are "left x",
+    """A condensed plate "plate" with pins "left" and "right" in a `Fit`; heights [m] where flanks touch; model: its loads are "left x",
     "left y", "left flank 0", ..."""
 
     plate: Plate
