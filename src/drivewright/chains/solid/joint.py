@@ -21,6 +21,7 @@ from drivewright.chains.plate import Plate
 from drivewright.chains.solid.meshes import MM, Sizes, pin_mesh, plate_mesh
 from drivewright.contact import hertz
 from drivewright.errors import InputError
+from drivewright.scene import Outline
 from drivewright.solids.contact.model import ContactModel, ContactState, Functional, Link, Pair
 from drivewright.solids.elastic import FreeBody
 from drivewright.solids.engine import EngineObject, fe_module
@@ -116,7 +117,7 @@ def rolling_pins(
     return RollingPins(height, state.links[: len(height)] / widths, state)
 
 
-def pin_body(outline, stack: Stack, material: Material, sizes: Sizes, shift: float) -> FreeBody:
+def pin_body(outline: Outline, stack: Stack, material: Material, sizes: Sizes, shift: float) -> FreeBody:
     """Half a pin, held in the middle plane."""
     mesh = pin_mesh(outline, stack.end, (stack.own[1], stack.other[1]), sizes, shift)
     return FreeBody(mesh, *material, dirichletz="low|high" if stack.endless else "low")

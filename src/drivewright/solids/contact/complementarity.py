@@ -7,7 +7,7 @@ steps, most often; where it goes in circles a primal-dual interior point method,
 active set makes that exact.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -150,7 +150,7 @@ class _Newton(NamedTuple):
     """A linear system of the interior point method: A + diag(g/x) factorised, its inverse times H', H, what both sides miss, and where the
     one-sided unknowns stand."""
 
-    factor: Any
+    factor: tuple[Floats, bool]
     inner: Floats
     held: Floats
     dual: Floats
