@@ -15,6 +15,7 @@ from drivewright.chains.solid.joint import (
     hat_widths,
     pin_body,
     rolling_pins,
+    seat_gap,
     seat_pair,
     stack_of,
     strip_rows,
@@ -24,6 +25,7 @@ from drivewright.chains.solid.meshes import pin_mesh, plate_mesh, usual_sizes
 from drivewright.contact import hertz
 from drivewright.curves.outlines import outline_area
 from drivewright.errors import InputError
+from drivewright.solids.stresses import skin_stress
 from tests.support.solid_chain import PULL, STEEL, plate, rolling, sizes
 
 pytestmark = [pytest.mark.analytical, pytest.mark.needs_fe]
@@ -108,6 +110,18 @@ def test_the_rolling_table_is_hertz_along_the_pins():
     assert table["height"].data == pytest.approx(np.linspace(0, 3e-3, 13))
 
 
+def test_an_endless_stack_is_held_in_its_last_plane_and_another_is_not():
+    """Poisson's contraction moves the outer face of a stack that ends."""
+
+    def along_the_pin(lacing, name):
+        found = rolling(lacing).state
+        return np.abs(skin_stress(found.model.bodies[name], [found.displacement(name)], "high").displacement[0][:, 2]).max()
+
+    for name in ("other plate", "own pin", "other pin"):
+        assert along_the_pin((2, 3), name) < 1e-15
+        assert along_the_pin((1, 2), name) > 1e-8
+
+
 def test_a_hinge_has_no_rolling_pins():
     hinge = design_plate(design_link(9.525e-3, 0.0, np.radians(30), 2.6e-3))
     with pytest.raises(InputError, match="one round pin has no rolling pins"):
@@ -154,8 +168,7 @@ def test_what_holds_a_pin_from_turning_is_a_couple():
 
 
 def gaps(fit, points, edges=(0.0, 1e-3), shift=0.0):
-    more = seat_pair(plate(), "plate", "right", "right", fit, edges, shift).more
-    return more(np.array(points, float), np.zeros((len(points), 3)))
+    return seat_gap(plate(), "right", fit, edges, shift)(np.array(points, float), np.zeros((len(points), 3)))
 
 
 def on_seat(turn, height, side="right", shift=0.0):
@@ -180,7 +193,7 @@ def test_a_rounded_edge_falls_away_as_its_circle_and_the_middle_plane_has_none()
 
 @pytest.mark.parametrize(("side", "shift"), [("left", 0.0), ("right", 0.0), ("left", 9.525e-3)])
 def test_a_seat_bears_within_its_angle_about_the_direction_outwards(side, shift):
-    more = seat_pair(plate(), "plate", side, side, Fit(0.0, 0.0, np.radians(45)), (0.0, 1e-3), shift).more
+    more = seat_gap(plate(), side, Fit(0.0, 0.0, np.radians(45)), (0.0, 1e-3), shift)
     turns = np.radians([-80, -46, -44, 0, 44, 46, 80])
     found = more(np.array([on_seat(turn, 0.5, side, shift) for turn in turns]), np.zeros((7, 3)))
     assert list(found > 0.5) == [True, True, False, False, False, True, True]

@@ -10,7 +10,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.chains.solid.history import SolidHistory, solid_history
-from drivewright.chains.solid.joint import Fit, seat_pair
+from drivewright.chains.solid.joint import Fit, seat_gap
 from drivewright.chains.solid.pitch import PlateAndPins
 from drivewright.chains.stress.plate import Loads
 
@@ -25,9 +25,12 @@ class Borne(NamedTuple):
 
 
 def with_fit(solid: PlateAndPins, fit: Fit) -> list[Floats]:
-    """Gaps [mm^3] of both seats' hats for another fit, as `ContactModel.solve` takes them."""
+    """Gaps [mm^3] of both seats' hats for another fit, as `ContactModel.solve` takes them.
+
+    Hats are those within reach of the fit that the bodies were condensed with: one with the whole seat and little clearance serves all.
+    """
     return [
-        pairing.gap_with(seat_pair(solid.plate, "plate", side, side, fit, solid.stack.own, 0.0).more)
+        pairing.gap_with(seat_gap(solid.plate, side, fit, solid.stack.own))
         for side, pairing in zip(("left", "right"), solid.model.pairings, strict=True)
     ]
 

@@ -23,6 +23,7 @@ from drivewright.contact import hertz
 from drivewright.errors import InputError
 from drivewright.scene import Outline
 from drivewright.solids.contact.model import ContactModel, ContactState, Functional, Link, Pair
+from drivewright.solids.contact.pairing import GapOf
 from drivewright.solids.elastic import FreeBody
 from drivewright.solids.engine import EngineObject, fe_module
 
@@ -125,11 +126,17 @@ def pin_body(outline: Outline, stack: Stack, material: Material, sizes: Sizes, s
 
 def seat_pair(plate: Plate, name: str, side: str, pin: str, fit: Fit, edges: tuple[float, float], shift: float) -> Pair:
     """The `Pair` of a plate's seat and its pin: clearance, rounded edges of the hole, and the part of the seat that bears."""
+    reach = fit.clearance + 0.5 * fit.edge_radius + REACH
+    return Pair((name, f"seat {side}.*"), (pin, "skin"), reach, seat_gap(plate, side, fit, edges, shift))
+
+
+def seat_gap(plate: Plate, side: str, fit: Fit, edges: tuple[float, float], shift: float = 0.0) -> GapOf:
+    """Gap [mm] between a seat and its pin that the meshes do not have; edges z [m] of the plate, which is moved along x by `shift` [m]."""
     seat, outward = plate.seat(side), 1.0 if side == "right" else -1.0
     centre = complex(*seat.center) + shift
 
     def more(points: Floats, normals: Floats) -> Floats:
-        """Gap [mm] that the mesh does not have."""
+        """At points of the seat."""
         relief = np.zeros(len(points))
         for edge in edges:
             if edge > 0:  # 0 is the middle plane
@@ -140,7 +147,7 @@ def seat_pair(plate: Plate, name: str, side: str, pin: str, fit: Fit, edges: tup
             relief += np.where(np.abs(turn) > fit.seat, 1.0, 0.0)
         return fit.clearance / MM + relief
 
-    return Pair((name, f"seat {side}.*"), (pin, "skin"), fit.clearance + 0.5 * fit.edge_radius + REACH, more)
+    return more
 
 
 def strip_rows(pin: FreeBody, contact: complex, normal: float, sigma: float, end: float) -> list[EngineObject]:
