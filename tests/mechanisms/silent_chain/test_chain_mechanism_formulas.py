@@ -649,7 +649,7 @@ def test_the_running_chain_s_numbers(monkeypatch):
     assert (number["tension.mean"], number["tension.maximum"]) == pytest.approx((90.0, 94.1))
     assert number["transmission_error"] == pytest.approx(10.25e-6)
     assert (number["flank_force.maximum"], number["friction_utilisation"]) == pytest.approx((52.05, 0.3025))
-    assert number["energy_drift"] == pytest.approx(6e-5 / 2 / answer.data.t[-1])  # the worst of the members
+    assert number["energy_drift"] == pytest.approx(6e-5 / 2 / answer.data.first.t[-1])  # the worst of the members
     running, spectrum = ({column.name: column.data for column in table.columns} for table in answer.tables)
     assert len(running["time"]) == 2 * 66 * 24 + 1 and running["plate.right_flank"][4] == pytest.approx(52.0)
     at = np.flatnonzero(np.isclose(spectrum["order"], 1.0))[0]
@@ -699,14 +699,14 @@ def test_safety_of_a_plate_is_its_yield_strength_over_its_stress(monkeypatch):
     loads = SimpleNamespace(pins=np.array([[[3.0, 4.0], [6.0, 8.0]]] * 2), flanks=np.array([[1.0, 2.0]] * 2))
     revolution = SimpleNamespace(loads=loads, time=np.array([0.0, 1.0]))
     for name, result in (
-        ("_basis", None),
-        ("_revolution", revolution),
+        ("plane_basis", None),
+        ("plate_revolution", revolution),
         ("worst", peak),
         ("stress_history", np.ones((2, 1, 3))),
         ("stress_picture", None),
     ):
         monkeypatch.setattr(stress, name, lambda *given, result=result: result)
-    answer = stress.stress(model, {"dynamics": SimpleNamespace(data=None)})
+    answer = stress.stress(model, {"dynamics": SimpleNamespace(data=SimpleNamespace(first=None))})
     assert answer.checks[0].value == pytest.approx(835 / 400) and answer.checks[0].limit == 1.2
     columns = {column.name: column.data[0] for column in answer.tables[0].columns}
     assert [columns[name] for name in ("left_pin", "right_pin", "left_flank", "right_flank")] == pytest.approx([5, 10, 1, 2])
@@ -729,7 +729,7 @@ def revolution(count, model):
         steady=slice(5, count - 3),
         model=SimpleNamespace(chain=SimpleNamespace(count=model.spec.links)),
     )
-    return stress._revolution(model, motion), ramps
+    return stress.plate_revolution(model, motion), ramps
 
 
 def test_one_plate_bears_its_share_of_a_revolution():
