@@ -74,7 +74,7 @@ def solid_flexibility(
     _refuse(rings, modulus, poisson, seats, places, max_size)
     pieces = split_rings(rings, [*(edge for band in seats for edge in band.edges), *places])
     mesh = _mesh(pieces, seats, max_size or rings[:, 1:3].max() / 2)
-    body = FreeBody(mesh, QUARTERS * modulus, poisson, **SYMMETRY)  # so stiff, the quarter carries the whole force
+    body = FreeBody(mesh, QUARTERS * modulus, poisson, None, **SYMMETRY)  # so stiff, the quarter carries the whole force
     skins = [_any_of("skin", [n for n, piece in enumerate(pieces) if band.holds(piece.low, piece.high)]) for band in seats]
     cuts = [f"cut{_nearest_cut(pieces, place)}" for place in places]
     _check_areas(mesh, pieces)

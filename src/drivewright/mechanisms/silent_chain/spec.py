@@ -283,7 +283,7 @@ class Solid(Spec):
     load_steps: Integer = Field(
         24, ge=2, le=500, description="instants of a revolution of the chain, the largest and smallest forces among them"
     )
-    fineness: Number = Field(1.0, ge=0.5, le=3, description="of the elements: 2 halves them all")
+    fineness: Number = Field(1.0, ge=0.7, le=3, description="of the elements: 2 halves them all")
 
 
 class Limits(Spec):
