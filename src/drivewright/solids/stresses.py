@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats, Ints
+from drivewright.fatigue import von_mises
 from drivewright.solids.elastic import MM, FreeBody, lame_constants, sampled_triangles
 
 
@@ -21,13 +22,7 @@ class SkinStress(NamedTuple):
     @property
     def mises(self) -> Floats:
         """Von Mises stress (L, n) [Pa]."""
-        return mises(self.stress)
-
-
-def mises(stress: Floats) -> Floats:
-    """sqrt(3/2 s:s) of the deviators s of stress tensors (..., 3, 3)."""
-    deviator = stress - np.trace(stress, axis1=-2, axis2=-1)[..., None, None] / 3 * np.eye(3)
-    return np.sqrt(1.5 * np.sum(deviator**2, axis=(-2, -1)))
+        return von_mises(self.stress)
 
 
 def skin_stress(body: FreeBody, fields: Sequence[Floats], region: str = ".*", parts: int = 1) -> SkinStress:

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
+from drivewright.fatigue import von_mises
 from drivewright.solids.contact import ContactModel, Functional, Pair
 from drivewright.solids.contact.model import contact_width
 from drivewright.solids.contact.surfaces import hit_by_rays, skin_of
 from drivewright.solids.elastic import FreeBody, Plane
-from drivewright.solids.stresses import hooke, mises
+from drivewright.solids.stresses import hooke
 from tests.support.pressed_bodies import NU, SHEET, E, block
 
 pytestmark = [pytest.mark.analytical, pytest.mark.needs_fe]
@@ -65,4 +66,4 @@ def test_hookes_law_of_a_shear_and_of_a_turn():
 def test_von_mises_stress_of_a_pull_a_shear_and_a_pressure_from_all_sides():
     pull, shear = np.diag([0.0, -7.0, 0.0]), np.zeros((3, 3))
     shear[0, 2] = shear[2, 0] = 5.0
-    assert mises(np.array([pull, shear, -3.0 * np.eye(3)])) == pytest.approx([7.0, 5.0 * np.sqrt(3), 0.0])
+    assert von_mises(np.array([pull, shear, -3.0 * np.eye(3)])) == pytest.approx([7.0, 5.0 * np.sqrt(3), 0.0])

@@ -12,7 +12,7 @@ from drivewright._typing import Floats
 from drivewright.chains.solid.history import SolidHistory, solid_history
 from drivewright.chains.solid.joint import Fit, seat_gap
 from drivewright.chains.solid.pitch import PlateAndPins
-from drivewright.chains.stress.plate import Loads
+from drivewright.chains.stress.plate import SIDES, Loads
 
 
 class Borne(NamedTuple):
@@ -31,7 +31,7 @@ def with_fit(solid: PlateAndPins, fit: Fit) -> list[Floats]:
     """
     return [
         pairing.gap_with(seat_gap(solid.plate, side, fit, solid.stack.own))
-        for side, pairing in zip(("left", "right"), solid.model.pairings, strict=True)
+        for side, pairing in zip(SIDES, solid.model.pairings, strict=True)
     ]
 
 
@@ -44,7 +44,7 @@ def borne(history: SolidHistory) -> Borne:
     return Borne(
         history.worst("plate")[0],
         float(skin.mises[:, near].max()),
-        max(history.worst(side)[0] for side in ("left", "right")),
+        max(history.worst(side)[0] for side in SIDES),
         max(float(part.max(initial=0.0)) for state in history.states for part in state.pressure),
     )
 

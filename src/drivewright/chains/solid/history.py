@@ -9,17 +9,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright import fatigue
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.chains.solid.joint import STRIP
-from drivewright.chains.solid.meshes import SIDES
 from drivewright.chains.solid.pitch import WAYS, PlateAndPins, forces_at
-from drivewright.chains.stress.plate import Loads
+from drivewright.chains.stress.life import life_of_history
+from drivewright.chains.stress.plate import SIDES, Loads
 from drivewright.fatigue.material import StrainLife
 from drivewright.solids.contact.model import ContactState
 from drivewright.solids.stresses import SkinStress, skin_stress
 
 BODIES = ("plate", *SIDES)
+FACES = {"plate": "(?!flank|low).*", "left": "skin|high", "right": "skin|high"}  # whose stress is looked at
 ROLLING = 5.0  # widths of the strip beside the rolling contact that are left out
 LEAST = 0.4  # of the greatest stress: points below it are not looked at for life
 
@@ -76,9 +76,6 @@ def solid_history(
     return SolidHistory(solid, tuple(states), skins, {name: _searched(solid, name, skins[name]) for name in BODIES})
 
 
-FACES = {"plate": "(?!flank|low).*", "left": "skin|high", "right": "skin|high"}
-
-
 def skin_life(skin: SkinStress, searched: Bools, material: StrainLife, plane: str = "max-shear") -> SkinLife:
     """`SkinLife` where the history repeats, of points whose greatest stress is `LEAST` of the greatest or more.
 
@@ -87,10 +84,7 @@ def skin_life(skin: SkinStress, searched: Bools, material: StrainLife, plane: st
     size = np.where(searched, skin.mises.max(axis=0), 0.0)
     points = np.flatnonzero(size >= LEAST * size.max())
     stress = np.ascontiguousarray(np.swapaxes(skin.stress[:, points], 0, 1))
-    strain = fatigue.elastic_strain(stress, material)
-    for node in np.flatnonzero(size[points] > material.cyclic_yield):
-        stress[node], strain[node] = fatigue.neuber_history(stress[node], material)
-    found = fatigue.life_map(strain, stress, material, plane)
+    found = life_of_history(stress, size[points], material, plane)
     return SkinLife(points, found.life, found.damage)
 
 

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from drivewright.chains.plate import Plate
+from drivewright.chains.stress.plate import SIDES
 from drivewright.scene import Arc, Outline, Part, Piece, Prism
 from drivewright.solids import cad, pieces
 from drivewright.solids.engine import EngineObject, fe_module
 from drivewright.solids.meshing import solid_mesh
 
 MM = 1e-3
-SIDES = ("left", "right")
 GRADING = 0.35
 FLAT = 1e-4  # mm: a bounding box so low is a flat face; boxes carry about 1e-7 of slack
 

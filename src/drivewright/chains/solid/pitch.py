@@ -13,8 +13,8 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.chains.plate import Plate
 from drivewright.chains.solid.joint import STRIP, Fit, Material, Stack, pin_body, seat_pair, strip_rows, turn_row
-from drivewright.chains.solid.meshes import SIDES, Sizes, plate_mesh
-from drivewright.chains.stress.plate import Loads
+from drivewright.chains.solid.meshes import Sizes, plate_mesh
+from drivewright.chains.stress.plate import SIDES, Loads
 from drivewright.solids.contact.model import ContactModel, Functional, Link
 from drivewright.solids.elastic import FreeBody, superposed_field
 

@@ -9,13 +9,15 @@ from drivewright.chains.solid.history import FACES, SkinLife, SolidHistory
 from drivewright.chains.solid.joint import RollingPins
 from drivewright.chains.solid.pitch import WAYS
 from drivewright.contact import hertz
+from drivewright.fatigue import von_mises
 from drivewright.result import Column, Table
 from drivewright.solids.deformation import exaggeration_for
 from drivewright.solids.elastic import MM, FreeBody
-from drivewright.solids.stresses import SkinStress, hooke, mises, skin_stress
+from drivewright.solids.stresses import SkinStress, hooke, skin_stress
 
 DRAWN = 0.03  # of the plate's length: the largest displacement as drawn
 FINER = 3  # parts of an element's edge in a picture
+WORDS = ("along the chain", "across the chain", "along the pin")
 GRID = (160, 60)  # rectangles of a section, along and across
 
 
@@ -56,9 +58,6 @@ def stress_table(name: str, title: str, history: SolidHistory, body: str, instan
             Column("mises", "Pa", "von Mises stress", skin.mises[0][rows]),
         ),
     )
-
-
-WORDS = ("along the chain", "across the chain", "along the pin")
 
 
 def life_table(name: str, title: str, skin: SkinStress, life: SkinLife, axes: Sequence[int] = (0, 1, 2)) -> Table:
@@ -158,7 +157,7 @@ def _section(body: FreeBody, field: Floats, y: float, span: Sequence[float], hei
     shape = ng.GridFunction(body.space)
     shape.vec.FV().NumPy()[:] = field
     at = body.mesh(kept[:, 0], np.full(len(kept), y / MM), kept[:, 1])
-    size = mises(hooke(body, np.asarray(ng.Grad(shape)(at)).reshape(-1, 3, 3)))
+    size = von_mises(hooke(body, np.asarray(ng.Grad(shape)(at)).reshape(-1, 3, 3)))
     half = 0.5 * np.array([x[1] - x[0], z[1] - z[0]])
     corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)]) * half
     place = (kept[:, None, :] * MM + corners).reshape(-1, 2)

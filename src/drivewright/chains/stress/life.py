@@ -38,12 +38,19 @@ def plate_life(basis: Basis, loads: Loads, material: StrainLife, plane: str = "m
     size = _greatest(share, basis.stress[:, rows])
     kept = size >= least * size.max()
     rows, size = rows[kept], size[kept]
-    stress = fatigue.superpose(share, basis.stress[:, rows])
+    found = life_of_history(fatigue.superpose(share, basis.stress[:, rows]), size, material, plane)
+    return PlateLife(rows, found.life, found.damage, size)
+
+
+def life_of_history(stress: Floats, size: Floats, material: StrainLife, plane: str) -> "fatigue.LifeMap":
+    """`fatigue.LifeMap` of elastic stress (nodes, n, 3, 3) [Pa] that repeats; size (nodes,): the greatest von Mises stress of each node.
+
+    Where that exceeds the cyclic yield stress, Neuber's rule gives the local stress and strain, in place.
+    """
     strain = fatigue.elastic_strain(stress, material)
     for node in np.flatnonzero(size > material.cyclic_yield):
         stress[node], strain[node] = fatigue.neuber_history(stress[node], material)
-    found = fatigue.life_map(strain, stress, material, plane)
-    return PlateLife(rows, found.life, found.damage, size)
+    return fatigue.life_map(strain, stress, material, plane)
 
 
 def life_table(basis: Basis, found: PlateLife) -> Table:

@@ -6,17 +6,17 @@ import numpy as np
 
 from drivewright._typing import Floats, Ints
 from drivewright.chains.solid import tables
-from drivewright.chains.solid.history import SolidHistory, skin_life, solid_history
+from drivewright.chains.solid.history import SkinLife, SolidHistory, skin_life, solid_history
 from drivewright.chains.solid.joint import Fit, Material, RollingPins, rolling_pins, stack_of
 from drivewright.chains.solid.meshes import usual_sizes
 from drivewright.chains.solid.pitch import PlateAndPins, plate_and_pins
-from drivewright.chains.stress.plate import stress_history, worst
+from drivewright.chains.stress.plate import SIDES, stress_history, worst
 from drivewright.chains.stress.revolution import PlateRevolution, loads_at, turning_points
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.missing import unless_impossible
 from drivewright.mechanisms.silent_chain.stress import card_of, plane_basis, plate_revolution
 from drivewright.numerics.ensemble import mean_of_members
-from drivewright.result import Answer, Answers, Check, Value
+from drivewright.result import Answer, Answers, Check, Table, Value
 from drivewright.solids.plane import plane_von_mises
 
 PIN_VIEW = (2, 1, 0)  # along the pin to the right, seen from outside
@@ -66,49 +66,9 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
     spec, first = model.spec, histories[0]
     card = card_of(model)
     plates = [skin_life(each.skins["plate"], each.searched["plate"], card, spec.fatigue.plane) for each in histories]
-    pins = [
-        {side: skin_life(each.skins[side], each.searched[side], card, spec.fatigue.plane) for side in ("left", "right")}
-        for each in histories
-    ]
-    _, instant, point = first.worst("plate")
-    side = max(("left", "right"), key=lambda name: first.worst(name)[0])
-    _, pin_instant, _ = first.worst(side)
-    x, y, z = first.skins["plate"].points[point]
+    pins = [{side: skin_life(each.skins[side], each.searched[side], card, spec.fatigue.plane) for side in SIDES} for each in histories]
     pressure = tables.rolling_table(rolling, model.link.radius, spec.material.youngs_modulus, spec.material.poisson_ratio)
-    values = {
-        "solid.plate.max_stress": _mean(
-            [each.worst("plate")[0] for each in histories],
-            "Pa",
-            "greatest von Mises stress of a plate over a revolution of the chain, as a solid in contact with its pins",
-            "Greatest stress of a plate (solid)",
-        ),
-        "solid.plate.max_stress.x": Value(float(x), "m", "where it is, along the plate from its middle", label="Place along the plate"),
-        "solid.plate.max_stress.y": Value(float(y), "m", "where it is, above the line of the pins", label="Place across the plate"),
-        "solid.plate.max_stress.z": Value(float(z), "m", "where it is, from the middle of the chain", label="Place across the chain"),
-        "solid.pin.max_stress": _mean(
-            [max(each.worst(name)[0] for name in ("left", "right")) for each in histories],
-            "Pa",
-            "greatest von Mises stress of a pin over a revolution of the chain, beside its rolling contact",
-            "Greatest stress of a pin (solid)",
-        ),
-        "solid.seat.max_pressure": _mean(
-            [max(part.max(initial=0.0) for state in each.states for part in state.pressure) for each in histories],
-            "Pa",
-            "greatest pressure of a pin on its seat in a plate; it grows where the edges of the hole are sharper",
-            "Greatest pressure on a seat",
-        ),
-        "solid.rolling.max_pressure": Value(
-            float(np.max(pressure["pressure"].data)),
-            "Pa",
-            "greatest Hertz pressure between two pins, with the line load that their bending leaves along them, under the greatest force",
-            label="Greatest rolling pressure (solid)",
-        ),
-        "solid.rolling.line_load_ratio": Value(
-            float(rolling.line_load.max() / np.average(rolling.line_load, weights=rolling.shares / rolling.line_load)),
-            "-",
-            "greatest line load between two pins over its mean along them",
-            label="Greatest over mean line load",
-        ),
+    values = _stresses(rolling, histories, float(np.max(pressure["pressure"].data))) | {
         "solid.plate.min_life": _mean_life(
             [each.least for each in plates], "shortest life of a plate as a solid, in revolutions of the chain", "Life of a plate (solid)"
         ),
@@ -118,16 +78,6 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
             "Life of a pin (solid)",
         ),
     }
-    found = (
-        tables.history_table(first, time),
-        tables.stress_table("solid_plate", "Plate as a solid at its worst instant", first, "plate", instant),
-        tables.stress_table("solid_pin", "Pin as a solid at its worst instant", first, side, pin_instant, PIN_VIEW),
-        tables.section_table(first, side, pin_instant),
-        tables.seat_table(first, side, pin_instant),
-        pressure,
-        tables.life_table("solid_plate_life", "Life on the plate as a solid", first.skins["plate"], plates[0]),
-        tables.life_table("solid_pin_life", "Life on the pin as a solid", first.skins[side], pins[0][side], PIN_VIEW),
-    )
     limit = spec.limits.yield_safety
     checks = tuple(
         Check(
@@ -141,7 +91,64 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
         )
         for name in ("plate", "pin")
     )
+    found = (*_pictures(first, time, plates[0], pins[0]), pressure)
     return Answer(values, found, checks, tuple(_remarks(model, rolling, histories)))
+
+
+def _stresses(rolling: RollingPins, histories: list[SolidHistory], pressure: float) -> dict[str, Value]:
+    """Stresses and pressures; `pressure` [Pa]: the greatest between the pins."""
+    first = histories[0]
+    x, y, z = first.skins["plate"].points[first.worst("plate")[2]]
+    return {
+        "solid.plate.max_stress": _mean(
+            [each.worst("plate")[0] for each in histories],
+            "Pa",
+            "greatest von Mises stress of a plate over a revolution of the chain, as a solid in contact with its pins",
+            "Greatest stress of a plate (solid)",
+        ),
+        "solid.plate.max_stress.x": Value(float(x), "m", "where it is, along the plate from its middle", label="Place along the plate"),
+        "solid.plate.max_stress.y": Value(float(y), "m", "where it is, above the line of the pins", label="Place across the plate"),
+        "solid.plate.max_stress.z": Value(float(z), "m", "where it is, from the middle of the chain", label="Place across the chain"),
+        "solid.pin.max_stress": _mean(
+            [max(each.worst(name)[0] for name in SIDES) for each in histories],
+            "Pa",
+            "greatest von Mises stress of a pin over a revolution of the chain, beside its rolling contact",
+            "Greatest stress of a pin (solid)",
+        ),
+        "solid.seat.max_pressure": _mean(
+            [max(part.max(initial=0.0) for state in each.states for part in state.pressure) for each in histories],
+            "Pa",
+            "greatest pressure of a pin on its seat in a plate; it grows where the edges of the hole are sharper",
+            "Greatest pressure on a seat",
+        ),
+        "solid.rolling.max_pressure": Value(
+            pressure,
+            "Pa",
+            "greatest Hertz pressure between two pins, with the line load that their bending leaves along them, under the greatest force",
+            label="Greatest rolling pressure (solid)",
+        ),
+        "solid.rolling.line_load_ratio": Value(
+            float(rolling.line_load.max() / np.average(rolling.line_load, weights=rolling.shares / rolling.line_load)),
+            "-",
+            "greatest line load between two pins over its mean along them",
+            label="Greatest over mean line load",
+        ),
+    }
+
+
+def _pictures(first: SolidHistory, time: Floats, plate: SkinLife, pins: dict[str, SkinLife]) -> tuple[Table, ...]:
+    """Tables of one run: history, plate, the pin with the greatest stress, its seat and the section through its hole, lives."""
+    side = max(SIDES, key=lambda name: first.worst(name)[0])
+    instant, pin_instant = first.worst("plate")[1], first.worst(side)[1]
+    return (
+        tables.history_table(first, time),
+        tables.stress_table("solid_plate", "Plate as a solid at its worst instant", first, "plate", instant),
+        tables.stress_table("solid_pin", "Pin as a solid at its worst instant", first, side, pin_instant, PIN_VIEW),
+        tables.section_table(first, side, pin_instant),
+        tables.seat_table(first, side, pin_instant),
+        tables.life_table("solid_plate_life", "Life on the plate as a solid", first.skins["plate"], plate),
+        tables.life_table("solid_pin_life", "Life on the pin as a solid", first.skins[side], pins[side], PIN_VIEW),
+    )
 
 
 def _remarks(model: ChainModel, rolling: RollingPins, histories: list[SolidHistory]) -> Iterable[str]:
