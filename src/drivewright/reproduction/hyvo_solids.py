@@ -136,7 +136,7 @@ def solid_rows(folder: Path) -> Iterator[Row]:
         "pinned": OPEN,
     }
     rest_common: dict[str, Any] = common | {"idealised": True}
-    for body, number, printed_of, place in (("plate", 0, PLATE_STRESSES, "section 6.2"), ("pin", 1, PIN_STRESSES, "section 6.1")):
+    for body, number, printed_of, place in (("plate", 0, PLATE_STRESSES, "section 6, plates"), ("pin", 1, PIN_STRESSES, "section 6, pins")):
         means = [running.mean_of_cases(each[number]) for each in (new, old)]
         beside = "" if body == "plate" else " Beside the rolling contact, whose own stress is Hertz's."
         for (name, printed), ours in zip(printed_of.items(), means, strict=True):
@@ -178,7 +178,7 @@ def solid_rows(folder: Path) -> Iterator[Row]:
         Printed("above 1", *ABOVE_ONE),
         ours.value,
         "-",
-        where="section 6.1",
+        where="section 6, pins",
         low=ours.low,
         high=ours.high,
         note=_order("pin"),
