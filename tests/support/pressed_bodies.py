@@ -35,6 +35,22 @@ def quarter_disc_face(radius, way, size, patch, contact="contact", flat="flat"):
     return face
 
 
+def bowl(radius, way, size, patch):
+    """Half a disc that touches the line y = 0 at the origin from above (1) or below (-1), both sides of it: "contact", "free", "flat"."""
+    import netgen.occ as occ
+
+    def at(turn):
+        return occ.Pnt(radius * np.sin(turn), way * (radius - radius * np.cos(turn)), 0)
+
+    turns = np.array([-np.pi / 2, -patch / radius, patch / radius, np.pi / 2])
+    arcs = [occ.ArcOfCircle(at(a), at((a + b) / 2), at(b)) for a, b in zip(turns, turns[1:], strict=False)]
+    face = occ.Face(occ.Wire([*arcs, occ.Segment(at(np.pi / 2), at(-np.pi / 2))]))
+    for edge, name in zip(face.edges, ("free", "contact", "free", "flat"), strict=True):
+        edge.name = name
+    face.edges[1].maxh = size
+    return _meshed(face, radius / 6, 2)
+
+
 def half_disc(radius, size):
     """The right half of a disc about the origin: "contact", "sym"."""
     import netgen.occ as occ
@@ -74,12 +90,17 @@ def block(low, high, size):
     return _meshed(face, size, 2)
 
 
-def quarter_ball(radius, way, size, patch):
-    """A quarter of half a ball that touches z = 0 at the origin from above (1) or below (-1): "contact", "symx", "symy", "flat"."""
+def quarter_ball(radius, way, size, patch, whole=False):
+    """A quarter of half a ball that touches z = 0 at the origin from above (1) or below (-1): "contact", "symx", "symy", "flat".
+
+    whole: both sides of x = 0, without "symx".
+    """
     import netgen.occ as occ
 
     low, high = sorted((0.0, way * radius))
-    ball = occ.Sphere(occ.Pnt(0, 0, way * radius), radius) * occ.Box(occ.Pnt(0, 0, low), occ.Pnt(radius, radius, high))
+    ball = occ.Sphere(occ.Pnt(0, 0, way * radius), radius) * occ.Box(
+        occ.Pnt(-radius if whole else 0, 0, low), occ.Pnt(radius, radius, high)
+    )
     core = occ.Cylinder(occ.Pnt(0, 0, -1), occ.Z, r=patch, h=2)
     shape = occ.Glue([ball - core, ball * core])
     for face in shape.faces:

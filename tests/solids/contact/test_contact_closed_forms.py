@@ -65,22 +65,37 @@ def test_pressure_converges_with_the_elements():
     assert off[-1] < 0.01
 
 
-def test_two_balls_press_as_hertz_says():
+def two_balls(share):
+    """(r / a, p / p0, areas / a^2) at the hats of two balls, elements of a part of the half width a."""
     radius, force = 10e-3, 500.0
     expected = hertz.point_contact(force, (radius / 2, radius / 2), MODULUS)
-    half_width = float((3 * force * radius / 2 / (4 * MODULUS)) ** (1 / 3))
-    size = 1e3 * half_width / 9
-    upper = FreeBody(quarter_ball(10.0, 1, size, 1.4e3 * half_width), E, NU, dirichletx="symx", dirichlety="symy")
-    lower = FreeBody(quarter_ball(10.0, -1, size, 1.4e3 * half_width), E, NU, dirichletx="symx", dirichlety="symy", dirichletz="flat")
+    size, patch = 1e3 * float(expected.major) * share, 1.4e3 * float(expected.major)
+    upper = FreeBody(quarter_ball(10.0, 1, size, patch), E, NU, dirichletx="symx", dirichlety="symy")
+    lower = FreeBody(quarter_ball(10.0, -1, size, patch), E, NU, dirichletx="symx", dirichlety="symy", dirichletz="flat")
     pair = Pair(("upper", "contact"), ("lower", "contact"), 2e-5)
     model = ContactModel({"upper": upper, "lower": lower}, [pair], [], {"push": Functional("upper", upper.mean("flat", (0, 0, -1)))})
-    state = model.solve({"push": force / 4})
-    distance = 1e-3 * np.hypot(*model.pairings[0].places[:, :2].T)
-    top, end = parabola(distance, state.pressure[0])
+    state, (pairing,) = model.solve({"push": force / 4}), model.pairings
     assert state.force(0)[2] == pytest.approx(force / 4, rel=1e-9)
-    assert state.pressure[0].max() == pytest.approx(float(expected.pressure), rel=0.025)
-    assert top == pytest.approx(float(expected.pressure), rel=0.015)
-    assert end == pytest.approx(half_width, rel=0.05)
+    distance = 1e-3 * np.hypot(*pairing.places[:, :2].T) / float(expected.major)
+    return distance, state.pressure[0] / float(expected.pressure), 1e-6 * pairing.area / float(expected.major) ** 2
+
+
+def test_two_balls_press_as_hertz_says():
+    """The half width by the second moment of the pressure, <r^2> = 2 a^2/5, and the pressure by the ellipse through it."""
+    distance, pressure, area = two_balls(1 / 9)
+    assert np.sqrt(2.5 * (pressure * area) @ distance**2 / (pressure @ area)) == pytest.approx(1.0, rel=0.01)
+    assert parabola(distance, pressure)[0] == pytest.approx(1.0, rel=0.01)
+    assert pressure.max() == pytest.approx(1.0, rel=0.025)
+
+
+@pytest.mark.slow
+def test_two_balls_press_as_hertz_says_on_finer_elements():
+    """Elements of a/18: to 1 % by every measure, single hats too."""
+    distance, pressure, area = two_balls(1 / 18)
+    top, end = parabola(distance, pressure)
+    assert [top, end, pressure.max()] == pytest.approx([1.0] * 3, rel=0.01)
+    assert np.sqrt(2.5 * (pressure * area) @ distance**2 / (pressure @ area)) == pytest.approx(1.0, rel=0.005)
+    assert np.sqrt(4 / np.pi * area[pressure > 0].sum()) == pytest.approx(1.0, rel=0.01)
 
 
 @cache

@@ -16,7 +16,6 @@ from drivewright.errors import SolverError
 
 TRIES = 25  # of the active set before the interior point method
 STEPS = 80  # of the interior point method
-INFEASIBLE = 2  # status of SciPy's linear programme
 SMALL = 1e-9  # of complementarity, relative
 BACK = 0.995  # part of the way to the bound that a step may go
 BALANCED = 1e-6  # of the load: what may be missing from its balance
@@ -40,7 +39,7 @@ def solve_complementarity(
 
     SolverError where neither method ends.
     """
-    scale = _sizes(matrix, held)
+    scale = sizes(matrix, held)
     scaled = matrix / np.outer(scale, scale)
     push = np.linalg.norm(held / scale, axis=1)
     push = np.where(push > 0, push, 1.0)
@@ -59,25 +58,20 @@ def solve_complementarity(
     return Pressed(x / scale, motions / push, gap * scale, pressing)
 
 
-def _sizes(matrix: Floats, held: Floats) -> Floats:
+def sizes(matrix: Floats, held: Floats) -> Floats:
     """Scale (n,) of the unknowns: the root of the diagonal, or what the rigid motions feel of them where that is far more."""
     own, weight = np.sqrt(np.maximum(np.diag(matrix), 0.0)), np.linalg.norm(held, axis=0)
     usual = np.median(own[weight > 0] / weight[weight > 0]) if np.any(weight > 0) else 0.0
     return np.maximum(np.maximum(own, SHARE * usual * weight), np.sqrt(TINY) * own.max(initial=1e-300))
 
 
-def balance_exists(held: Floats, load: Floats, one_sided: Bools) -> bool:
-    """Whether any unknowns, not negative where they are one-sided, have H x + h = 0."""
-    from scipy.optimize import linprog
+def balance_exists(rays: Floats, load: Floats) -> bool:
+    """Whether amounts, not negative, of rays (m, k) have a sum that balances a load (m,): R y + h = 0."""
+    from scipy.optimize import nnls
 
-    size = np.abs(held).max(axis=0, initial=1e-300)
-    found = linprog(
-        np.zeros(len(one_sided)),
-        A_eq=held / size,
-        b_eq=-load / (np.abs(load).max(initial=0.0) or 1.0),
-        bounds=[(0.0 if sided else None, None) for sided in one_sided],
-    )
-    return found.status != INFEASIBLE
+    size = np.linalg.norm(rays, axis=0)
+    _, missing = nnls(rays[:, size > 0] / size[size > 0], -load)
+    return bool(missing <= BALANCED * np.linalg.norm(load))
 
 
 def _active_set(matrix: Floats, right: Floats, held: Floats, load: Floats, one_sided: Bools, pressing: Bools) -> Pressed | None:

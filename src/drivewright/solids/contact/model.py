@@ -1,6 +1,7 @@
 """Elastic bodies that press on each other: condensed once to their skins, then one small quadratic programme for each load.
 
-Small displacements; contact without friction.  Every body is a `solids.FreeBody`, held by supports, by symmetry and by what presses on it.
+Small displacements; contact with or without Coulomb's friction.  Every body is a `solids.FreeBody`, held by supports, by symmetry and by
+what presses on it.
 Numbers at the door are SI.
 """
 
@@ -15,6 +16,7 @@ from drivewright._typing import Bools, Floats
 from drivewright.errors import InputError, SolverError
 from drivewright.solids.contact.complementarity import Pressed, balance_exists, solve_complementarity
 from drivewright.solids.contact.condensing import Condensed, Rows, condense, load_rows, solved
+from drivewright.solids.contact.friction import Grips, solve_friction
 from drivewright.solids.contact.pairing import GapOf, Pairing, paired
 from drivewright.solids.contact.surfaces import Skin, skin_of
 from drivewright.solids.elastic import MM, FreeBody
@@ -30,7 +32,7 @@ class Pair(NamedTuple):
     """Two named parts of two bodies' boundaries that may touch: (body, regular expression) each.
 
     The pressure lives on the elements of the first: take the finer or the more curved.  reach [m]: the largest gap that may close; `more`:
-    what is added to the gap; press_fit: an overlap before any load is meant.
+    what is added to the gap; press_fit: an overlap before any load is meant; friction: Coulomb's coefficient.
     """
 
     first: tuple[str, str]
@@ -38,6 +40,7 @@ class Pair(NamedTuple):
     reach: float
     more: GapOf | None = None
     press_fit: bool = False
+    friction: float = 0.0
 
 
 class Functional(NamedTuple):
@@ -63,7 +66,9 @@ class Link(NamedTuple):
 class ContactState:
     """Answer to one load.
 
-    pressure: for each pair (h,) [Pa] at the hats of its `Pairing`; links (l,) [N]: the forces along their functionals; motions: {body:
+    For each pair pressure (h,) [Pa] at the hats of its `Pairing`; traction (h, d - 1) [Pa] by friction on the second body along their
+    tangents, and how far that body slips (h, d - 1) [m] along them since the state before, both without rows where there is no friction;
+    slid (r,) [mm^3]: all slips of all hats so far, times their areas.  links (l,) [N]: the forces along their functionals; motions: {body:
     amounts of its rigid motions} [mm].
     """
 
@@ -71,13 +76,29 @@ class ContactState:
     forces: Mapping[str, float]
     answer: Pressed
     pressure: tuple[Floats, ...]
+    traction: tuple[Floats, ...]
+    slip: tuple[Floats, ...]
+    slid: Floats
     links: Floats
     motions: Mapping[str, Floats]
 
     def force(self, pair: int) -> Floats:
         """Force (d,) [N] of a pair on its first body."""
         each = self.model.pairings[pair]
-        return -np.asarray(each.first.T @ (self.pressure[pair] / MEGA)).reshape(each.places.shape[1], -1).sum(axis=1)
+        nodal = each.first.T @ self.pressure[pair]
+        if self.traction[pair].size:
+            nodal = nodal + each.first_along.T @ self.traction[pair].ravel()
+        return -np.asarray(nodal / MEGA).reshape(each.places.shape[1], -1).sum(axis=1)
+
+    @property
+    def dissipated(self) -> float:
+        """Work [J] lost by friction since the state before."""
+        areas = (MM**2 * each.area for each in self.model.pairings)
+        return -sum(
+            float(np.einsum("h,hk,hk->", area, traction, slip))
+            for area, traction, slip in zip(areas, self.traction, self.slip, strict=True)
+            if traction.size
+        )
 
     def area(self, pair: int) -> float:
         """Area that presses [m^2]: of the hats that do."""
@@ -122,14 +143,17 @@ class ContactModel:
 
     @property
     def one_sided(self) -> Bools:
-        """Which unknowns can only press: those of all pairs, and some links."""
-        pressing = sum(len(each.gap) for each in self.pairings)
-        return np.array([True] * pressing + [link.one_sided for link in self.links])
+        """Which unknowns can only press: pressures of all pairs, and some links; in between stand the tractions, which act either way."""
+        pressing, rubbing = sum(self._hats), sum(self._rubbing)
+        return np.array([True] * pressing + [False] * rubbing + [link.one_sided for link in self.links])
 
     def solve(
         self, forces: Mapping[str, float], start: ContactState | None = None, gaps: Sequence[Floats] | None = None, narrow: bool = False
     ) -> ContactState:
-        """`ContactState` under forces {load: amount [N]}; `start`: that of a like load; `gaps`: other gaps [mm^3] of the pairs' hats.
+        """`ContactState` under forces {load: amount [N]}; `start`: the state before; `gaps`: other gaps [mm^3] of the pairs' hats.
+
+        With friction the answer depends on the way there: what slips is counted from the state before, or from the unloaded bodies.
+        Without friction `start` only saves time.
 
         InputError where a contact is too narrow for its elements, unless `narrow` says that it does not matter, as under a load that is
         small beside others.
@@ -137,22 +161,13 @@ class ContactModel:
         if unknown := sorted(set(forces) - set(self.loads)):
             raise InputError(f"contact: no load is called {unknown[0]!r}; there are {', '.join(self.loads)}")
         matrix, right, held, load = self._programme(self._amounts(forces), gaps)
+        slid = np.zeros(sum(self._rubbing)) if start is None else start.slid
+        right[sum(self._hats) : sum(self._hats) + len(slid)] -= slid
         basis = _held_motions(held, load, self._motions)
-        first = None if start is None else start.answer.pressing
-        try:
-            found = solve_complementarity(matrix, right, basis.T @ held, basis.T @ load, self.one_sided, first)
-        except SolverError:
-            if balance_exists(basis.T @ held, basis.T @ load, self.one_sided):
-                raise
-            words = ", ".join(repr(name) for name, _ in self._motions)
-            raise InputError(
-                f"contact: no pressure on the surfaces balances the loads on {words}: they pull a body off, or tip it over an edge. "
-                "Turn the load round, or give the body a support."
-            ) from None
-        *parts, links = np.split(found.x, np.cumsum([len(each.gap) for each in self.pairings]))
+        found = self._pressed(matrix, right, basis.T @ held, basis.T @ load, start)
         moved = dict.fromkeys(self.bodies, np.zeros(0))
         moved |= _split(basis @ found.motions, {name: len(body.modes) for name, body in self._motions})
-        state = ContactState(self, dict(forces), found, tuple(MEGA * part for part in parts), links, moved)
+        state = self._state(forces, found, slid, moved)
         if not narrow:
             for number in range(len(self.pairs)):
                 self.refuse_narrow(state, number)
@@ -183,13 +198,72 @@ class ContactModel:
     # -- pieces
 
     @property
-    def _count(self) -> int:
-        return len(self.one_sided)
+    def _dim(self) -> int:
+        return next(iter(self.bodies.values())).mesh.dim
+
+    @property
+    def _hats(self) -> list[int]:
+        """Number of pressures of each pair."""
+        return [len(each.gap) for each in self.pairings]
+
+    @property
+    def _rubbing(self) -> list[int]:
+        """Number of tractions of each pair, 0 without friction."""
+        return [len(each.gap) * (self._dim - 1) if pair.friction else 0 for pair, each in zip(self.pairs, self.pairings, strict=True)]
+
+    @property
+    def _grips(self) -> Grips:
+        ways, hats = self._dim - 1, self._hats
+        rubs = np.repeat([pair.friction for pair in self.pairs], hats)
+        normal = np.flatnonzero(rubs)
+        return Grips(normal, sum(hats) + np.arange(len(normal) * ways).reshape(-1, ways), rubs[normal])
+
+    def _pressed(self, matrix: Floats, right: Floats, held: Floats, load: Floats, start: ContactState | None) -> Pressed:
+        """Solution of the programme; InputError where nothing balances the loads."""
+        first = None if start is None else start.answer
+        try:
+            if any(self._rubbing):
+                return solve_friction(matrix, right, held, load, self.one_sided, self._grips, first)
+            return solve_complementarity(matrix, right, held, load, self.one_sided, None if first is None else first.pressing)
+        except SolverError:
+            if balance_exists(self._rays(held), load):
+                raise
+            words = ", ".join(repr(name) for name, _ in self._motions)
+            what, how = "no pressure on the surfaces balances", "pull a body off, or tip it over an edge"
+            if any(self._rubbing):
+                what, how = "no pressure and friction on the surfaces balance", "pull a body off, tip it over an edge, or make it slide"
+            raise InputError(
+                f"contact: {what} the loads on {words}: they {how}. Turn the load round, or give the body a support."
+            ) from None
 
     @property
     def _motions(self) -> list[tuple[str, FreeBody]]:
         """The bodies whose rigid motions are unknown."""
         return [(name, body) for name, body in self.bodies.items() if name not in self.flying]
+
+    def _rays(self, held: Floats) -> Floats:
+        """Resultants (m, k) of what can act: pressures, with their friction, and links."""
+        grips, one_sided = self._grips, self.one_sided
+        apart = np.setdiff1d(np.arange(len(one_sided)), np.concatenate([grips.normal, grips.along.ravel()]))
+        either_way = held[:, apart[~one_sided[apart]]]
+        return np.hstack([held[:, apart[one_sided[apart]]], either_way, -either_way, grips.rays(held)])
+
+    def _state(self, forces: Mapping[str, float], found: Pressed, slid: Floats, moved: Mapping[str, Floats]) -> ContactState:
+        """The state with its unknowns told apart."""
+        count, ways, ends = len(self.pairs), self._dim - 1, np.cumsum([*self._hats, *self._rubbing])
+        parts, slips = np.split(found.x, ends), np.split(found.gap, ends)[count:-1]
+        areas = [each.area[: len(slip) // ways, None] for each, slip in zip(self.pairings, slips, strict=True)]
+        return ContactState(
+            self,
+            dict(forces),
+            found,
+            tuple(MEGA * part for part in parts[:count]),
+            tuple(MEGA * part.reshape(-1, ways) for part in parts[count:-1]),
+            tuple(MM * slip.reshape(-1, ways) / area for slip, area in zip(slips, areas, strict=True)),
+            slid + np.concatenate(slips),
+            parts[-1],
+            moved,
+        )
 
     def _amounts(self, forces: Mapping[str, float]) -> Floats:
         return np.array([forces.get(name, 0.0) for name in self.loads])
@@ -208,14 +282,17 @@ class ContactModel:
         return paired(first, second, nodes, pair.reach / MM, depth, pair.more, pair.press_fit)
 
     def _rows(self, body: str) -> list[Rows]:
-        """All functionals as load rows of one body, 0 where they do not concern it: hats of the pairs, links, loads."""
+        """All functionals as load rows of one body, 0 where they do not concern it: pressures and tractions of the pairs, links, loads."""
         free, blocks = self.bodies[body], []
-        for pair, each in zip(self.pairs, self.pairings, strict=True):
-            rows = Rows((len(each.gap), free.space.ndof))
+        both = list(zip(self.pairs, self.pairings, strict=True))
+        pressing = [(pair, each.first, each.second) for pair, each in both]
+        rubbing = [(pair, each.first_along, each.second_along) for pair, each in both if pair.friction]
+        for pair, first, second in pressing + rubbing:
+            rows = Rows((first.shape[0], free.space.ndof))
             if pair.first[0] == body:
-                rows = rows - load_rows(free, each.first)
+                rows = rows - load_rows(free, first)
             if pair.second[0] == body:
-                rows = rows + load_rows(free, each.second)
+                rows = rows + load_rows(free, second)
             blocks.append(Rows(rows))
         for terms in [link.terms for link in self.links] + [(load,) for load in self.loads.values()]:
             mine = [term.vector.FV().NumPy() for term in terms if term.body == body]
@@ -224,12 +301,12 @@ class ContactModel:
 
     def _programme(self, amounts: Floats, gaps: Sequence[Floats] | None) -> tuple[Floats, Floats, Floats, Floats]:
         """(A, b, H, h) of `solve_complementarity`."""
-        count = self._count
+        count = len(self.one_sided)
         whole = np.sum([each.flexibility for each in self.condensed.values()], axis=0)
         resultants = np.concatenate([self.condensed[name].resultants for name, _ in self._motions] or [np.zeros((0, len(whole)))])
         soft = np.concatenate([np.zeros(count - len(self.links)), [link.compliance / MM for link in self.links]])
         own = [each.gap for each in self.pairings] if gaps is None else list(gaps)
-        gap = np.concatenate([*own, [link.gap / MM for link in self.links]])
+        gap = np.concatenate([*own, np.zeros(sum(self._rubbing)), [link.gap / MM for link in self.links]])
         matrix = whole[:count, :count] + np.diag(soft)
         return matrix, gap + whole[:count, count:] @ amounts, resultants[:, :count], resultants[:, count:] @ amounts
 

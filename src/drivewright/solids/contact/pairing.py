@@ -1,7 +1,8 @@
 """Two skins that may press on each other: hat functions of pressure on the one, what they do on both, and the gap between.
 
-The pressure is linear between the corners of the first skin's elements and acts along its normals, at points of the second skin that rays
-along these normals meet: force and moment on both bodies are equal and opposite.  With u the displacements the hat i weighs the gap
+The pressure is linear between the corners of the first skin's elements and acts along normals midway between those of both skins, at points
+of the second that rays along these normals meet: force and moment on both bodies are equal and opposite.  With u the displacements the hat
+i weighs the gap
 
     g_i = int h_i (g0 - (u_first - u_second) . n) dA.
 """
@@ -28,9 +29,10 @@ GapOf: TypeAlias = Callable[[Floats, Floats], Floats]  # (points (n, d) [mm], no
 class Pairing(NamedTuple):
     """h hats of pressure between a first and a second skin.
 
-    corners (h,): numbers of the first skin's nodes; places, normals (h, d) there; area (h,) [mm^2] and gap (h,) [mm^3] of the hats;
-    first, second (h, d nodes): the functionals int h u.n of either body.  weights (h, q): of the integrals over q points (q, d), which lie
-    `apart` (q,) [mm] from the second body as meshed, along the normals `outward`.
+    corners (h,): numbers of the first skin's nodes; places, normals (h, d) there; area (h,) [mm^2] and gap (h,) [mm^3] of the hats; first,
+    second (h, d nodes): the functionals int h u.n of either body; tangents (h, d - 1, d) at right angles to these normals, and the
+    functionals int h u.t of either body along them, first_along, second_along (h (d - 1), d nodes).  weights (h, q): of the integrals over
+    q points (q, d), which lie `apart` (q,) [mm] from the second body as meshed, along the normals `outward`.
     """
 
     corners: Ints
@@ -40,6 +42,9 @@ class Pairing(NamedTuple):
     gap: Floats
     first: Rows
     second: Rows
+    tangents: Floats
+    first_along: Rows
+    second_along: Rows
     weights: Rows
     points: Floats
     outward: Floats
@@ -62,6 +67,7 @@ def paired(
     element = np.repeat(np.arange(len(first.nodes)), len(local))
     spot, weights = np.tile(local, (len(first.nodes), 1)), np.tile(weight, len(first.nodes))
     points, normal, stretch = surfaces.normals(first, element, spot)
+    normal = _midway(normal, surfaces.hit_by_rays(second, points, normal))
     hits = surfaces.hit_by_rays(second, points, normal)
     gap = np.where(np.isfinite(hits.distance), hits.distance, np.inf)
     if more is not None:
@@ -85,6 +91,7 @@ def paired(
     )
     own = surfaces.shape_functions(spot[at], dim)
     place, out = _at_corners(first, corners, nodes[0])
+    across = _tangents(quadrature @ normal[at])
     return Pairing(
         corners,
         place,
@@ -93,6 +100,9 @@ def paired(
         quadrature @ gap[at],
         quadrature @ _normal_rows(own, first.nodes[element[at]], normal[at], nodes[0]),
         quadrature @ _normal_rows(hits.shape[at], second.nodes[hits.element[at]], normal[at], nodes[1]),
+        across,
+        _along_rows(quadrature @ _value_rows(own, first.nodes[element[at]], nodes[0]), across),
+        _along_rows(quadrature @ _value_rows(hits.shape[at], second.nodes[hits.element[at]], nodes[1]), across),
         quadrature,
         points[at],
         normal[at],
@@ -114,14 +124,40 @@ def gauss(dim: int) -> tuple[Floats, Floats]:
 # ---------------------------------------------------------------------------------------------------------------------- pieces
 
 
+def _midway(normal: Floats, hits: surfaces.Hits) -> Floats:
+    """Unit normals (n, d) midway between those of a first skin and those of a second that their rays hit, where they do."""
+    both = normal - hits.normal
+    return both / np.linalg.norm(both, axis=1, keepdims=True)
+
+
 def _normal_rows(shape: Floats, nodes: Ints, normal: Floats, count: int) -> Rows:
     """Matrix (n, d count) that takes displacements of nodes to u.n at n points."""
+    return Rows(scipy.sparse.hstack([_value_rows(shape * normal[:, [axis]], nodes, count) for axis in range(normal.shape[1])]))
+
+
+def _value_rows(shape: Floats, nodes: Ints, count: int) -> Rows:
+    """Matrix (n, count) that takes values at nodes to n points."""
     rows = np.broadcast_to(np.arange(len(shape))[:, None], shape.shape)
-    parts = [
-        Rows(((shape * normal[:, [axis]]).ravel(), (rows.ravel(), nodes.ravel())), shape=(len(shape), count))
-        for axis in range(normal.shape[1])
-    ]
-    return Rows(scipy.sparse.hstack(parts))
+    return Rows((shape.ravel(), (rows.ravel(), nodes.ravel())), shape=(len(shape), count))
+
+
+def _along_rows(values: Rows, across: Floats) -> Rows:
+    """Matrix (h k, d nodes) that takes displacements of nodes to those of hats along their k tangents (h, k, d)."""
+    count, ways, dim = across.shape
+    several = Rows(scipy.sparse.kron(values, np.ones((ways, 1))))
+    flat = across.reshape(count * ways, dim)
+    return Rows(scipy.sparse.hstack([several.multiply(flat[:, [axis]]) for axis in range(dim)]))
+
+
+def _tangents(normal: Floats) -> Floats:
+    """Unit vectors (h, d - 1, d) at right angles to vectors (h, d) and to each other."""
+    normal = normal / np.linalg.norm(normal, axis=1, keepdims=True)
+    if normal.shape[1] == 2:
+        return np.stack([-normal[:, 1], normal[:, 0]], axis=1)[:, None]
+    one: Floats = np.cross(normal, np.eye(3)[np.abs(normal).argmin(axis=1)])
+    one /= np.linalg.norm(one, axis=1, keepdims=True)
+    other: Floats = np.cross(normal, one)
+    return np.stack([one, other], axis=1)
 
 
 def _at_corners(skin: Skin, corners: Ints, count: int) -> tuple[Floats, Floats]:

@@ -69,6 +69,13 @@ class PressedBodies:
         number, _ = self._number(first, second)
         return MM * self.state.model.pairings[number].places, self.state.pressure[number]
 
+    def traction(self, first: str, second: str) -> tuple[Floats, Floats]:
+        """Points (h, 3) [m] on the contact and traction by friction (h, 3) [Pa] of the second body on the first there."""
+        number, sign = self._number(first, second)
+        pairing, traction = self.state.model.pairings[number], self.state.traction[number]
+        along = np.einsum("hk,hkd->hd", traction, pairing.tangents[: len(traction)])
+        return MM * pairing.places, -sign * (along if len(along) else np.zeros_like(pairing.places))
+
     def skin(self, body: str) -> SkinStress:
         """Stress and displacement on a body's skin."""
         if body not in self._skins:
@@ -83,15 +90,24 @@ class PressedBodies:
 
 
 def press(
-    bodies: Mapping[str, SolidBody], contact_size: float, reach: float, *, press_fit: bool = False, each: Callable[[], None] = lambda: None
+    bodies: Mapping[str, SolidBody],
+    contact_size: float,
+    reach: float,
+    *,
+    friction: float = 0.0,
+    press_fit: bool = False,
+    each: Callable[[], None] = lambda: None,
 ) -> PressedBodies:
-    """`PressedBodies` of two or more `SolidBody`s: small displacements, no friction, surfaces that press and do not pull.
+    """`PressedBodies` of two or more `SolidBody`s: small displacements, surfaces that press and do not pull.
 
     contact_size [m]: of the elements where bodies come nearer than `reach` [m], the largest gap that may close; half the contact's width at
-    most, a tenth of it for a pressure right to about 1 %.  press_fit: an overlap before any load is meant.
+    most, a tenth of it for a pressure right to about 1 %.  friction: Coulomb's coefficient, with
+    all loads applied at once.  press_fit: an overlap before any load is meant.
     """
     if not (contact_size > 0 and reach > 0):
         raise InputError(f"contact: contact_size {contact_size:g} m and reach {reach:g} m; both must be above 0")
+    if not friction >= 0:
+        raise InputError(f"contact: a coefficient of friction of {friction:g}; it must be 0 or more")
     shapes = {name: _named(name, body) for name, body in bodies.items()}
     meshes = _meshes(shapes, bodies, contact_size / MM, reach / MM)
     free = {name: _free(meshes[name], body) for name, body in bodies.items()}
@@ -99,7 +115,10 @@ def press(
     if not near:
         gap = min(MM * one.Distance(other) for one, other in combinations(shapes.values(), 2))
         raise InputError(f"contact: no two bodies come nearer than the reach of {1e3 * reach:.4g} mm; the least gap is {1e3 * gap:.4g} mm")
-    pairs = [Pair((first, "(?!fixed|load).*"), (second, "(?!fixed|load).*"), reach, press_fit=press_fit) for first, second in near]
+    pairs = [
+        Pair((first, "(?!fixed|load).*"), (second, "(?!fixed|load).*"), reach, press_fit=press_fit, friction=friction)
+        for first, second in near
+    ]
     loads = {
         f"{name} {number}": Functional(name, free[name].mean(f"load{number}", np.array(force) / np.linalg.norm(force)))
         for name, body in bodies.items()

@@ -43,10 +43,12 @@ class Skin(NamedTuple):
 
 
 class Hits(NamedTuple):
-    """Where n rays meet a skin: element (n,), -1 where none, shape functions (n, k) there, and distance (n,) [mm] along the ray."""
+    """Where n rays meet a skin: element (n,), -1 where none, shape functions (n, k) and unit normal (n, d) there, and distance (n,) [mm]
+    along the ray."""
 
     element: Ints
     shape: Floats
+    normal: Floats
     distance: Floats
 
 
@@ -120,12 +122,14 @@ def hit_by_rays(skin: Skin, start: Floats, direction: Floats) -> Hits:
     grid = _samples(dim)
     at = np.einsum("sk,ekd->esd", shape_functions(grid, dim), skin.places).reshape(-1, dim)
     _, near = KDTree(at).query(start, k=min(NEAR, len(at)))
-    best = Hits(np.full(count, -1), np.zeros((count, skin.places.shape[1])), np.full(count, np.inf))
+    best = Hits(np.full(count, -1), np.zeros((count, skin.places.shape[1])), np.zeros((count, dim)), np.full(count, np.inf))
     for tried in np.atleast_2d(near.T):
         element = tried // len(grid)
         local, distance, found = _along_ray(skin, element, grid[tried % len(grid)], start, direction)
-        facing = np.einsum("nd,nd->n", normals(skin, element, local)[1], direction) < FACING
+        normal = normals(skin, element, local)[1]
+        facing = np.einsum("nd,nd->n", normal, direction) < FACING
         better = found & facing & (np.abs(distance) < np.abs(best.distance))
+        best.normal[better] = normal[better]
         best.element[better], best.distance[better] = element[better], distance[better]
         best.shape[better] = shape_functions(local, dim)[better]
     return best
