@@ -84,6 +84,7 @@ def test_phase_map_is_pinned_and_pressure_follows_hertz():
 # -- linkages ------------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_small_play_is_calm_and_a_large_one_chaotic():
     study = smaller("clearance_bifurcation", {"joints.wrist.clearance": ["0.01 mm", "0.5 mm"]})
     assert study["slider.impact_load_coefficient"][0] == pytest.approx(1.0188, rel=1e-3)
@@ -122,6 +123,7 @@ def test_calibrated_load_coefficients_agree_with_other_programs(tmp_path):
     assert study["knife.ideal_peak"] == pytest.approx(0.220792 * study["drive.speed"] ** 2, rel=5e-6)
 
 
+@pytest.mark.slow
 def test_load_coefficients_at_constant_damping_agree_with_another_program():
     """28 800 turns an hour at 1e-4 N m s/rad, printed to three figures: small plays are frozen, the largest rattles."""
     plays, dampings = (" + ".join(f"joints.{pin}.{key}" for pin in ("A", "B", "O4")) for key in ("clearance", "link_damping"))

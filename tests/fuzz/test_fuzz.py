@@ -21,6 +21,7 @@ def wrong(numbers):
     return {number: answer["wrong"] for number, answer in found.items() if answer["wrong"]}
 
 
+@pytest.mark.slow
 def test_forty_cases():
     assert wrong(range(FEW)) == {}
 

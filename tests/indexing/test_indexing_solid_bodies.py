@@ -97,6 +97,7 @@ def on_rigid_supports(body):
     return spring_supported(response, np.full(len(first), np.inf)).flexibility, [list(body.number)[n] for n in rest]
 
 
+@pytest.mark.slow
 @needs_fe
 def test_a_slender_shaft_without_throw_is_the_beam():
     """The crank pins only mark places; shear, of the order (d/L)^2, makes the solid softer than the Euler-Bernoulli beam."""
@@ -109,6 +110,7 @@ def test_a_slender_shaft_without_throw_is_the_beam():
         assert np.all(np.abs(np.diag(found[np.ix_(at, at)])) > np.diag(bending_flexibility(SLENDER)))
 
 
+@pytest.mark.slow
 @needs_fe
 def test_a_slender_shaft_twists_as_the_rod():
     """The rotation of one seat against the other under equal and opposite couples: int dz/GJ."""
@@ -157,6 +159,7 @@ def test_set_a_is_softer_than_the_reduced_model_says():
     assert found.unknowns["cam"] > 10_000 and found.seconds < 120
 
 
+@pytest.mark.slow
 @needs_fe
 def test_the_width_of_the_strip_drops_out():
     widths = [solved(drive(), Solids(CAM), fineness=FINENESS, strip=s) for s in (0.12, 0.2)]

@@ -35,12 +35,14 @@ def middle_of_flank():
 
 
 @cache
-def solid(modulus=STEEL.modulus, fineness=0.7):
+def solid(modulus=STEEL.modulus, fineness=0.7, friction=0.0):
     """Plate and pins of a lacing 1 x 2 whose pins share their force evenly; two heights on each flank."""
     stack, height = stack_of(plate(), (1, 2)), middle_of_flank()
     shares = hat_widths(stack.end) / stack.end
     material = STEEL._replace(modulus=modulus)
-    return plate_and_pins(plate(), stack, FIT, material, shares, (height - 5e-4, height + 5e-4), sizes(fineness))
+    return plate_and_pins(
+        plate(), stack, FIT._replace(friction=friction), material, shares, (height - 5e-4, height + 5e-4), sizes(fineness)
+    )
 
 
 def loads(pins, flanks=None, heights=None):

@@ -234,6 +234,7 @@ FIGURES: dict[str, Draw] = {
     "Plates and pins in contact, stress": still(solids.map_of_stress),
     "Plates and pins in contact, load": still(solids.map_of_load),
     "Plates and pins in contact, life": still(solids.map_of_life),
+    "Plates and pins in contact, running": still(solids.map_of_running),
     "Plate as a solid, group 3": still(solids.picture, "group 3", "solid_plate"),
     "Plate as a solid, control group": still(solids.picture, "control group", "solid_plate"),
     "Pin as a solid, group 3": still(solids.picture, "group 3", "solid_pin"),

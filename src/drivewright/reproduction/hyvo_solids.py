@@ -14,7 +14,7 @@ import numpy as np
 from drivewright import registry
 from drivewright._typing import Floats
 from drivewright.chains.solid.assumptions import borne, over_fits
-from drivewright.chains.solid.history import SolidHistory, skin_life, solid_history
+from drivewright.chains.solid.history import SolidHistory, skin_life
 from drivewright.chains.solid.joint import Fit
 from drivewright.chains.solid.pitch import PlateAndPins
 from drivewright.chains.stress.plate import Loads
@@ -37,6 +37,8 @@ DESIGNS = {"group 3": ("paper-load", ()), "control group": ("classical", running
 FINENESS = 1.3  # with which contacts of pins 0.04 mm narrower in radius than their holes are wide enough for the elements
 PULL = 200.0  # N on a plate: F1
 CLEARANCES = (0.0, 2.0, 5.0, 10.0, 20.0, 40.0)  # um in the radius
+RUNNING_CLEARANCES = (0.0, 5.0, 10.0, 20.0)
+CLEARANCE_LABEL = "Clearance of a pin in its hole, radial [µm]"
 SEATS = {"all of the seat": None, "30° to either side": np.radians(30.0)}
 PULLS = (50.0, 100.0, 200.0, 400.0)  # N
 LOAD_STEPS = 24
@@ -55,7 +57,7 @@ class Design(NamedTuple):
 
 
 class Point(NamedTuple):
-    """Greatest stresses [Pa] of plate and pins and their shortest lives [pulls]; nan where the elements cannot carry the contact."""
+    """Greatest stresses [Pa] of plate and pins and their shortest lives [pulls, revolutions]; nan where elements cannot carry them."""
 
     plate: float
     pin: float
@@ -109,15 +111,21 @@ def _life(model: ChainModel, history: SolidHistory, body: str, repeated: bool = 
 
 
 @cache
-def runs_of(name: str) -> tuple[Floats, ...]:
+def runs_of(name: str, clearance: float = USUAL) -> tuple[Floats, ...]:
     """Greatest stress of plate and pin [Pa], and their lives [revolutions], in each run: four arrays."""
-    each, found = design(name), []
-    for number in range(len(each.revolutions)):
-        history = solid_history(each.solid, running_loads(name, number))
-        most = borne(history)
-        lives = [_life(each.model, history, body) for body in ("plate", "left", "right")]
-        found.append((most.plate, most.pin, lives[0], min(lives[1:])))
-    return tuple(np.array(found).T)
+    each = design(name)
+    return tuple(np.array([_running(each, running_loads(name, number), clearance) for number in range(len(each.revolutions))]).T)
+
+
+def _running(each: Design, loads: Loads, clearance: float) -> Point:
+    """`Point` of one run, lives in revolutions of the chain."""
+    try:
+        (history,) = over_fits(each.solid, [Fit(clearance * MICRO, EDGE)], loads)
+    except InputError:  # the contact is too narrow for the elements
+        return NOWHERE
+    most = borne(history)
+    lives = [_life(each.model, history, body) for body in ("plate", "left", "right")]
+    return Point(most.plate, most.pin, lives[0], min(lives[1:]))
 
 
 # -- rows ----------------------------------------------------------------------------------------------------------------------
@@ -235,7 +243,7 @@ def map_of_stress() -> "Drawn":
         Chart("Stress of the plate [MPa]", _over_clearance("plate", MEGA), stated, "Both plates pulled by 200 N", from_zero=True),
         Chart("Stress of the pin [MPa]", _over_clearance("pin", MEGA), pins, "Pins, beside their rolling contact", from_zero=True),
     ]
-    return chart_figure("Greatest stress over the fit of the pins", "Clearance of a pin in its hole, radial [µm]", charts, height=3.4)
+    return chart_figure("Greatest stress over the fit of the pins", CLEARANCE_LABEL, charts, height=3.4)
 
 
 def map_of_life() -> "Drawn":
@@ -244,7 +252,28 @@ def map_of_life() -> "Drawn":
         Chart("Life [pulls]", _over_clearance("plate_life", 1.0), (), "Plates", log=True),
         Chart("Life [pulls]", _over_clearance("pin_life", 1.0), (), "Pins, beside their rolling contact", log=True),
     ]
-    return chart_figure("Shortest life over the fit of the pins", "Clearance of a pin in its hole, radial [µm]", charts, height=3.4)
+    return chart_figure("Shortest life over the fit of the pins", CLEARANCE_LABEL, charts, height=3.4)
+
+
+def map_of_running() -> "Drawn":
+    """Greatest stress and shortest life of plate and pin over the clearance, running under the paper's load case."""
+    charts = [
+        Chart("Stress of the plate [MPa]", _while_running(0, MEGA), title="Plates, running", from_zero=True),
+        Chart("Stress of the pin [MPa]", _while_running(1, MEGA), title="Pins, running", from_zero=True),
+        Chart("Life of the plate [revolutions]", _while_running(2, None), log=True),
+        Chart("Life of the pin [revolutions]", _while_running(3, None), log=True),
+    ]
+    return chart_figure("Running at 2000 rpm, over the fit of the pins", CLEARANCE_LABEL, charts, columns=2, height=3.2)
+
+
+def _while_running(number: int, scale: float | None) -> list[Curve]:
+    """Means over the runs with their intervals: of a stress on a scale, or of the logarithms of a life."""
+    curves = []
+    for name in DESIGNS:
+        found = [running.mean_of_cases(runs_of(name, each)[number], logarithmic=scale is None) for each in RUNNING_CLEARANCES]
+        value, low, high = np.array(found).T / (scale or 1.0)
+        curves.append(Curve(name, np.array(RUNNING_CLEARANCES), value, "both", low, high))
+    return curves
 
 
 def map_of_load() -> "Drawn":

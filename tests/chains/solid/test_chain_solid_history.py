@@ -6,9 +6,9 @@ import pytest
 from drivewright import fatigue
 from drivewright.chains.solid import tables
 from drivewright.chains.solid.history import FACES, LEAST, ROLLING, SkinLife, skin_life, solid_history
-from drivewright.chains.solid.joint import STRIP
+from drivewright.chains.solid.joint import STRIP, seat_pair
 from drivewright.errors import InputError
-from tests.support.solid_chain import PULL, STEEL, loads, middle_of_flank, plate, pulled, solid, straight
+from tests.support.solid_chain import FIT, PULL, STEEL, loads, middle_of_flank, plate, pulled, solid, straight
 
 pytestmark = [pytest.mark.analytical, pytest.mark.needs_fe]
 CARD = fatigue.uniform_material_law(980e6, *STEEL, yield_strength=835e6)
@@ -221,3 +221,23 @@ def _points(outline):
     from drivewright.solids.pieces import polyline
 
     return [point for piece in outline.pieces for point in np.asarray(polyline(piece, 1e-6))]
+
+
+def test_friction_of_a_fit_is_that_of_its_pairs():
+    pair = seat_pair(plate(), "plate", "right", "right", FIT._replace(friction=0.2), (0.0, 1e-3), 0.0)
+    assert pair.friction == 0.2
+    assert seat_pair(plate(), "plate", "right", "right", FIT, (0.0, 1e-3), 0.0).friction == 0.0
+
+
+@pytest.mark.slow
+def test_friction_in_the_seats_takes_load_off_the_plate_and_bends_the_pins_more():
+    """It holds the seat together and loses work each time the pull grows; the second time through is the one that counts."""
+    smooth, rough = pulled(), solid_history(solid(friction=0.1), straight(0.0, PULL, PULL / 2, 0.0))
+    assert len(rough.states) == 4
+    assert all(state.dissipated >= 0 for state in rough.states) and rough.states[1].dissipated > 0
+    assert sum(state.dissipated for state in smooth.states) == 0
+    first = rough.solid.model.solve(rough.states[0].forces, rough.states[-1], narrow=True)
+    again = rough.solid.model.solve(rough.states[1].forces, first, narrow=True)
+    assert again.dissipated == pytest.approx(rough.states[1].dissipated, rel=1e-6)  # it repeats
+    assert 0.95 < rough.worst("plate")[0] / smooth.worst("plate")[0] < 1.0
+    assert 1.0 < max(rough.worst(side)[0] for side in ("left", "right")) / max(smooth.worst(side)[0] for side in ("left", "right")) < 1.2

@@ -101,6 +101,7 @@ def test_without_gaps_stress_and_pressure_grow_with_the_load(size):
     assert more.area(0) == pytest.approx(once.area(0), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_without_gaps_stress_is_the_same_for_any_modulus():
     """And displacements are inverse to it."""
     steel, soft = (solid(modulus, COARSEST) for modulus in (STEEL.modulus, STEEL.modulus / 3))

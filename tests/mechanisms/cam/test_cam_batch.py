@@ -147,6 +147,7 @@ def test_only_the_measures_of_the_names_are_taken(monkeypatch):
     assert np.isfinite(evaluate(np.array([[0.03], [0.04]]))["max_pressure_angle"]).all()
 
 
+@pytest.mark.slow
 def test_a_search_by_the_batch_finds_the_cam_that_a_search_by_runs_finds(monkeypatch):
     table = {
         "population": 8,
@@ -217,6 +218,7 @@ def test_profiles_are_trimmed_only_where_they_may_be_undercut(name, monkeypatch)
     assert all(np.isfinite(column).all() for column in found.values())
 
 
+@pytest.mark.slow
 def test_bore_hub_and_cutter_may_vary_and_an_undercut_cam_loses_motion():
     spec = preset("default")
     ranges = {"manufacture.bore": (0.005, 0.03), "manufacture.hub_diameter": (0.03, 0.07), "follower.roller_radius": (0.02, 0.0399)}

@@ -193,6 +193,7 @@ def test_who_else_is_in_the_batch_changes_no_bit():
         np.testing.assert_array_equal(together[each], [one[each][0] for one in alone], err_msg=each)
 
 
+@pytest.mark.slow
 def test_a_search_by_the_batch_finds_the_indexer_that_a_search_by_runs_finds(monkeypatch):
     table = {
         "population": 8,

@@ -270,6 +270,7 @@ def test_impact_load_between_the_samples():
 # -- the same by automatic differentiation -----------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.needs_peers
 def test_lagrange_by_automatic_differentiation():
     bars = [uneven(), uneven(branch=-1.0), folder(damping=1e-4)]

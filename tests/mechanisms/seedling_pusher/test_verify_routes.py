@@ -23,7 +23,7 @@ PUSHER = registry.mechanism("seedling-pusher")
 ONLY = ("train", "planting", "cams")
 CASES = [
     pytest.param(("paper-interior", []), id="interior"),
-    pytest.param(("default", []), id="default"),
+    pytest.param(("default", []), id="default", marks=pytest.mark.slow),
     pytest.param(("design-b", ["cams.orbit=counter-clockwise"]), id="other sense", marks=pytest.mark.slow),
     pytest.param(("default", ["train.start=far"]), id="far", marks=pytest.mark.slow),
     pytest.param(

@@ -165,7 +165,9 @@ def test_deflections_are_flexibility_times_load():
 
 
 @pytest.mark.needs_fe
-@pytest.mark.parametrize("name", ["pressure_roller_shaft", "rubber_roller_shaft", "rubber_roller_61804", "spindle"])
+@pytest.mark.parametrize(
+    "name", ["pressure_roller_shaft", "rubber_roller_shaft", "rubber_roller_61804", pytest.param("spindle", marks=pytest.mark.slow)]
+)
 def test_every_example_agrees_with_its_independent_routes(name):
     rows = dw.verify(dw.load(EXAMPLES / f"{name}.toml"))
     assert rows and not [row for row in rows if not row.ok]

@@ -51,7 +51,7 @@ KEYS = (
 )
 
 
-@pytest.mark.parametrize("kind", [springs, housed, axial])
+@pytest.mark.parametrize("kind", [pytest.param(springs, marks=pytest.mark.slow), pytest.param(housed, marks=pytest.mark.slow), axial])
 def test_stiff_becomes_rigid_from_one_side(kind):
     """1e6 ... 1e300 N/m: every number goes one way, and by 1/k; from 1e18 N/m on it is the rigid one to 1e-9."""
     only = ("statics", "flexibility", "modes")

@@ -131,7 +131,7 @@ def test_yield_is_checked_of_plate_and_pin():
 def test_findings_say_how_fine_and_what_is_assumed():
     words = " ".join(run().findings)
     assert "unknowns of the plate" in words
-    assert "solid.clearance, solid.edge_radius" in words
+    assert "solid.clearance, solid.friction, solid.edge_radius" in words
     assert "estimated from the tensile strength" in words
     assert "endless stack" not in words
 
@@ -146,7 +146,7 @@ def test_findings_say_how_fine_and_what_is_assumed():
         ("joints whose two pins roll", ('roller.diameter="6 mm"', 'joint.kind="revolute"', "joint.rolling_radius=")),
         ("write [drive]", ("drive=",)),
         ("shorter than a revolution of the chain; give dynamics.duration more", ('dynamics.duration="10 ms"',)),
-        ("give elements of", ('solid.clearance="80 um"',)),
+        pytest.param("give elements of", ('solid.clearance="80 um"',), marks=pytest.mark.slow),
     ],
 )
 def test_left_out_with_the_reason(words, changes):
@@ -167,7 +167,8 @@ def test_left_out_with_the_reason(words, changes):
         ("solid.load_steps=501", "load_steps"),
         ("solid.fineness=0.2", "fineness"),
         ("solid.fineness=4", "fineness"),
-        ('solid.friction="0.1"', "friction"),
+        ("solid.friction=-0.1", "friction"),
+        ("solid.friction=2", "friction"),
     ],
 )
 @pytest.mark.error

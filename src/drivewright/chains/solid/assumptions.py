@@ -28,6 +28,7 @@ def with_fit(solid: PlateAndPins, fit: Fit) -> list[Floats]:
     """Gaps [mm^3] of both seats' hats for another fit, as `ContactModel.solve` takes them.
 
     Hats are those within reach of the fit that the bodies were condensed with: one with the whole seat and little clearance serves all.
+    Friction stays as it was condensed.
     """
     return [
         pairing.gap_with(seat_gap(solid.plate, side, fit, solid.stack.own))

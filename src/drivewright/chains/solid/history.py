@@ -62,12 +62,17 @@ class SkinLife(NamedTuple):
 def solid_history(
     solid: PlateAndPins, loads: Loads, each: Callable[[], None] = lambda: None, gaps: Sequence[Floats] | None = None
 ) -> SolidHistory:
-    """`SolidHistory` through the `Loads` of one plate; `each` is called after every instant; `gaps`: other ones of the seats."""
+    """`SolidHistory` through the `Loads` of one plate; `each` is called after every instant; `gaps`: other ones of the seats.
+
+    With friction, which remembers, it is the second time through.
+    """
     states: list[ContactState] = []
     size = np.linalg.norm(np.asarray(loads.pins, float), axis=2)
-    for instant in range(len(size)):  # under a light load a contact may be too narrow for the elements: it is not what counts
-        states.append(solid.model.solve(forces_at(solid, loads, instant), states[-1] if states else None, gaps, narrow=True))
-        each()
+    for _ in range(2 if solid.fit.friction else 1):
+        for instant in range(len(size)):  # under a light load a contact may be too narrow for the elements: it is not what counts
+            states.append(solid.model.solve(forces_at(solid, loads, instant), states[-1] if states else None, gaps, narrow=True))
+            each()
+    states = states[-len(size) :]
     for number, instant in enumerate(size.argmax(axis=0)):
         solid.model.refuse_narrow(states[instant], number)
     skins = {}

@@ -36,11 +36,12 @@ REACH = 2e-5  # m: beyond the clearance, what may close
 
 class Fit(NamedTuple):
     """How a pin sits in its hole: radial clearance [m]; radius [m] of the rounded edges of the hole; half angle [rad] of the seat that
-    bears, about the direction outwards, all of it unless given."""
+    bears, about the direction outwards, all of it unless given; coefficient of friction."""
 
     clearance: float
     edge_radius: float
     seat: float | None = None
+    friction: float = 0.0
 
 
 class Stack(NamedTuple):
@@ -128,7 +129,7 @@ def pin_body(outline: Outline, stack: Stack, material: Material, sizes: Sizes, s
 def seat_pair(plate: Plate, name: str, side: str, pin: str, fit: Fit, edges: tuple[float, float], shift: float) -> Pair:
     """The `Pair` of a plate's seat and its pin in a `Fit`, between a plate's faces at `edges` [m]."""
     more = seat_gap(plate, side, fit, edges, shift)
-    return Pair((name, f"seat {side}.*"), (pin, "skin"), fit.clearance + 0.5 * fit.edge_radius + REACH, more)
+    return Pair((name, f"seat {side}.*"), (pin, "skin"), fit.clearance + 0.5 * fit.edge_radius + REACH, more, friction=fit.friction)
 
 
 def seat_gap(plate: Plate, side: str, fit: Fit, edges: tuple[float, float], shift: float = 0.0) -> GapOf:

@@ -54,7 +54,7 @@ def condensed(model: ChainModel, revolutions: Iterable[PlateRevolution]) -> tupl
     spec, given = model.spec, model.spec.solid
     material = Material(spec.material.youngs_modulus, spec.material.poisson_ratio)
     stack, sizes = stack_of(model.plate, spec.plate.lacing), usual_sizes(model.plate, given.fineness)
-    fit = Fit(given.clearance, given.edge_radius, given.seat)
+    fit = Fit(given.clearance, given.edge_radius, given.seat, given.friction)
     several = list(revolutions)
     greatest = max(float(np.linalg.norm(np.asarray(each.loads.pins), axis=2).max()) for each in several)
     rolling = rolling_pins(model.plate, stack, fit, material, 0.5 * greatest, sizes)
@@ -161,7 +161,7 @@ def _remarks(model: ChainModel, rolling: RollingPins, histories: list[SolidHisto
         yield "solids: a lacing wider than 1 x 2 is computed as a cell of an endless stack of plates: its pins do not bend"
     yield (
         "solids: the stress right in the rolling contact is Hertz's (pin.contact_pressure, pin.shakedown) and not in that of the pins; "
-        "clearance and edges of the holes are assumptions (solid.clearance, solid.edge_radius)"
+        "clearance, friction and edges of the holes are assumptions (solid.clearance, solid.friction, solid.edge_radius)"
     )
     if card_of(model).estimated:
         yield "solids: the fatigue data are estimated from the tensile strength by the uniform material law; bring data from tests"

@@ -280,6 +280,7 @@ class Solid(Spec):
         description="half the angle about the outer direction on which a pin bears; all of its seat unless given",
         examples=["45 deg"],
     )
+    friction: Number = Field(0.0, ge=0, le=1, description="coefficient between a pin and its seat; with it all takes about twice as long")
     load_steps: Integer = Field(
         24, ge=2, le=500, description="instants of a revolution of the chain, the largest and smallest forces among them"
     )
