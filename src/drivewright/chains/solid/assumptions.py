@@ -3,7 +3,7 @@
 The bodies are condensed once; an assumption changes the gap between them, or the load, and costs one small quadratic programme.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -49,6 +49,6 @@ def borne(history: SolidHistory) -> Borne:
     )
 
 
-def over_fits(solid: PlateAndPins, fits: Sequence[Fit], loads: Loads, each: Callable[[], None] = lambda: None) -> list[SolidHistory]:
+def over_fits(solid: PlateAndPins, fits: Sequence[Fit], loads: Loads) -> list[SolidHistory]:
     """The `SolidHistory` of each fit under the same loads."""
-    return [solid_history(solid._replace(fit=fit), loads, each, with_fit(solid, fit)) for fit in fits]
+    return [solid_history(solid._replace(fit=fit), loads, with_fit(solid, fit)) for fit in fits]

@@ -5,7 +5,6 @@ of a millimetre wide, is a row of line contacts: each spreads its force over a s
 yields more than that strip (`contact.hertz_beyond_strip`) is added as a compliance of each pin.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -78,9 +77,7 @@ class RollingPins:
         return self.state.links[: len(self.height)] / self.state.links[: len(self.height)].sum()
 
 
-def rolling_pins(
-    plate: Plate, stack: Stack, fit: Fit, material: Material, force: float, sizes: Sizes, each: Callable[[], None] = lambda: None
-) -> RollingPins:
+def rolling_pins(plate: Plate, stack: Stack, fit: Fit, material: Material, force: float, sizes: Sizes) -> RollingPins:
     """`RollingPins` of a joint whose half stack carries a force [N]."""
     if not plate.link.radius > 0:
         raise InputError("stress of solids: a joint with one round pin has no rolling pins")
@@ -108,7 +105,7 @@ def rolling_pins(
     links += [Link((Functional(name, turn_row(pins[name])),)) for name in pins]
     links += [Link((Functional("own plate", own.mean("cut", (0, 1, 0))),)), *_guides("other plate", other, stack)]
     pull = Functional("other plate", other.mean("cut", (1, 0, 0)))
-    model = ContactModel(bodies, pairs, links, {"pull": pull}, each=each)
+    model = ContactModel(bodies, pairs, links, {"pull": pull})
     state = model.solve({"pull": force})
     height = np.linspace(0.0, stack.end, HATS + 1)
     return RollingPins(height, state.links[: len(height)] / widths, state)
