@@ -58,10 +58,10 @@ def test_half_the_pull_is_what_the_order_of_instants_says():
 
 def test_every_load_step_is_told_to_who_shows_progress(monkeypatch):
     monkeypatch.setattr(steps, "EACH", 0.0)
-    told = []
+    told, made = [], solid()
     with steps.detailed(lambda *words: told.append(words)) as step:
         step(1, 3, "solid_stress")
-        solid_history(solid(), straight(PULL, PULL))
+        solid_history(made, straight(PULL, PULL))
     assert told == [(1, 3, "solid_stress"), *((1, 3, f"solid_stress: load steps, {number} of 2") for number in (1, 2))]
 
 

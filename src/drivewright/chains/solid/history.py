@@ -40,6 +40,11 @@ class SolidHistory(NamedTuple):
         """Greatest von Mises stress (n,) [Pa] of a body's skin at each instant."""
         return self.skins[body].mises[:, self.searched[body]].max(axis=1)
 
+    @property
+    def seat_pressure(self) -> Floats:
+        """Greatest pressure (n, 2) [Pa] on the left and on the right seat at each instant."""
+        return np.array([[part.max(initial=0.0) for part in state.pressure] for state in self.states])
+
     def worst(self, body: str) -> tuple[float, int, int]:
         """(von Mises stress [Pa], instant, point) where a body's skin has it worst."""
         mises = np.where(self.searched[body], self.skins[body].mises, 0.0)
