@@ -316,15 +316,20 @@ def _headline_columns(study: "Study") -> list[str]:
 
 
 def comparison(rows: "Iterable[Comparison]") -> None:
-    """Our numbers beside those of the independent route."""
+    """Our numbers beside those of the independent route, and below them what was not compared and why."""
+    rows = tuple(rows)
     table(
         "independent route",
         (("quantity", "left"), ("ours", "right"), ("other", "right"), ("difference", "right"), ("allowed", "right"), ("route", "left")),
         [
             (r.name, number(r.ours, r.unit), number(r.other, r.unit), number(r.other - r.ours, r.unit), number(r.allowed, r.unit), r.route)
             for r in rows
+            if not r.left_out
         ],
     )
+    for row in rows:
+        if row.left_out:
+            print(f"left out: {row.name}: {row.left_out}")
 
 
 def source(published: "Source", rows: "Iterable[Row]") -> None:
