@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatchcase
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, NamedTuple, TypeAlias, TypeVar
 
 from drivewright import plugins
 from drivewright.claims import Claims
@@ -27,6 +27,13 @@ if TYPE_CHECKING:
 SpecT = TypeVar("SpecT", bound="SpecLike")  # not imported from `result`, for listing what is registered must not import numpy
 ModelT = TypeVar("ModelT")
 Row: TypeAlias = tuple[str, float, float, str, float, str]  # of `verify`: name, ours, other, unit, allowed difference, route
+
+
+class LeftOut(NamedTuple):
+    """A comparison that `verify` cannot make: what it is, and why."""
+
+    name: str
+    reason: str
 
 
 @dataclass(frozen=True)
@@ -53,9 +60,9 @@ class Mechanism(Generic[SpecT, ModelT]):
 
     `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots` (or `plots(result)`, where they depend on it),
     `drawings(model)` and `parts(model)` show it;
-    `verify(model, result)` re-computes it on an independent route; `batch(spec, keys, names)` gives a fast evaluation of many designs
-    (n, keys) in SI -> {name: (n,)} for values, and checks as `check.NAME` (their margins), or None where it does not cover them; a design
-    that it cannot speak for is nan in every name.
+    `verify(model, result)` re-computes it on independent routes, with a `LeftOut` in place of the rows of one that is not to be had;
+    `batch(spec, keys, names)` gives a fast evaluation of many designs (n, keys) in SI -> {name: (n,)} for values, and checks as
+    `check.NAME` (their margins), or None where it does not cover them; a design that it cannot speak for is nan in every name.
     `folder` holds `presets/*.toml`, `theory.md` and, for screens in other languages, `zh.toml`.
     """
 
@@ -69,7 +76,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     plots: "tuple[Plot, ...] | Callable[[Result[Any]], tuple[Plot, ...]]" = ()
     drawings: "Callable[[ModelT], tuple[Drawing, ...]] | None" = None
     parts: "Callable[[ModelT], tuple[Part, ...]] | None" = None
-    verify: "Callable[[ModelT, Result[Any]], Iterable[Row]] | None" = None
+    verify: "Callable[[ModelT, Result[Any]], Iterable[Row | LeftOut]] | None" = None
     batch: Callable[..., Any] | None = None
     sources: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
@@ -112,10 +119,10 @@ class Command:
         return self.evaluation.summary
 
 
-def oracle(kind: str) -> "Callable[[Any, Result[Any]], Iterable[Row]]":
+def oracle(kind: str) -> "Callable[[Any, Result[Any]], Iterable[Row | LeftOut]]":
     """`verify` of the package drivewright.oracles.KIND, which is imported when it is called."""
 
-    def verify(model: Any, result: "Result[Any]") -> Iterable[Row]:
+    def verify(model: Any, result: "Result[Any]") -> Iterable[Row | LeftOut]:
         return import_module(f"{plugins.OURS}.oracles.{kind}").verify(model, result)
 
     return verify

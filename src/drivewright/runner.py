@@ -5,11 +5,11 @@ import os
 import platform
 import time
 import traceback
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
 
@@ -17,9 +17,8 @@ from drivewright import registry
 from drivewright.errors import DEBUG, DrivewrightError, MissingExtra, SolverError, UnknownName
 from drivewright.registry import Analysis, Mechanism
 from drivewright.result import Answer, Answers, Result, SpecLike, SpecT, Table
+from drivewright.steps import Progress
 from drivewright.stops import Stop, collect_stops
-
-Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, name of what comes next)
 
 
 def build(spec: SpecLike) -> Any:

@@ -15,7 +15,7 @@ ROWS = [
     "motion curves contact materials",
     "numerics",
     "testing runner spec registry claims result scene cases",
-    "units digits labels plugins _jit _typing errors stops atomic _garbage",
+    "units digits labels plugins _jit _typing errors stops steps atomic _garbage",
 ]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}
 # runner reads the version for the provenance; __init__ has lazy names.

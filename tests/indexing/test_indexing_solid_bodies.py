@@ -21,7 +21,7 @@ needs_fe = pytest.mark.needs_fe
 # -------------------------------------------------------------------------------------------------------------------- the dent
 
 
-def test_the_dent_is_the_strain_under_the_strip():
+def test_the_compliance_of_a_strip_is_the_strain_under_it():
     """Strain along the normal, from Flamant's stresses under a Gaussian strip twice as wide (strip and mean), summed down to the depth."""
     sigma, depth, wide = 2e-4, 8e-3, np.sqrt(2) * 2e-4
     s = wide * np.linspace(-8, 8, 4001)
@@ -30,7 +30,7 @@ def test_the_dent_is_the_strain_under_the_strip():
     z = np.geomspace(1e-7, depth, 1500)[:, None]
     along, across = 2 / np.pi * (p * z**3 / (z**2 + s**2) ** 2).sum(axis=1), 2 / np.pi * (p * z * s**2 / (z**2 + s**2) ** 2).sum(axis=1)
     strain = ((1 - NU**2) * along - NU * (1 + NU) * across) / (E * WIDTH)
-    assert bodies.dent(sigma, depth, CAM) == pytest.approx(np.trapezoid(strain, z[:, 0]), rel=2e-3)
+    assert bodies.strip_compliance(sigma, depth, CAM) == pytest.approx(np.trapezoid(strain, z[:, 0]), rel=2e-3)
 
 
 # ------------------------------------------------------------------------------------------------------------------ the solids
@@ -75,11 +75,11 @@ def test_loads_on_the_cam_pass_through_their_points():
 
 
 @needs_fe
-def test_a_narrower_strip_dents_as_a_half_space_says():
+def test_a_narrower_strip_yields_more_as_a_half_space_says():
     wide, narrow = cam_body(), cam_body(0.8e-3)
     contact = [n for name, n in wide.number.items() if name[0] == "contact"]
     more = (np.diag(narrow.flexibility) - np.diag(wide.flexibility))[contact]
-    log = bodies.dent(0.8e-3, 0.008, CAM) - bodies.dent(1.6e-3, 0.008, CAM)
+    log = bodies.strip_compliance(0.8e-3, 0.008, CAM) - bodies.strip_compliance(1.6e-3, 0.008, CAM)
     assert np.median(more) == pytest.approx(log, rel=0.1)
     others = np.delete(np.arange(len(wide.flexibility)), contact)
     assert narrow.flexibility[np.ix_(others, others)] == pytest.approx(wide.flexibility[np.ix_(others, others)], rel=0.02, abs=1e-12)

@@ -64,7 +64,7 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
         if _starved.is_set():
             sys.exit(_no_memory())
         print("interrupted; what was finished before is kept, and the same command goes on", file=sys.stderr)
-        sys.exit(exit_code(received))
+        _leave(exit_code(received))
     except BrokenPipeError:
         sys.stderr.close()
         sys.exit(0)
@@ -72,6 +72,16 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
         if not _wants_memory(error):
             raise
         sys.exit(_no_memory())
+
+
+def _leave(code: int) -> NoReturn:
+    """Exit, also while the engine of the finite elements is in a call, for whose end the interpreter would wait."""
+    engine = sys.modules.get("drivewright.solids.engine")
+    if engine and engine.is_computing():
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(code)
+    sys.exit(code)
 
 
 def _aborts() -> tuple[type[BaseException], ...]:

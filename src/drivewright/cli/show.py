@@ -62,6 +62,7 @@ def progress(title: str, kind: str = "") -> "Iterator[Progress]":
     `kind` of the drive, for the words about compiling.
     """
     from drivewright._jit.compilation import Compilation, watched_by
+    from drivewright.steps import detailed
 
     if not sys.stderr.isatty():
         with compiling(kind or title):
@@ -74,7 +75,7 @@ def progress(title: str, kind: str = "") -> "Iterator[Progress]":
     compilation = Compilation(kind or title)
 
     class Work(ProgressColumn):
-        """What is compiled, or which analysis runs."""
+        """What is compiled, or which analysis runs and how far it is."""
 
         def render(self, task: Task) -> Text:
             return Text(compilation.words or task.fields["what"])
@@ -82,7 +83,8 @@ def progress(title: str, kind: str = "") -> "Iterator[Progress]":
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), Work(), TimeRemainingColumn())
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar, watched_by(compilation):
         task = bar.add_task(title, total=None, what="")
-        yield lambda done, total, what: bar.update(task, completed=done, total=total, what=what)
+        with detailed(lambda done, total, what: bar.update(task, completed=done, total=total, what=what)) as step:
+            yield step
 
 
 @contextlib.contextmanager
@@ -314,15 +316,20 @@ def _headline_columns(study: "Study") -> list[str]:
 
 
 def comparison(rows: "Iterable[Comparison]") -> None:
-    """Our numbers beside those of the independent route."""
+    """Our numbers beside those of the independent route, and below them what was not compared and why."""
+    rows = tuple(rows)
     table(
         "independent route",
         (("quantity", "left"), ("ours", "right"), ("other", "right"), ("difference", "right"), ("allowed", "right"), ("route", "left")),
         [
             (r.name, number(r.ours, r.unit), number(r.other, r.unit), number(r.other - r.ours, r.unit), number(r.allowed, r.unit), r.route)
             for r in rows
+            if not r.left_out
         ],
     )
+    for row in rows:
+        if row.left_out:
+            print(f"left out: {row.name}: {row.left_out}")
 
 
 def source(published: "Source", rows: "Iterable[Row]") -> None:

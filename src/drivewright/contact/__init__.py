@@ -5,6 +5,7 @@
 `laws`       contact laws by name, of other packages.
 `time_step`  the mean of a force over a step of an explicit integrator.
 `hertz`      line and point contact of elastic bodies.
+`strip`      a line contact that a mesh sees as a Gaussian strip of load.
 `conforming` a pin in a hole with clearance.
 `impact`     impact laws, restitution and damping; a cylinder in a hollow.
 `friction`   Coulomb, Ambrosio, Stribeck and LuGre friction.
@@ -30,6 +31,7 @@ from drivewright.contact.hertz import (
 )
 from drivewright.contact.normal import HuntCrossley, KelvinVoigt, PowerLaw, Spring, hunt_crossley_chi, normal_force, stored_energy, tangent
 from drivewright.contact.power_law import PowerLawResponse, power_law_depth, power_law_response, power_law_secant
+from drivewright.contact.strip import gaussian_strip_approach, hertz_beyond_strip
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
@@ -67,6 +69,8 @@ __all__ = [
     "cylinder_compression",
     "effective_modulus",
     "effective_radius",
+    "gaussian_strip_approach",
+    "hertz_beyond_strip",
     "hunt_crossley_chi",
     "line_contact",
     "line_greatest_shear",

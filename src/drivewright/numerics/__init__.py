@@ -2,6 +2,7 @@
 
 `quadrature`     Gauss-Legendre on pieces.
 `roots`          bracketed roots of one variable, damped Newton steps for several, extremes.
+`line_search`    how far to go along a step on a convex function.
 `lanes`          decisions of kernels that compute one case or many.
 `trigonometry`   cosine and sine for them.
 `small`          factors of small matrices in kernels.

@@ -46,6 +46,9 @@ USUAL = 5.0  # um: clearance of the analysis, and of the rows
 EDGE = 5e-5  # m: rounding of the holes' edges
 MICRO, MEGA = 1e-6, 1e6
 PIN_STRESSES = {"group 3": 162.026855, "control group": 245.183578}  # printed, MPa
+PRINTED_STRESSES = {"plate": PLATE_STRESSES, "pin": PIN_STRESSES}
+SECTIONS = {"plate": "section 6, plates", "pin": "section 6, pins"}
+FIELDS = {"plate": 0, "pin": 1, "plate life": 2, "pin life": 3}  # of `runs_of`
 
 
 class Design(NamedTuple):
@@ -133,9 +136,6 @@ def _running(each: Design, loads: Loads, clearance: float) -> Point:
 
 def solid_rows(folder: Path) -> Iterator[Row]:
     """Section 6 beside plates and pins as solids in contact: running, and under the same pull."""
-    new, old = (runs_of(name) for name in DESIGNS)
-    rest = [at_rest(name, USUAL) for name in DESIGNS]
-    worn = at_rest("control group", CLEARANCES[-1])
     common: dict[str, Any] = {
         "kind": "other code",
         "inputs": "F1 = 200 N, F0 = 50 N, 2000 rpm, 1 x 2, 2 mm",
@@ -143,50 +143,78 @@ def solid_rows(folder: Path) -> Iterator[Row]:
         f"{EDGE / MICRO:g} um; elastic plate and pins in contact",
         "pinned": OPEN,
     }
-    rest_common: dict[str, Any] = common | {"idealised": True}
-    for body, number, printed_of, place in (("plate", 0, PLATE_STRESSES, "section 6, plates"), ("pin", 1, PIN_STRESSES, "section 6, pins")):
-        means = [running.mean_of_cases(each[number]) for each in (new, old)]
-        beside = "" if body == "plate" else " Beside the rolling contact, whose own stress is Hertz's."
-        for (name, printed), ours in zip(printed_of.items(), means, strict=True):
-            note = f"{_order(body)}{beside}"
-            yield _row(f"greatest stress of a {body} as a solid, {name}, running", printed, ours, place, body, name, note, common)
-        below = Printed("below 1", *BELOW_ONE)
-        quotient = running.ratio(*means)
-        claim = f"greatest stress of {'the plate' if body == 'plate' else 'a pin'}, group 3 over control"
+    for body in ("plate", "pin"):
+        means = [running.mean_of_cases(runs_of(name)[FIELDS[body]]) for name in DESIGNS]
+        yield from _running_rows(body, means, common)
+        yield _quotient_row(body, means, common)
+        yield from _pulled_rows(body, common | {"idealised": True})
+    yield _life_row(common)
+
+
+def _running_rows(body: str, means: list[running.Interval], common: dict[str, Any]) -> Iterator[Row]:
+    """Greatest stress of a body in the running chain, one row a design."""
+    beside = "" if body == "plate" else " Beside the rolling contact, whose own stress is Hertz's."
+    for (name, printed), ours in zip(PRINTED_STRESSES[body].items(), means, strict=True):
         yield Row(
-            f"greatest stress of a {body} as a solid, group 3 over control, running",
-            below,
-            quotient.value,
-            "-",
-            where=place,
-            low=quotient.low,
-            high=quotient.high,
-            note=_order(body),
-            reading_of=claim,
+            f"greatest stress of a {body} as a solid, {name}, running",
+            rounded(f"{printed} MPa", "Pa"),
+            ours.value,
+            "Pa",
+            where=SECTIONS[body],
+            low=ours.low,
+            high=ours.high,
+            note=f"{_order(body)}{beside}",
+            reading_of=f"greatest stress of {_one(body)}, {name}",
             **common,
         )
-        for words, upper, under in (
-            ("exact fit", *(at_rest(each, 0.0) for each in DESIGNS)),
-            (f"{USUAL:g} um of clearance", *rest),
-            (f"{USUAL:g} um of clearance, control {CLEARANCES[-1]:g} um", rest[0], worn),
-        ):
-            yield Row(
-                f"greatest stress of a {body} as a solid, group 3 over control, both pulled by 200 N, {words}",
-                below,
-                getattr(upper, body) / getattr(under, body),
-                "-",
-                where=place,
-                note=_order(body),
-                reading_of=claim,
-                **rest_common,
-            )
-    ours = running.quotient(*(running.mean_of_cases(each[3], logarithmic=True) for each in (new, old)))
-    yield Row(
+
+
+def _quotient_row(body: str, means: list[running.Interval], common: dict[str, Any]) -> Row:
+    """Stress of the new chain over that of the classical one, both running."""
+    ours = running.ratio(*means)
+    return Row(
+        f"greatest stress of a {body} as a solid, group 3 over control, running",
+        Printed("below 1", *BELOW_ONE),
+        ours.value,
+        "-",
+        where=SECTIONS[body],
+        low=ours.low,
+        high=ours.high,
+        note=_order(body),
+        reading_of=f"greatest stress of {_one(body)}, group 3 over control",
+        **common,
+    )
+
+
+def _pulled_rows(body: str, common: dict[str, Any]) -> Iterator[Row]:
+    """The same quotient of both chains under one pull, over the fit of the pins."""
+    usual = [at_rest(name, USUAL) for name in DESIGNS]
+    for words, upper, under in (
+        ("exact fit", *(at_rest(name, 0.0) for name in DESIGNS)),
+        (f"{USUAL:g} um of clearance", *usual),
+        (f"{USUAL:g} um of clearance, control {CLEARANCES[-1]:g} um", usual[0], at_rest("control group", CLEARANCES[-1])),
+    ):
+        yield Row(
+            f"greatest stress of a {body} as a solid, group 3 over control, both pulled by 200 N, {words}",
+            Printed("below 1", *BELOW_ONE),
+            getattr(upper, body) / getattr(under, body),
+            "-",
+            where=SECTIONS[body],
+            note=_order(body),
+            reading_of=f"greatest stress of {_one(body)}, group 3 over control",
+            **common,
+        )
+
+
+def _life_row(common: dict[str, Any]) -> Row:
+    """Life of the pins of the new chain over that of the classical one, both running."""
+    ours = running.quotient(*(running.mean_of_cases(runs_of(name)[FIELDS["pin life"]], logarithmic=True) for name in DESIGNS))
+    return Row(
         "life of a pin as a solid, new over classical, running",
         Printed("above 1", *ABOVE_ONE),
         ours.value,
         "-",
-        where="section 6, pins",
+        where=SECTIONS["pin"],
         low=ours.low,
         high=ours.high,
         note=_order("pin"),
@@ -195,20 +223,9 @@ def solid_rows(folder: Path) -> Iterator[Row]:
     )
 
 
-def _row(name: str, printed: float, ours: running.Interval, where: str, body: str, of: str, note: str, common: dict[str, Any]) -> Row:
-    quantity = f"greatest stress of the plate, {of}" if body == "plate" else f"greatest stress of a pin, {of}"
-    return Row(
-        name,
-        rounded(f"{printed} MPa", "Pa"),
-        ours.value,
-        "Pa",
-        where=where,
-        low=ours.low,
-        high=ours.high,
-        note=note,
-        reading_of=quantity,
-        **common,
-    )
+def _one(body: str) -> str:
+    """The body as the paper's claims have it: every plate is alike, of pins there are two."""
+    return "the plate" if body == "plate" else "a pin"
 
 
 def _order(body: str) -> str:

@@ -8,6 +8,7 @@ Meshes are in millimetres; stresses in MPa inside; every number that comes out i
 """
 
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -15,8 +16,9 @@ import numpy as np
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import InputError, SolverError
 from drivewright.solids.deformation import DisplacedSurface, subdivided_triangle
-from drivewright.solids.engine import EngineObject, fe_module
+from drivewright.solids.engine import EngineObject, fe_module, interruptible
 from drivewright.solids.meshing import PURPOSE, boundary_measure
+from drivewright.steps import note_step
 
 MM = 1e-3  # metres in a millimetre
 EXTRA_ORDER = 6  # of integration beyond the elements' own, for a strip that is narrower than they are
@@ -68,15 +70,15 @@ class FreeBody:
         self.mesh, self.space = mesh, ng.VectorH1(mesh, order=2, **symmetry)
         corners = np.array(mesh.ngmesh.Coordinates())
         self.middle, self.size = (corners.max(axis=0) + corners.min(axis=0)) / 2, float(np.ptp(corners, axis=0).max())
-        stiffness = _stiffness(ng, self.space, modulus * MM**2, poisson, plane)
+        stiffness = interruptible(partial(_stiffness, ng, self.space, modulus * MM**2, poisson, plane))
         motions = _rigid_motions(ng, self.middle, self.size)
         self.basis = self._allowed(motions)
         motions = [_combination(ng, parts, motions) for parts in self.basis.T]
         self.modes = [self._interpolated(motion) for motion in motions]
         self._masses = [ng.LinearForm(ng.InnerProduct(motion, self.space.TestFunction()) * ng.dx).Assemble().vec for motion in motions]
         self._gram = np.array([[ng.InnerProduct(a, b) for b in self._masses] for a in self.modes])
-        with ng.TaskManager():
-            self._inverse = stiffness.mat.Inverse(self._unpinned(), inverse="sparsecholesky")
+        note_step("factorising the stiffness")
+        self._inverse = interruptible(partial(_factorised, ng, stiffness, self._unpinned()))
 
     @property
     def unknowns(self) -> int:
@@ -143,10 +145,13 @@ class FreeBody:
             raise InputError(f"no face of the mesh is called {region!r}; there are {', '.join(sorted(set(self.mesh.GetBoundaries())))}")
         return area
 
-    def response(self, functionals: Sequence[EngineObject]) -> Response:
-        """The `Response` to functionals made by `mean`, `weighted`, `mean_rotation` or `gaussian_strip`."""
+    def response(self, functionals: Sequence[EngineObject], name: str = "a body") -> Response:
+        """The `Response` to functionals made by `mean`, `weighted`, `mean_rotation` or `gaussian_strip`; `name`: to who shows progress."""
+        fields = []
         with self.ng.TaskManager():
-            fields = [self.elastic(g) for g in functionals]
+            for number, functional in enumerate(functionals, 1):
+                note_step(f"condensing {name}", number, len(functionals))
+                fields.append(self.elastic(functional))
             product = self.ng.InnerProduct
             flexibility = MM * np.array([[product(g, w) for w in fields] for g in functionals])
             resultants = np.array([[product(mode, g) for g in functionals] for mode in self.modes])
@@ -282,6 +287,12 @@ def _stiffness(ng: Any, space: EngineObject, modulus: float, poisson: float, pla
     with ng.TaskManager():
         form.Assemble()
     return form
+
+
+def _factorised(ng: Any, stiffness: EngineObject, unpinned: EngineObject) -> EngineObject:
+    """Inverse of a stiffness on the unknowns that are not pinned."""
+    with ng.TaskManager():
+        return stiffness.mat.Inverse(unpinned, inverse="sparsecholesky")
 
 
 def lame_constants(modulus: float, poisson: float, plane: Plane | None = None) -> tuple[float, float]:

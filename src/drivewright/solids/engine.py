@@ -1,15 +1,20 @@
 """The door to Netgen and NGSolve (extra `fe`): loaded when first needed, with the real reason where they are not."""
 
+import atexit
 import importlib
-from collections.abc import Iterator
+import threading
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, TypeVar
 
 from drivewright.errors import DrivewrightError, MissingExtra
 
 QUADMATH = (
     "NGSolve's loader hides the real cause of a missing shared library: most often it is libquadmath; try: apt-get install libquadmath0"
 )
+LOOK = 0.1  # s between two looks for Ctrl-C
+T = TypeVar("T")
 EngineObject = Any  # shapes, meshes, forms and vectors of Netgen and NGSolve, which have no types of their own
 
 
@@ -35,3 +40,41 @@ def translated_errors(error_class: type[DrivewrightError], subject: str, advice:
         yield
     except engine_errors(purpose) as error:
         raise error_class(f"{subject} ({error}); {advice}") from error
+
+
+_one_call = threading.Lock()
+
+
+def interruptible(call: Callable[[], T]) -> T:
+    """The answer of a call in which the engine computes for seconds: Ctrl-C does not wait for its end.
+
+    In the main thread, which alone hears of Ctrl-C, another thread makes the call.  After an interrupt the engine goes on alone to the end
+    of it; the next such call, and the end of the interpreter, wait for that.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        return call()
+    answer: Future[T] = Future()
+    thread = threading.Thread(target=_answer_call, args=(call, answer), daemon=True)
+    thread.start()
+    while thread.is_alive():
+        thread.join(LOOK)
+    return answer.result()
+
+
+def is_computing() -> bool:
+    """Whether the engine is in an `interruptible` call."""
+    return _one_call.locked()
+
+
+@atexit.register
+def _wait_for_engine() -> None:
+    with _one_call:  # what the interpreter takes down at its end the engine may still use
+        pass
+
+
+def _answer_call(call: Callable[[], T], answer: Future[T]) -> None:
+    with _one_call:
+        try:
+            answer.set_result(call())
+        except Exception as error:
+            answer.set_exception(error)

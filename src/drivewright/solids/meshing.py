@@ -3,17 +3,25 @@
 from collections.abc import Mapping
 
 from drivewright.errors import SolverError
-from drivewright.solids.engine import EngineObject, fe_module
+from drivewright.solids.engine import EngineObject, fe_module, interruptible
+from drivewright.steps import note_step
 
 PURPOSE = "a solid check"
 CURVATURE_SAFETY = 0.5  # of Netgen: elements of two radii on a curved face, that the second order follows
 
 
-def solid_mesh(shape: EngineObject, size: float, grading: float) -> EngineObject:
-    """Curved second-order tetrahedra of an OCC shape [mm], of at most `size` [mm]; the faces keep their names and own sizes."""
+def solid_mesh(shape: EngineObject, size: float, grading: float, name: str = "a body") -> EngineObject:
+    """Curved second-order tetrahedra of an OCC shape [mm], of at most `size` [mm]; the faces keep their names and own sizes.
+
+    `name`: of the body to who shows progress."""
     occ, ng = fe_module("netgen.occ", PURPOSE), fe_module("ngsolve", PURPOSE)
     ng.ngsglobals.msg_level = 0
-    return ng.Mesh(occ.OCCGeometry(shape).GenerateMesh(maxh=size, curvaturesafety=CURVATURE_SAFETY, grading=grading)).Curve(2)
+
+    def generated() -> EngineObject:
+        return ng.Mesh(occ.OCCGeometry(shape).GenerateMesh(maxh=size, curvaturesafety=CURVATURE_SAFETY, grading=grading)).Curve(2)
+
+    note_step(f"meshing {name}")
+    return interruptible(generated)
 
 
 def boundary_measure(mesh: EngineObject, region: str) -> float:

@@ -17,10 +17,11 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.errors import SolverError
+from drivewright.numerics.line_search import convex_step_length
 from drivewright.solids.coupling import BodyLoad, BodyName, CoupledSolution, InterfaceSpring, StrainSystem, StrainTerm, strain_system
 from drivewright.solids.substructures import Substructure
 
-STEP_LIMIT, LINE_SEARCH_LIMIT, ROUND_LIMIT = 100, 50, 30
+STEP_LIMIT, ROUND_LIMIT = 100, 30
 SETTLED = 1e-10  # of the largest force: how far a law and its spring may differ
 DAMPING = 1e-2  # of a usual stiffness, times the residual over the largest force
 FLOOR = 1e-9  # of a usual stiffness: what nothing resists stays where it is
@@ -194,30 +195,19 @@ def _newton_step(problem: _Problem, found: _Tangents, strains: Floats, damping: 
 
 
 def _length(problem: _Problem, forces: Floats, motions: Floats, change: tuple[Floats, Floats]) -> float:
-    """Share of the step, 1 or less, at which the potential along it, convex, has lost half of its slope.
+    """Share of the step, 1 or less, at which the potential along it has lost half of its slope.
 
     dP = s'A ds + f'dd - (H p)'da with dd = -A ds + held' da.
     """
     system, (ds, da) = problem.system, change
     dd, start = system.held.T @ da - system.flexibility @ ds, system.strains(forces, motions)
 
-    def slope(share: float) -> float:
-        s = forces + share * ds
-        law = _evaluated(problem, s, start + share * dd).forces
-        return float(s @ system.flexibility @ ds + law @ dd - system.load @ da)
+    def slope(share: Floats) -> Floats:
+        s = forces + share[0] * ds
+        law = _evaluated(problem, s, start + share[0] * dd).forces
+        return np.array([s @ system.flexibility @ ds + law @ dd - system.load @ da])
 
-    low, high, low_slope, high_slope, share = 0.0, 1.0, slope(0.0), 0.0, 1.0
-    steep = abs(low_slope)
-    for _ in range(LINE_SEARCH_LIMIT if low_slope < 0 else 0):
-        here = slope(share)
-        if abs(here) <= 0.5 * steep or (here <= 0 and share == 1.0):
-            break
-        if here < 0:
-            low, low_slope = share, here
-        else:
-            high, high_slope = share, here
-        share = low + (high - low) * float(np.clip(-low_slope / (high_slope - low_slope), 0.1, 0.9))
-    return share
+    return float(convex_step_length(slope)[0])
 
 
 def _with_multipliers(problem: _Problem, rigid: Sequence[int], forces: Floats, motions: Floats) -> tuple[_Problem, Floats, Floats, int]:

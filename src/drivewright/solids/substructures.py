@@ -60,7 +60,7 @@ def elastic_substructure(
     free: FreeBody, functionals: Sequence[EngineObject], loads: Sequence[InterfaceLoad], motions: tuple[int, ...], what: str
 ) -> Substructure:
     """`Substructure` of a `FreeBody`; SolverError where the load of a functional is not the one that it should be."""
-    response = free.response(functionals)
+    response = free.response(functionals, what)
     six = free.basis @ response.resultants
     moments = MM * (free.size * six[3:] + np.cross(free.middle, six[:3].T).T)
     resultants = np.vstack([six[:3], moments])[list(motions)]

@@ -1,5 +1,6 @@
 """A case computed again on an independent route, row by row beside our own numbers."""
 
+from math import nan
 from typing import NamedTuple
 
 from drivewright import registry
@@ -9,7 +10,10 @@ from drivewright.spec import MechanismSpec
 
 
 class Comparison(NamedTuple):
-    """One number by both routes [SI]; they agree when they differ by no more than `allowed`."""
+    """One number by both routes [SI]; they agree when they differ by no more than `allowed`.
+
+    left_out: why there are no numbers, where the route is not to be had.
+    """
 
     name: str
     ours: float
@@ -17,17 +21,19 @@ class Comparison(NamedTuple):
     unit: str
     allowed: float
     route: str
+    left_out: str = ""
 
     @property
     def ok(self) -> bool:
-        """Whether both routes agree; a number that does not exist (nan) agrees with nothing."""
-        return abs(self.other - self.ours) <= self.allowed
+        """Whether both routes agree, where both are there; a number that does not exist (nan) agrees with nothing."""
+        return bool(self.left_out) or abs(self.other - self.ours) <= self.allowed
 
 
 def verify(spec: MechanismSpec) -> tuple[Comparison, ...]:
     """Tuple of `Comparison`: the default analyses of a spec against its kind's independent route.
 
-    A kind's `verify(model, result)` gives the rows as tuples (name, ours, other, unit, allowed, route).
+    A kind's `verify(model, result)` gives the rows as tuples (name, ours, other, unit, allowed, route), and a `registry.LeftOut` for what
+    it cannot compare.
     InputError where the kind has none, MissingExtra where the route needs an optional dependency, SolverError where it fails or where the
     run lacks what it compares with.
     """
@@ -38,7 +44,7 @@ def verify(spec: MechanismSpec) -> tuple[Comparison, ...]:
     model = mechanism.build(spec)
     result = run(spec, model=model)
     try:
-        return tuple(Comparison(*row) for row in mechanism.verify(model, result))
+        return tuple(_comparison(row) for row in mechanism.verify(model, result))
     except MissingExtra:
         raise
     except Exception as error:
@@ -46,3 +52,9 @@ def verify(spec: MechanismSpec) -> tuple[Comparison, ...]:
             raise
         lacking = [f"the run lacks {', '.join(result.provenance['failed'])}"] if result.provenance["failed"] else []
         raise SolverError("; ".join([f"the independent route failed: {failure_reason(spec, error)}", *lacking])) from error
+
+
+def _comparison(row: registry.Row | registry.LeftOut) -> Comparison:
+    if isinstance(row, registry.LeftOut):
+        return Comparison(row.name, nan, nan, "-", nan, "", row.reason)
+    return Comparison(*row)

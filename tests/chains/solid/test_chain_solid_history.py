@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from drivewright import fatigue
+from drivewright import fatigue, steps
 from drivewright.chains.solid import tables
 from drivewright.chains.solid.history import FACES, LEAST, ROLLING, SkinLife, skin_life, solid_history
 from drivewright.chains.solid.joint import STRIP, seat_pair
@@ -56,10 +56,13 @@ def test_half_the_pull_is_what_the_order_of_instants_says():
     assert alone.greatest("plate")[0] == pytest.approx(pulled().greatest("plate")[2], rel=1e-6)
 
 
-def test_every_instant_is_reported():
-    seen = []
-    solid_history(solid(), straight(PULL, PULL), each=lambda: seen.append(1))
-    assert len(seen) == 2
+def test_every_load_step_is_told_to_who_shows_progress(monkeypatch):
+    monkeypatch.setattr(steps, "EACH", 0.0)
+    told, made = [], solid()
+    with steps.detailed(lambda *words: told.append(words)) as step:
+        step(1, 3, "solid_stress")
+        solid_history(made, straight(PULL, PULL))
+    assert told == [(1, 3, "solid_stress"), *((1, 3, f"solid_stress: load steps, {number} of 2") for number in (1, 2))]
 
 
 def test_a_contact_too_narrow_at_the_greatest_force_is_told_and_else_let_be():

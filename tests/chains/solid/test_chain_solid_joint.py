@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy.integrate import quad
 
 from drivewright.chains.link import design_link
 from drivewright.chains.plate import design_plate
@@ -11,7 +10,6 @@ from drivewright.chains.solid.joint import (
     HATS,
     Fit,
     Stack,
-    dent_difference,
     hat_widths,
     pin_body,
     rolling_pins,
@@ -22,7 +20,7 @@ from drivewright.chains.solid.joint import (
     turn_row,
 )
 from drivewright.chains.solid.meshes import pin_mesh, plate_mesh, usual_sizes
-from drivewright.contact import hertz
+from drivewright.contact import hertz, hertz_beyond_strip
 from drivewright.curves.outlines import outline_area
 from drivewright.errors import InputError
 from drivewright.solids.stresses import skin_stress
@@ -32,7 +30,7 @@ pytestmark = [pytest.mark.analytical, pytest.mark.needs_fe]
 MM = 1e-3
 
 
-# -- widths and dents
+# -- widths and compliance
 
 
 def test_hats_stand_for_the_whole_length():
@@ -42,22 +40,6 @@ def test_hats_stand_for_the_whole_length():
     assert widths[0] == widths[-1] == pytest.approx(widths[1] / 2)
 
 
-@pytest.mark.parametrize(("sigma", "half_width"), [(96e-6, 12e-6), (30e-6, 25e-6)])
-def test_dent_left_out_is_that_of_the_logarithmic_kernel(sigma, half_width):
-    """Half plane under unit line loads, -2 (1 - nu^2)/(pi E) ln|x|: middle of Hertz's ellipse, mean over the Gaussian of the Gaussian."""
-
-    def ellipse(turn):
-        return 2 / np.pi * np.cos(turn) ** 2 * np.log(half_width * np.sin(turn))
-
-    def normal(x):
-        return np.exp(-((x / (2 * sigma)) ** 2)) / (2 * sigma * np.sqrt(np.pi)) * np.log(x)
-
-    hertzian = 2 * quad(ellipse, 0, np.pi / 2)[0]
-    gaussian = 2 * quad(normal, 0, 20 * sigma, points=[1e-3 * sigma, sigma])[0]  # the difference of two places: variance 2 sigma^2
-    kernel = 2 * (1 - STEEL.poisson**2) / (np.pi * STEEL.modulus)
-    assert dent_difference(STEEL, sigma, half_width) == pytest.approx(kernel * (gaussian - hertzian), rel=1e-6)
-
-
 def test_the_rolling_contact_has_the_compliance_that_the_strips_leave_out():
     """That of both pins over the length of a hat, with the half width of the mean line load."""
     found, end = rolling((1, 2)), 3e-3
@@ -65,7 +47,7 @@ def test_the_rolling_contact_has_the_compliance_that_the_strips_leave_out():
     modulus = hertz.effective_modulus(*STEEL, *STEEL)
     half_width = 2 * np.sqrt(PULL / 2 / end * reduced / (np.pi * modulus))
     strip = 0.08 * plate().seat("right").radius
-    both = 2 * dent_difference(STEEL, strip, half_width)
+    both = 2 * hertz_beyond_strip(strip, half_width, *STEEL)
     assert [link.compliance for link in found.state.model.links[: HATS + 1]] == pytest.approx(both / hat_widths(end), rel=1e-9)
 
 

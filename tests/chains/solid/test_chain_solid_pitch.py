@@ -8,6 +8,7 @@ from drivewright.chains.solid.history import solid_history
 from drivewright.chains.solid.joint import Fit
 from drivewright.chains.solid.pitch import forces_at
 from drivewright.chains.stress.plate import plate_basis, plate_body, worst
+from drivewright.errors import InputError
 from drivewright.solids.stresses import skin_stress
 from tests.support.solid_chain import COARSEST, FIT, PULL, STEEL, loads, middle_of_flank, no_gap, plate, pulled, solid, state_of, straight
 
@@ -173,10 +174,14 @@ def test_what_is_borne_is_the_greatest_over_bodies_and_instants():
     assert found.pin == pytest.approx(max(tight.greatest(side).max() for side in ("left", "right")))
     assert found.pressure == pytest.approx(max(part.max() for part in tight.states[1].pressure))
     assert wider.pressure > found.pressure
-    assert 0 < found.seat <= found.plate
-    skin, seat = tight.skins["plate"], plate().seat("right")
-    off = np.min([np.hypot(skin.points[:, 0] - way * seat.center[0], skin.points[:, 1] - seat.center[1]) for way in (-1, 1)], axis=0)
-    assert found.seat == pytest.approx(skin.mises[:, np.abs(off / seat.radius - 1) < 1e-3].max())
+
+
+def test_a_fit_that_bears_beyond_the_condensed_seat_is_refused():
+    narrow = solid()._replace(fit=Fit(0.0, 0.0, np.radians(40)))
+    assert len(with_fit(narrow, Fit(5e-6, 0.0, np.radians(30)))) == 2
+    for fit, words in ((Fit(0.0, 0.0), "asks for all round"), (Fit(0.0, 0.0, np.radians(50)), "asks for 50 deg to either side")):
+        with pytest.raises(InputError, match=f"condensed with seats that bear 40 deg to either side.* {words}; condense it"):
+            with_fit(narrow, fit)
 
 
 # -- beside the plane plate

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from places import EXAMPLES
 
-from drivewright.errors import MissingExtra
 from drivewright.mechanisms.linkage.build import build
 from drivewright.oracles.linkage import four_bar, independent_check
 from drivewright.spec import load
@@ -97,20 +96,22 @@ def test_exudyn_notices_another_restitution():
 
 
 @pytest.mark.parametrize(
-    "change",
+    ("change", "missing"),
     [
-        'joints.wrist.model="massless-link"',
-        "joints.wrist.friction=0.1",
-        'joints.wrist.normal="cylinder"',
-        'bodies.crank.inertia="0 kg m^2"',
+        ('joints.wrist.model="massless-link"', "the law of a joint with play"),
+        ("joints.wrist.friction=0.1", "the law of a joint with play"),
+        ('joints.wrist.normal="cylinder"', "the law of a joint with play"),
+        ('bodies.crank.inertia="0 kg m^2"', "bodies without mass or inertia"),
     ],
 )
-def test_what_exudyn_does_not_know(change):
-    assert independent_check._known_to_exudyn(model("slider_crank_clearance"))
-    assert not independent_check._known_to_exudyn(model("slider_crank_clearance", change))
+def test_what_exudyn_does_not_know_is_left_out_with_the_reason(change, missing):
+    assert independent_check._missing_in_exudyn(model("slider_crank_clearance")) == ""
+    assert independent_check._missing_in_exudyn(model("slider_crank_clearance", change)) == missing
+    (left,) = independent_check._exudyn_rows(model("slider_crank_clearance", change))
+    assert left == ("the linkage in Exudyn", f"its model in Exudyn does not know {missing}")
 
 
-def test_without_exudyn_the_extra_is_named(monkeypatch):
+def test_without_exudyn_its_rows_are_left_out_and_the_extra_is_named(monkeypatch):
     import sys
 
     from drivewright.oracles import linkage
@@ -118,5 +119,6 @@ def test_without_exudyn_the_extra_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "exudyn", None)
     monkeypatch.delitem(sys.modules, "drivewright.oracles.linkage.exudyn_model", raising=False)
     monkeypatch.delattr(linkage, "exudyn_model", raising=False)
-    with pytest.raises(MissingExtra, match="verify, which runs the linkage in Exudyn, needs the extra 'peers'"):
-        independent_check.verify(model("four_bar"), None)
+    *others, left = independent_check.verify(model("four_bar"), None)
+    assert differing(others) == [] and len(others) > 4
+    assert left.name == "the linkage in Exudyn" and "needs the extra 'peers'" in left.reason

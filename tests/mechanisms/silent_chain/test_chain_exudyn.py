@@ -17,7 +17,8 @@ from drivewright.chains.explicit.stability import largest_step
 from drivewright.chains.explicit.step import accelerate_plates
 from drivewright.chains.model import Slide, SpeedRamp, with_sprocket
 from drivewright.chains.standards import pitch_diameter
-from drivewright.errors import InputError, MissingExtra
+from drivewright.errors import InputError
+from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.oracles.silent_chain import exudyn_rows
 from drivewright.oracles.silent_chain.chain_forces import RollingJoints, ToothContacts, Wheels, plates_of, unknown
 
@@ -219,20 +220,26 @@ def spec(preset="default", *changes):
     return dw.load(MECHANISM.presets()[preset], changes)
 
 
-@pytest.mark.needs_peers
-def test_a_chain_that_exudyn_does_not_run():
-    assert exudyn_rows.route(MECHANISM.build(spec("default"))) is not None
-    assert exudyn_rows.route(MECHANISM.build(spec("default", 'drive.ramp="10 ms"'))) is None
+def test_a_chain_that_exudyn_does_not_run_is_left_out_with_the_reason():
+    assert exudyn_rows.missing_in_exudyn(chain_drive(MECHANISM.build(spec("default")))) == ""
+    (left,) = exudyn_rows.rows(MECHANISM.build(spec("default", 'drive.ramp="10 ms"')))
+    assert left == ("the running chain in Exudyn", "its model in Exudyn does not know a driver that changes its speed or slides")
 
 
-def test_without_exudyn_the_extra_is_named(monkeypatch):
+def test_more_than_two_sprockets_are_left_out_with_the_reason():
+    drive = rolling()
+    three = replace(drive, sprockets=(*drive.sprockets, drive.sprockets[0]))
+    assert exudyn_rows.missing_in_exudyn(three) == "more than two sprockets"
+
+
+def test_without_exudyn_its_rows_are_left_out_and_the_extra_is_named(monkeypatch):
     from drivewright.oracles import silent_chain
 
     monkeypatch.setitem(sys.modules, "exudyn", None)
     monkeypatch.delitem(sys.modules, "drivewright.oracles.silent_chain.exudyn_model", raising=False)
     monkeypatch.delattr(silent_chain, "exudyn_model", raising=False)
-    with pytest.raises(MissingExtra, match="verify, which runs the chain in Exudyn, needs the extra 'peers'"):
-        exudyn_rows.route(MECHANISM.build(spec()))
+    (left,) = exudyn_rows.rows(MECHANISM.build(spec()))
+    assert left.name == "the running chain in Exudyn" and "needs the extra 'peers'" in left.reason
 
 
 @pytest.mark.slow
@@ -240,9 +247,7 @@ def test_without_exudyn_the_extra_is_named(monkeypatch):
 @pytest.mark.parametrize("preset", ["default", "roller"])
 def test_running_presets_agree(preset):
     model = MECHANISM.build(spec(preset))
-    twin = exudyn_rows.route(model)
-    assert twin is not None
-    rows = tuple(exudyn_rows.exudyn_rows(twin, model))
+    rows = tuple(exudyn_rows.exudyn_rows(exudyn_rows.route(), model))
     assert [name.split(",")[0] for name, *_ in rows] == [
         "centre distance",
         "force of the tight strand",

@@ -159,7 +159,7 @@ def test_a_block_from_a_file_is_held_by_friction_and_slides_without(files):
     occ.Box(occ.Pnt(1, 1, 0), occ.Pnt(7, 7, 4)).WriteStep(str(files / "weight.step"))
     block = SolidBody(files / "block.step", E, NU, 4e-3, fixed=[(1e-3, 1e-3, -8e-3)])
     weight = SolidBody(files / "weight.step", E, NU, 4e-3, loads=[((4e-3, 4e-3, 4e-3), (20.0, 10.0, -100.0))])
-    pressed = press({"weight": weight, "block": block}, 1.7e-3, 1e-6, friction=0.3)
+    pressed = press({"weight": weight, "block": block}, 1.5e-3, 1e-6, friction=0.3)
     assert pressed.force("weight", "block") == pytest.approx([-20.0, -10.0, 100.0], rel=1e-6)
     points, traction = pressed.traction("block", "weight")
     area = pressed.state.model.pairings[0].area * 1e-6
@@ -168,9 +168,9 @@ def test_a_block_from_a_file_is_held_by_friction_and_slides_without(files):
     bound = 0.3 * pressed.pressure("weight", "block")[1]
     assert np.all(np.linalg.norm(traction, axis=1) <= bound * (1 + 1e-9))
     with pytest.raises(InputError, match="make it slide"):
-        press({"weight": weight, "block": block}, 1.7e-3, 1e-6, friction=0.2)
+        press({"weight": weight, "block": block}, 1.5e-3, 1e-6, friction=0.2)
     with pytest.raises(InputError, match="coefficient of friction of -1; it must be 0 or more"):
-        press({"weight": weight, "block": block}, 1.7e-3, 1e-6, friction=-1.0)
+        press({"weight": weight, "block": block}, 1.5e-3, 1e-6, friction=-1.0)
 
 
 def test_files_and_faces_that_are_not_there_are_told(files):

@@ -4,7 +4,7 @@ Stress that belongs to a line contact alone is not in the elements and not searc
 their loaded flanks; what acts there is Hertz's (`chains.stress.rolling`).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -17,6 +17,7 @@ from drivewright.chains.stress.plate import SIDES, Loads
 from drivewright.fatigue.material import StrainLife
 from drivewright.solids.contact.model import ContactState
 from drivewright.solids.stresses import SkinStress, skin_stress
+from drivewright.steps import note_step
 
 BODIES = ("plate", *SIDES)
 FACES = {"plate": "(?!flank|low).*", "left": "skin|high", "right": "skin|high"}  # whose stress is looked at
@@ -39,6 +40,11 @@ class SolidHistory(NamedTuple):
         """Greatest von Mises stress (n,) [Pa] of a body's skin at each instant."""
         return self.skins[body].mises[:, self.searched[body]].max(axis=1)
 
+    @property
+    def seat_pressure(self) -> Floats:
+        """Greatest pressure (n, 2) [Pa] on the left and on the right seat at each instant."""
+        return np.array([[part.max(initial=0.0) for part in state.pressure] for state in self.states])
+
     def worst(self, body: str) -> tuple[float, int, int]:
         """(von Mises stress [Pa], instant, point) where a body's skin has it worst."""
         mises = np.where(self.searched[body], self.skins[body].mises, 0.0)
@@ -59,20 +65,18 @@ class SkinLife(NamedTuple):
         return float(self.life.min(initial=np.inf))
 
 
-def solid_history(
-    solid: PlateAndPins, loads: Loads, each: Callable[[], None] = lambda: None, gaps: Sequence[Floats] | None = None
-) -> SolidHistory:
-    """`SolidHistory` through the `Loads` of one plate; `each` is called after every instant; `gaps`: other ones of the seats.
+def solid_history(solid: PlateAndPins, loads: Loads, gaps: Sequence[Floats] | None = None) -> SolidHistory:
+    """`SolidHistory` through the `Loads` of one plate; `gaps`: other ones [mm^3] of the seats' hats, as `with_fit` gives them.
 
     With friction, which remembers, it is the second time through.
     """
     states: list[ContactState] = []
     size = np.linalg.norm(np.asarray(loads.pins, float), axis=2)
-    for _ in range(2 if solid.fit.friction else 1):
-        for instant in range(len(size)):  # under a light load a contact may be too narrow for the elements: it is not what counts
-            states.append(solid.model.solve(forces_at(solid, loads, instant), states[-1] if states else None, gaps, narrow=True))
-            each()
-    states = states[-len(size) :]
+    count = len(size)
+    for instant in [*range(count)] * (2 if solid.fit.friction else 1):
+        note_step("load steps", instant + 1, count)  # under a light load a contact may be too narrow for the elements: it does not count
+        states.append(solid.model.solve(forces_at(solid, loads, instant), states[-1] if states else None, gaps, narrow=True))
+    states = states[-count:]
     for number, instant in enumerate(size.argmax(axis=0)):
         solid.model.refuse_narrow(states[instant], number)
     skins = {}

@@ -2,15 +2,9 @@
 
 The half above the middle plane z = 0 is meshed.  Plates press on their pins through the mesh; the pins' rolling contact, a few hundredths
 of a millimetre wide, is a row of line contacts: each spreads its force over a strip as wide as the elements, and what a Hertz contact
-yields more than that strip is added as a compliance,
-
-    c = 2 (1 - nu^2)/(pi E) [ln(2 s/b) + 1/2 - gamma/2] a pin and unit of length,
-
-with s the strip's width (sigma) and b the contact's half width: the difference of Hertz's approach and that of a Gaussian strip, both seen
-from the same depth.
+yields more than that strip (`contact.hertz_beyond_strip`) is added as a compliance of each pin.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -20,6 +14,7 @@ from drivewright._typing import Floats
 from drivewright.chains.plate import Plate
 from drivewright.chains.solid.meshes import MM, Sizes, pin_mesh, plate_mesh
 from drivewright.contact import hertz
+from drivewright.contact.strip import hertz_beyond_strip
 from drivewright.errors import InputError
 from drivewright.scene import Outline
 from drivewright.solids.contact.model import ContactModel, ContactState, Functional, Link, Pair
@@ -27,7 +22,6 @@ from drivewright.solids.contact.pairing import GapOf
 from drivewright.solids.elastic import FreeBody
 from drivewright.solids.engine import EngineObject, fe_module
 
-EULER = 0.5772156649015329
 STRIP = 0.08  # width sigma of a rolling contact's strip in radii of the seat
 HATS = 12  # of the rolling contact along half a pin
 APART = 1.0  # mm: gap of a part of a seat that does not bear
@@ -84,9 +78,7 @@ class RollingPins:
         return self.state.links[: len(self.height)] / self.state.links[: len(self.height)].sum()
 
 
-def rolling_pins(
-    plate: Plate, stack: Stack, fit: Fit, material: Material, force: float, sizes: Sizes, each: Callable[[], None] = lambda: None
-) -> RollingPins:
+def rolling_pins(plate: Plate, stack: Stack, fit: Fit, material: Material, force: float, sizes: Sizes) -> RollingPins:
     """`RollingPins` of a joint whose half stack carries a force [N]."""
     if not plate.link.radius > 0:
         raise InputError("stress of solids: a joint with one round pin has no rolling pins")
@@ -107,14 +99,14 @@ def rolling_pins(
     sigma = STRIP * plate.seat("right").radius
     rows = [strip_rows(pins[name], contact, way, sigma, stack.end) for name, way in (("own pin", -1.0), ("other pin", 1.0))]
     widths = hat_widths(stack.end)
-    soft = 2 * dent_difference(material, sigma, float(half_width)) / widths
+    soft = 2 * hertz_beyond_strip(sigma, half_width, *material) / widths  # of both pins
     links = [
         Link((Functional("own pin", a), Functional("other pin", b)), float(c), one_sided=True) for a, b, c in zip(*rows, soft, strict=True)
     ]
     links += [Link((Functional(name, turn_row(pins[name])),)) for name in pins]
     links += [Link((Functional("own plate", own.mean("cut", (0, 1, 0))),)), *_guides("other plate", other, stack)]
     pull = Functional("other plate", other.mean("cut", (1, 0, 0)))
-    model = ContactModel(bodies, pairs, links, {"pull": pull}, each=each)
+    model = ContactModel(bodies, pairs, links, {"pull": pull})
     state = model.solve({"pull": force})
     height = np.linspace(0.0, stack.end, HATS + 1)
     return RollingPins(height, state.links[: len(height)] / widths, state)
@@ -177,11 +169,6 @@ def hat_widths(end: float) -> Floats:
     """Lengths (k,) [m] that the hats stand for."""
     step = end / HATS
     return np.where((np.arange(HATS + 1) % HATS) == 0, step / 2, step)
-
-
-def dent_difference(material: Material, sigma: float, half_width: float) -> float:
-    """What a Hertz contact yields more than a Gaussian strip, [m/N] times a length of 1 m, for one body."""
-    return 2 * (1 - material.poisson**2) / (np.pi * material.modulus) * float(np.log(2 * sigma / half_width) + 0.5 - EULER / 2)
 
 
 def _guides(name: str, plate: FreeBody, stack: Stack) -> list[Link]:

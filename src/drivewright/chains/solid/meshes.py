@@ -61,7 +61,7 @@ def plate_mesh(plate: Plate, low: float, high: float, sizes: Sizes, half: float 
                     edge.maxh = sizes.edge / MM
         elif (size := _rounding(named.get(face.name), sizes)) is not None:
             face.maxh = size / MM
-    return solid_mesh(shape, sizes.body / MM, GRADING)
+    return solid_mesh(shape, sizes.body / MM, GRADING, "a plate")
 
 
 def pin_mesh(outline: Outline, high: float, ends: tuple[float, ...], sizes: Sizes, shift: float = 0.0) -> EngineObject:
@@ -81,7 +81,7 @@ def pin_mesh(outline: Outline, high: float, ends: tuple[float, ...], sizes: Size
             face.name, face.maxh = "skin", 1.3 * sizes.seat / MM
         else:
             face.name = "low" if abs(low_z) < 1e-6 else "high" if abs(high_z - high) < 1e-6 else "inside"
-    return solid_mesh(shape, sizes.body / MM, GRADING)
+    return solid_mesh(shape, sizes.body / MM, GRADING, "a pin")
 
 
 # ---------------------------------------------------------------------------------------------------------------------- pieces

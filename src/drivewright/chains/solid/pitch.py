@@ -5,7 +5,7 @@ pushed into its seat along its rolling contact, with the shares along its length
 chain acts on its whole volume.  Flanks press on strips at the heights where a seated plate touches its sprockets.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -35,14 +35,7 @@ class PlateAndPins(NamedTuple):
 
 
 def plate_and_pins(
-    plate: Plate,
-    stack: Stack,
-    fit: Fit,
-    material: Material,
-    shares: Floats,
-    heights: Sequence[float],
-    sizes: Sizes,
-    each: Callable[[], None] = lambda: None,
+    plate: Plate, stack: Stack, fit: Fit, material: Material, shares: Floats, heights: Sequence[float], sizes: Sizes
 ) -> PlateAndPins:
     """`PlateAndPins` whose pins share their force by `shares` (k,) along their rolling contact."""
     body = FreeBody(plate_mesh(plate, *stack.own, sizes), *material, dirichletz="low")
@@ -58,7 +51,7 @@ def plate_and_pins(
         loads[f"{side} y"] = Functional(side, pin.volume_mean((0, 1, 0)))
         for number, height in enumerate(heights):
             loads[f"{side} flank {number}"] = Functional("plate", _flank(body, plate, side, height))
-    return PlateAndPins(plate, stack, fit, tuple(heights), ContactModel(bodies, pairs, links, loads, ("plate",), each))
+    return PlateAndPins(plate, stack, fit, tuple(heights), ContactModel(bodies, pairs, links, loads, ("plate",)))
 
 
 def forces_at(solid: PlateAndPins, loads: Loads, instant: int) -> dict[str, float]:

@@ -23,8 +23,7 @@ GRID = (160, 60)  # rectangles of a section, along and across
 
 def history_table(history: SolidHistory, time: Floats) -> Table:
     """Table "solid_history": what plate and pins bear at each instant [s]."""
-    pressure = [[part.max(initial=0.0) for part in state.pressure] for state in history.states]
-    left, right = np.array(pressure).T
+    left, right = history.seat_pressure.T
     return Table(
         "solid_history",
         "Plate and pins as solids over a revolution of the chain",

@@ -14,6 +14,7 @@ from drivewright.errors import InputError
 from drivewright.fatigue.material import StrainLife
 from drivewright.result import Column, Table
 from drivewright.solids.plane import plane_von_mises
+from drivewright.steps import note_step
 
 
 class PlateLife(NamedTuple):
@@ -50,7 +51,7 @@ def life_of_history(stress: Floats, size: Floats, material: StrainLife, plane: s
     strain = fatigue.elastic_strain(stress, material)
     for node in np.flatnonzero(size > material.cyclic_yield):
         stress[node], strain[node] = fatigue.neuber_history(stress[node], material)
-    return fatigue.life_map(strain, stress, material, plane)
+    return fatigue.life_map(strain, stress, material, plane, progress=lambda done, total, _: note_step("life of its places", done, total))
 
 
 def life_table(basis: Basis, found: PlateLife) -> Table:

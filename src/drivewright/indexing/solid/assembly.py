@@ -27,6 +27,7 @@ from drivewright.indexing.stiffness.result import FAR, REASONS, ROTATION_LIMIT
 from drivewright.solids.coupling import CoupledSolution, InterfaceSpring, functional_offsets
 from drivewright.solids.deformation import DisplacedSurface
 from drivewright.solids.nonlinear_coupling import NonlinearSpring, solve_nonlinear
+from drivewright.steps import note_step
 
 GROUPS = ("pin", "crank", "support", "gear", "wheel bearing", "output", "cam", "shaft", "wheel")
 
@@ -121,7 +122,9 @@ def load_assembly(
     )
     settings = PositionSettings(cams, model == "bonded", assembly.solids.wheel is not None, 2 * abs(torque) / drive.spacing)
     found, reasons = {}, list(reduced.reasons)
-    for i in np.flatnonzero(reduced.carried):
+    carried = np.flatnonzero(reduced.carried)
+    for number, i in enumerate(carried, 1):
+        note_step(f"positions, {model}", number, len(carried))
         try:
             found[int(i)] = _loaded(assembly, places[i], settings, torque)
         except (DoesNotAssemble, SolverError) as error:

@@ -6,6 +6,7 @@ from typing import TypeAlias
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.contact import gaussian_strip_approach
 from drivewright.indexing.drivetrain import Drivetrain, SplitShaft
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.solid import meshes
@@ -28,7 +29,6 @@ ContactKey: TypeAlias = tuple[int, int]  # position, number of the contact
 Strip: TypeAlias = tuple[complex, complex]  # point [m] on the profile, normal
 
 HALVES = 2
-EULER = 0.5772156649015329
 TURN_RADIUS = 0.01  # m: at which the rotation of a gear's seat counts as a displacement
 
 
@@ -67,15 +67,9 @@ def cam_places(holes: Sequence[complex], strips: Mapping[ContactKey, Strip]) -> 
     return seats + contacts
 
 
-def dent(sigma: float, depth: float, body: CamBody) -> float:
-    """Approach [m/N] of a Gaussian strip on a half-space of the cam's width b and a point at `depth` under it, mean over the strip:
-
-    2 (1 - nu^2)/(pi E b) [ln(depth/sigma) + gamma/2 - 1/(2 (1 - nu))],
-
-    from Flamant's line load in plane strain, and E ln|X - Y| = ln sigma - gamma/2 of two normal variables.
-    """
-    logarithm = np.log(depth / sigma) + EULER / 2 - 1 / (2 * (1 - body.poisson))
-    return 2 * (1 - body.poisson**2) / (np.pi * body.modulus * body.thickness) * logarithm
+def strip_compliance(sigma: float, depth: float, body: CamBody) -> float:
+    """Approach [m/N] of a Gaussian strip over the cam's whole thickness to the `depth` [m] under it."""
+    return float(gaussian_strip_approach(sigma, depth, body.modulus, body.poisson)) / body.thickness
 
 
 # --------------------------------------------------------------------------------------------------------------------- shaft

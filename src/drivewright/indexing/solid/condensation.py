@@ -56,7 +56,7 @@ def _cams(
     for way in cam_phases(cams)[:half]:
         holes = [complex(side * drive.spacing / 2 / way) for side in SIDES]
         made = of.cam(outline, body, holes, strips, sigma, fineness)
-        found.append(made if body is None else _undented(made, of.dent(sigma, wheel.pin_radius, body)))
+        found.append(made if body is None else _without_strip(made, of.strip_compliance(sigma, wheel.pin_radius, body)))
     return found + [_exchanged(body) for body in found[: cams - half]]
 
 
@@ -67,8 +67,9 @@ def touching_point(wheel: PinWheel, place: Position, c: int) -> complex:
     return complex(here.centre[c] - reach * here.normal[c] - wheel.eccentricity * np.exp(1j * place.crank))
 
 
-def _undented(body: Substructure, dent: float) -> Substructure:
-    taken = [dent if name[0] == "contact" else 0.0 for name in body.number]
+def _without_strip(body: Substructure, compliance: float) -> Substructure:
+    """The body whose contacts yield less by the compliance [m/N]."""
+    taken = [compliance if name[0] == "contact" else 0.0 for name in body.number]
     return body._replace(flexibility=body.flexibility - np.diag(taken))
 
 

@@ -82,7 +82,7 @@ def _cam_compliance(
         holes = [complex(side * drive.spacing / 2 / way) for side in SIDES]
         body = of.cam(outline, solids.cam, holes, strips, sigma, fineness)
         own = held(body, [("seat", side, axis) for side in (0, 1) for axis in (0, 1)], [("contact", *key) for key in strips])
-        found.append(np.maximum(np.diagonal(own) - of.dent(sigma, wheel.pin_radius, solids.cam), 0.0))
+        found.append(np.maximum(np.diagonal(own) - of.strip_compliance(sigma, wheel.pin_radius, solids.cam), 0.0))
     return np.array(found + found[: cams - half])
 
 

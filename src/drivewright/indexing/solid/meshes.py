@@ -212,7 +212,7 @@ def _wheel_face(face, middles, body, cams, width):
 
 def _generated(shape, size, what):
     with _mesher(what):
-        return solid_mesh(shape, size, GRADING)
+        return solid_mesh(shape, size, GRADING, what)
 
 
 def _check_areas(mesh, areas, what):

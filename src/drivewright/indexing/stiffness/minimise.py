@@ -9,6 +9,7 @@ import numpy as np
 
 from drivewright._typing import Bools, Floats
 from drivewright.indexing.stiffness.laws import StrainLaw
+from drivewright.numerics.line_search import convex_step_length
 
 DType = TypeVar("DType", bound=np.dtype[Any])
 TOLERANCE = 1e-13  # of the residual over the load
@@ -18,7 +19,6 @@ FLOOR = 1e-13  # of the largest stiffness, under what nothing resists
 REGULARISATION = (
     1e-2  # of a usual stiffness, times the residual over the load: far from rest no step runs away, near it all stays quadratic
 )
-LINE_SEARCH_LIMIT = 50
 
 
 def flatten_rows(rows: np.ndarray[Any, DType]) -> np.ndarray[Any, DType]:
@@ -111,10 +111,7 @@ def largest_stiffness(hessian: Floats) -> Floats:
 
 
 def _length(system: ConvexEnergy, y: Floats, change: Floats) -> Floats:
-    """(p,): share of the step, 1 or less, at which the energy along it, convex, has lost half of its steepness.
-
-    Only the strains are followed; a bracket by the slope is narrowed by the secant, kept off its ends.
-    """
+    """(p,): share of the step, 1 or less, at which the energy along it has lost half of its slope; only the strains are followed."""
     strains = [(part.law, part.strain(y), part.displacement(change)) for part in system.parts]
     pull = (system.linear @ change[:, :, None])[:, :, 0]
     bent, base = np.sum(pull * change, axis=1), np.sum(pull * y, axis=1) - np.sum(system.load * change, axis=1)
@@ -123,17 +120,4 @@ def _length(system: ConvexEnergy, y: Floats, change: Floats) -> Floats:
         strained = sum(np.sum(law(d + share[:, None, None] * v)[1] * v, axis=(1, 2)) for law, d, v in strains)
         return base + share * bent + strained
 
-    low, share = np.zeros(len(y)), np.ones(len(y))
-    low_slope, high, high_slope = slope(low), np.ones(len(y)), np.zeros(len(y))
-    steep, flat = np.abs(low_slope), low_slope >= 0  # flat: at rest but for rounding
-    for _ in range(LINE_SEARCH_LIMIT):
-        here = slope(share)
-        done = flat | (np.abs(here) <= 0.5 * steep) | ((here <= 0) & (share == 1.0))
-        if done.all():
-            break
-        short, long = ~done & (here < 0), ~done & (here >= 0)
-        low, low_slope = np.where(short, share, low), np.where(short, here, low_slope)
-        high, high_slope = np.where(long, share, high), np.where(long, here, high_slope)
-        part = -low_slope / np.where(done, 1.0, high_slope - low_slope)
-        share = np.where(done, share, low + (high - low) * np.clip(part, 0.1, 0.9))
-    return share
+    return convex_step_length(slope, len(y))

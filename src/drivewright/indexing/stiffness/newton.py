@@ -23,7 +23,6 @@ from drivewright.indexing.stiffness.laws import (
 )
 from drivewright.indexing.stiffness.minimise import (
     FLOOR,
-    LINE_SEARCH_LIMIT,
     REGULARISATION,
     ROUNDING,
     STEP_LIMIT,
@@ -32,6 +31,7 @@ from drivewright.indexing.stiffness.minimise import (
     EnergyMinimum,
     flatten_rows,
 )
+from drivewright.numerics.line_search import KEPT_OFF, LIMIT, SPENT
 
 LINE, SPRING, RIGID, RADIAL, SECOND = range(5)  # kinds of strain; SECOND: y of the bearing whose x stands before it
 COMPILED: tuple[type, ...] = (PinContactLaw, RigidContactLaw, GearFlankLaw, RadialBearingLaw)
@@ -333,7 +333,8 @@ def _solve(hessian, floor, work):
 
 @inner
 def _step_length(energy, work, i, y):
-    """Share of the step, 1 or less, at which the energy along it, convex, has lost half of its steepness; as `minimise` has it."""
+    """Share of the step: `numerics.line_search.convex_step_length` once more, which cannot be called here: a kernel that takes its slope
+    as a function is not kept on disk."""
     linear, step = energy.linear[i % len(energy.linear)], work.step
     _strain_of(work, step, work.change)
     bent, base = 0.0, 0.0
@@ -348,16 +349,16 @@ def _step_length(energy, work, i, y):
     steep = abs(low_slope)
     if low_slope >= 0.0:  # at rest but for rounding
         return share
-    for _ in range(LINE_SEARCH_LIMIT):
+    for _ in range(LIMIT):
         here = _steepness(energy, work, i, base, bent, share)
-        if abs(here) <= 0.5 * steep or (here <= 0.0 and share == 1.0):
+        if abs(here) <= SPENT * steep or (here <= 0.0 and share == 1.0):
             break
         if here < 0.0:
             low, low_slope = share, here
         else:
             high, high_slope = share, here
         part = -low_slope / (high_slope - low_slope)
-        share = low + (high - low) * min(max(part, 0.1), 0.9)
+        share = low + (high - low) * min(max(part, KEPT_OFF), 1.0 - KEPT_OFF)
     return share
 
 

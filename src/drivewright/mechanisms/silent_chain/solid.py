@@ -6,6 +6,7 @@ import numpy as np
 
 from drivewright._typing import Floats, Ints
 from drivewright.chains.solid import tables
+from drivewright.chains.solid.assumptions import borne
 from drivewright.chains.solid.history import SkinLife, SolidHistory, skin_life, solid_history
 from drivewright.chains.solid.joint import Fit, Material, RollingPins, rolling_pins, stack_of
 from drivewright.chains.solid.meshes import usual_sizes
@@ -97,11 +98,11 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
 
 def _stresses(rolling: RollingPins, histories: list[SolidHistory], pressure: float) -> dict[str, Value]:
     """Stresses and pressures; `pressure` [Pa]: the greatest between the pins."""
-    first = histories[0]
+    first, most = histories[0], [borne(each) for each in histories]
     x, y, z = first.skins["plate"].points[first.worst("plate")[2]]
     return {
         "solid.plate.max_stress": _mean(
-            [each.worst("plate")[0] for each in histories],
+            [each.plate for each in most],
             "Pa",
             "greatest von Mises stress of a plate over a revolution of the chain, as a solid in contact with its pins",
             "Greatest stress of a plate (solid)",
@@ -110,13 +111,13 @@ def _stresses(rolling: RollingPins, histories: list[SolidHistory], pressure: flo
         "solid.plate.max_stress.y": Value(float(y), "m", "where it is, above the line of the pins", label="Place across the plate"),
         "solid.plate.max_stress.z": Value(float(z), "m", "where it is, from the middle of the chain", label="Place across the chain"),
         "solid.pin.max_stress": _mean(
-            [max(each.worst(name)[0] for name in SIDES) for each in histories],
+            [each.pin for each in most],
             "Pa",
             "greatest von Mises stress of a pin over a revolution of the chain, beside its rolling contact",
             "Greatest stress of a pin (solid)",
         ),
         "solid.seat.max_pressure": _mean(
-            [max(part.max(initial=0.0) for state in each.states for part in state.pressure) for each in histories],
+            [each.pressure for each in most],
             "Pa",
             "greatest pressure of a pin on its seat in a plate; it grows where the edges of the hole are sharper",
             "Greatest pressure on a seat",

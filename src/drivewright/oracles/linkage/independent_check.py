@@ -15,7 +15,7 @@ from drivewright.multibody.observe import FIELDS, PIN_FIELDS, observe
 from drivewright.multibody.reactions import reactions
 from drivewright.multibody.simulate import Settings, simulate, states_outside_folds
 from drivewright.oracles.linkage.four_bar import closed_form
-from drivewright.registry import Row
+from drivewright.registry import LeftOut, Row
 
 SHOWN = 400  # states at which joints are looked at
 POSE = slice(0, 6)  # of FIELDS: place, angle, and their rates
@@ -26,16 +26,14 @@ PART = {"smooth": 1.0, "dry": 0.12}  # of a turn that is compared: after impacts
 LONGEST = 0.5  # of a mechanism without turns [s]
 ABSOLUTE = "equations of the bodies in absolute coordinates, reactions of the joints by least squares"
 EXUDYN = "Exudyn: absolute coordinates, trapezoidal rule; allowed is five times what its own answer still changes with the step"
+IN_EXUDYN = "the linkage in Exudyn"
 TIMES = 5  # a halved step shows the error of the second order and less of that of an impact
 
 
-def verify(model: LinkageModel, result: object) -> tuple[Row, ...]:
-    """All rows; MissingExtra without Exudyn where it has a part in this."""
+def verify(model: LinkageModel, result: object) -> tuple[Row | LeftOut, ...]:
+    """All rows; of a linkage that Exudyn does not know, or without Exudyn, what is left out."""
     states = list(_observed_states(model))
-    rows = [*_closed_joints(model, states), *_newton_euler(model, states), *_differences(model), *closed_form(model)]
-    if _known_to_exudyn(model):
-        rows += _exudyn(model)
-    return tuple(rows)
+    return (*_closed_joints(model, states), *_newton_euler(model, states), *_differences(model), *closed_form(model), *_exudyn_rows(model))
 
 
 # -- joints and equations ------------------------------------------------------------------------------------------------------
@@ -126,8 +124,19 @@ def _differences(model):
 # -- Exudyn ----------------------------------------------------------------------------------------------------------------------
 
 
-def _known_to_exudyn(model):
-    """Whether Exudyn's twin has everything that the mechanism consists of."""
+def _exudyn_rows(model):
+    """The rows of Exudyn, or why there are none."""
+    if missing := _missing_in_exudyn(model):
+        yield LeftOut(IN_EXUDYN, f"its model in Exudyn does not know {missing}")
+        return
+    try:
+        yield from _exudyn(model)
+    except MissingExtra as error:
+        yield LeftOut(IN_EXUDYN, str(error))
+
+
+def _missing_in_exudyn(model):
+    """What of the mechanism Exudyn's twin does not have; empty where nothing is missing."""
     wide, spec = model.assembly.model, model.spec
     pins = [joint.model for joint in wide.joints if isinstance(joint, Revolute)]
     smooth = all(isinstance(pin, Ideal) or (isinstance(pin, Dry) and _plain(pin)) for pin in pins)
@@ -135,7 +144,14 @@ def _known_to_exudyn(model):
     tables = any(item.file for item in (*spec.torques, *spec.forces))
     steady = spec.drive is None or spec.drive.speed is not None
     massive = all(body.mass > 0 and body.inertia > 0 for body in wide.bodies)
-    return smooth and joints and steady and massive and not tables
+    known = {
+        "the law of a joint with play": smooth,
+        "a kind of joint": joints,
+        "loads from a table": not tables,
+        "a drive of variable speed": steady,
+        "bodies without mass or inertia": massive,
+    }
+    return ", ".join(words for words, there in known.items() if not there)
 
 
 def _plain(dry):
@@ -149,10 +165,11 @@ def _exudyn(model):
     try:
         from drivewright.oracles.linkage import exudyn_model
     except ImportError as error:
-        raise MissingExtra("verify, which runs the linkage in Exudyn,", "peers", error) from None
+        raise MissingExtra("the linkage in Exudyn", "peers", error) from None
     kind = "dry" if model.pins else "smooth"
     state = _start(model)
     if state is None:
+        yield LeftOut(IN_EXUDYN, "at no recorded instant are all pins in flight")
         return
     system, t, y, start = state
     length = _until_lasting(model, system, t, y, min(PART[kind] * (model.period or LONGEST), model.run_length))

@@ -22,7 +22,7 @@ from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.numerics.signals import time_mean
 from drivewright.oracles.silent_chain.chain_forces import unknown
-from drivewright.registry import Row
+from drivewright.registry import LeftOut, Row
 
 SAMPLES = 48  # of a window
 OURS, THEIRS = (0.4, 0.2, 0.1), (0.4, 0.2)  # steps of ours and of Exudyn's Runge-Kutta method, over the largest stable step of ours
@@ -33,6 +33,7 @@ LONGEST = 100_000  # steps of the strand's motion, a quarter of a millisecond ea
 NEAR = 0.5  # of a pitch off its line that a plate of the strand may be
 TIMES = 10  # what an answer changes with the step, times this, is allowed: a few steps make a sample, and contacts amplify any difference
 MEANS = "Exudyn: bodies and Runge-Kutta steps of its own; allowed is ten times what both answers change with their steps"
+RUNNING, FREQUENCY = "the running chain in Exudyn", "first frequency of the tight strand"
 STRAND = "Exudyn: plucked strand, Verlet steps; allowed is ten times what ours changes with its step"
 
 
@@ -44,19 +45,34 @@ class Engine(Protocol):
         ...
 
 
-def route(model: ChainModel) -> Engine | None:
-    """Exudyn's twin; None for a chain that it cannot represent; MissingExtra where Exudyn is not installed."""
-    system = chain_drive(model)
-    if unknown(system) or len(system.sprockets) > 2:
-        return None
+def rows(model: ChainModel) -> Iterator[Row | LeftOut]:
+    """All rows, or why there are none."""
+    if missing := missing_in_exudyn(chain_drive(model)):
+        yield LeftOut(RUNNING, f"its model in Exudyn does not know {missing}")
+        return
+    try:
+        twin = route()
+    except MissingExtra as error:
+        yield LeftOut(RUNNING, str(error))
+        return
+    yield from exudyn_rows(twin, model)
+
+
+def missing_in_exudyn(system: ChainDrive) -> str:
+    """What of a drive Exudyn's twin cannot represent; empty where nothing is missing."""
+    return unknown(system) or ("more than two sprockets" if len(system.sprockets) > 2 else "")
+
+
+def route() -> Engine:
+    """Exudyn's twin; MissingExtra where Exudyn is not installed."""
     try:
         from drivewright.oracles.silent_chain import exudyn_model
     except ImportError as error:
-        raise MissingExtra("verify, which runs the chain in Exudyn,", "peers", error) from None
+        raise MissingExtra("the running chain in Exudyn", "peers", error) from None
     return exudyn_model
 
 
-def exudyn_rows(twin: Engine, model: ChainModel) -> Iterator[Row]:
+def exudyn_rows(twin: Engine, model: ChainModel) -> Iterator[Row | LeftOut]:
     """All rows, from the chain after its run-in."""
     system = chain_drive(model)
     begin = running_start(system, Settings(safe_step(system)))
@@ -65,9 +81,10 @@ def exudyn_rows(twin: Engine, model: ChainModel) -> Iterator[Row]:
     string = float(strand_frequency(model.strands.tension, system.chain.line_density, strand.length, model.strands.speed))
     periods = min(PERIODS, LONGEST * VERLET * largest_step(system) * string)
     if periods < 1.0:
+        yield LeftOut(FREQUENCY, f"a period of the strand takes more than {LONGEST} steps")
         return
     ours, theirs = frequencies(twin, system, begin, strand, string, periods)
-    yield "first frequency of the tight strand", ours[-1], theirs, "Hz", TIMES * float(np.ptp(ours)), STRAND
+    yield FREQUENCY, ours[-1], theirs, "Hz", TIMES * float(np.ptp(ours)), STRAND
 
 
 # -- means over a tooth --------------------------------------------------------------------------------------------------------

@@ -22,7 +22,7 @@ from drivewright.chains.model import Slide, with_sprocket
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.oracles.silent_chain import exudyn_rows
-from drivewright.registry import Row
+from drivewright.registry import LeftOut, Row
 from drivewright.result import Result
 
 DIGITS = 40
@@ -38,10 +38,8 @@ STEP = 2e-7  # [s], or less, of both integrators
 SHARE = 0.5  # of a tooth, over which they run side by side: contacts make neighbouring motions part
 
 
-def verify(model: ChainModel, result: Result[Any]) -> Iterator[Row]:
-    """All rows; MissingExtra without Exudyn where it has a part in this: where the chain runs, without guides, at constant speed."""
-    running = "dynamics.energy_drift" in result.values
-    twin = exudyn_rows.route(model) if running else None  # first, so that a missing extra is said before anything is computed
+def verify(model: ChainModel, result: Result[Any]) -> Iterator[Row | LeftOut]:
+    """All rows; of a running chain that Exudyn does not know, or without Exudyn, what is left out."""
     if model.sides:
         yield from _meshing(model, result)
         for number, side in enumerate(SIDES):
@@ -51,10 +49,9 @@ def verify(model: ChainModel, result: Result[Any]) -> Iterator[Row]:
         yield from _rest(model, result)
     if "pin.contact_pressure" in result.values:
         yield from _pressure(model, result)
-    if running:
+    if "dynamics.energy_drift" in result.values:
         yield from _running(model)
-    if twin:
-        yield from exudyn_rows.exudyn_rows(twin, model)
+        yield from exudyn_rows.rows(model)
 
 
 # -- the published method ------------------------------------------------------------------------------------------------------

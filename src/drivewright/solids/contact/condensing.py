@@ -3,7 +3,6 @@
 Inside, lengths are in millimetres and pressures in MPa.
 """
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +10,7 @@ import scipy
 
 from drivewright._typing import Floats
 from drivewright.solids.elastic import FreeBody
+from drivewright.steps import note_step
 
 Rows = scipy.sparse.csr_array
 
@@ -36,12 +36,12 @@ def load_rows(body: FreeBody, weights: Rows) -> Rows:
     return Rows(scipy.sparse.hstack([weights[:, axis * count : (axis + 1) * count] @ at_nodes for axis in range(body.mesh.dim)]))
 
 
-def condense(body: FreeBody, loads: Rows, each: Callable[[], None] = lambda: None) -> Condensed:
-    """`Condensed` body; `each` is called after every one of the n solutions."""
+def condense(body: FreeBody, loads: Rows, name: str = "a body") -> Condensed:
+    """`Condensed` body, of that name to who shows progress."""
     flexibility = np.empty((loads.shape[0],) * 2)
     for number in range(loads.shape[0]):
+        note_step(f"condensing {name}", number + 1, loads.shape[0])
         flexibility[:, number] = loads @ solved(body, loads[[number]].toarray()[0])
-        each()
     modes = np.array([mode.FV().NumPy() for mode in body.modes]).reshape(len(body.modes), loads.shape[1])
     return Condensed(body, loads, 0.5 * (flexibility + flexibility.T), np.asarray((loads @ modes.T).T))
 

@@ -5,7 +5,7 @@ what presses on it.
 Numbers at the door are SI.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -120,7 +120,6 @@ class ContactModel:
     """Bodies, pairs of skins, links and unit loads {name: functional}, condensed when made.
 
     A body in `flying` is held by nothing: inertia forces, spread over its volume, balance its loads, and its mean motion is 0 (d'Alembert).
-    each: called after every one of the solutions that condense the bodies.
     """
 
     bodies: Mapping[str, FreeBody]
@@ -128,7 +127,6 @@ class ContactModel:
     links: Sequence[Link]
     loads: Mapping[str, Functional]
     flying: Sequence[str] = ()
-    each: Callable[[], None] = lambda: None
     pairings: tuple[Pairing, ...] = field(init=False)
     skins: tuple[tuple[Skin, Skin], ...] = field(init=False)
     condensed: Mapping[str, Condensed] = field(init=False)
@@ -138,7 +136,7 @@ class ContactModel:
         pairings = tuple(self._paired(pair, *each) for pair, each in zip(self.pairs, skins, strict=True))
         for name, value in (("skins", skins), ("pairings", pairings)):
             object.__setattr__(self, name, value)
-        condensed = {name: condense(body, Rows(scipy.sparse.vstack(self._rows(name))), self.each) for name, body in self.bodies.items()}
+        condensed = {name: condense(body, Rows(scipy.sparse.vstack(self._rows(name))), name) for name, body in self.bodies.items()}
         object.__setattr__(self, "condensed", condensed)
 
     @property

@@ -1,7 +1,8 @@
 """Bodies from STEP files pressed on each other: the contact found, meshed finely and solved by one call (extra `fe`)."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import combinations
 from pathlib import Path
 from typing import Any, NamedTuple, TypeAlias
@@ -13,9 +14,10 @@ from drivewright.errors import InputError, SolverError
 from drivewright.solids.contact.model import ContactModel, ContactState, Functional, Pair
 from drivewright.solids.contact.surfaces import Skin, at_nodes, hit_by_rays, middles, skin_of
 from drivewright.solids.elastic import MM, FreeBody
-from drivewright.solids.engine import EngineObject, fe_module, translated_errors
+from drivewright.solids.engine import EngineObject, fe_module, interruptible, translated_errors
 from drivewright.solids.meshing import CURVATURE_SAFETY
 from drivewright.solids.stresses import SkinStress, skin_stress
+from drivewright.steps import Progress, detailed, note_step
 
 PURPOSE = "contact of solids"
 Point: TypeAlias = tuple[float, float, float]
@@ -96,18 +98,30 @@ def press(
     *,
     friction: float = 0.0,
     press_fit: bool = False,
-    each: Callable[[], None] = lambda: None,
+    progress: Progress | None = None,
 ) -> PressedBodies:
     """`PressedBodies` of two or more `SolidBody`s: small displacements, surfaces that press and do not pull.
 
     contact_size [m]: of the elements where bodies come nearer than `reach` [m], the largest gap that may close; half the contact's width at
-    most, a tenth of it for a pressure right to about 1 %.  friction: Coulomb's coefficient, with
-    all loads applied at once.  press_fit: an overlap before any load is meant.
+    most, a tenth of it for a pressure right to about 1 %.  friction: Coulomb's coefficient, with all loads applied at once.  press_fit: an
+    overlap before any load is meant.  `progress(done, total, what)` is called, with 0 of 1, as bodies are meshed and condensed: `what` says
+    how far that is.
     """
     if not (contact_size > 0 and reach > 0):
         raise InputError(f"contact: contact_size {contact_size:g} m and reach {reach:g} m; both must be above 0")
     if not friction >= 0:
         raise InputError(f"contact: a coefficient of friction of {friction:g}; it must be 0 or more")
+    if progress is None:
+        return _pressed(bodies, contact_size, reach, friction, press_fit)
+    with detailed(progress) as step:
+        step(0, 1, "pressing")
+        return _pressed(bodies, contact_size, reach, friction, press_fit)
+
+
+# ---------------------------------------------------------------------------------------------------------------------- pieces
+
+
+def _pressed(bodies: Mapping[str, SolidBody], contact_size: float, reach: float, friction: float, press_fit: bool) -> PressedBodies:
     shapes = {name: _named(name, body) for name, body in bodies.items()}
     meshes = _meshes(shapes, bodies, contact_size / MM, reach / MM)
     free = {name: _free(meshes[name], body) for name, body in bodies.items()}
@@ -125,10 +139,7 @@ def press(
         for number, (_, force) in enumerate(body.loads)
     }
     amounts = {f"{name} {n}": float(np.linalg.norm(force)) for name, body in bodies.items() for n, (_, force) in enumerate(body.loads)}
-    return PressedBodies(ContactModel(free, pairs, [], loads, each=each).solve(amounts), tuple(near))
-
-
-# ---------------------------------------------------------------------------------------------------------------------- pieces
+    return PressedBodies(ContactModel(free, pairs, [], loads).solve(amounts), tuple(near))
 
 
 def _named(name: str, body: SolidBody) -> EngineObject:
@@ -185,15 +196,16 @@ def _meshes(shapes: Mapping[str, EngineObject], bodies: Mapping[str, SolidBody],
     ng, occ, netgen = (fe_module(module, PURPOSE) for module in ("ngsolve", "netgen.occ", "netgen.meshing"))
     ng.ngsglobals.msg_level = 0
     wanted: dict[str, list[tuple[Floats, float]]] = {name: [] for name in shapes}
-    for _ in range(ROUNDS):
+    for number in range(ROUNDS):
         meshes = {}
         for name, shape in shapes.items():
+            note_step(f"meshing {name}, round {number + 1}")
             sizes = netgen.MeshingParameters(maxh=bodies[name].size / MM, grading=GRADING, curvaturesafety=CURVATURE_SAFETY)
             for point, size in wanted[name]:
                 sizes.RestrictH(*map(float, point), h=float(size))
             advice = "look for very small faces, or give a larger size"
             with translated_errors(SolverError, f"contact: the mesher gave up on {name!r}", advice, PURPOSE):
-                meshes[name] = ng.Mesh(occ.OCCGeometry(shape).GenerateMesh(mp=sizes)).Curve(2)
+                meshes[name] = interruptible(partial(_curved_mesh, ng, occ.OCCGeometry(shape), sizes))
         skins = {name: skin_of(mesh, ".*") for name, mesh in meshes.items()}
         more = {name: _too_large(name, skins, fine, reach) for name in shapes}
         if not any(len(places) for places, _ in more.values()):
@@ -203,6 +215,10 @@ def _meshes(shapes: Mapping[str, EngineObject], bodies: Mapping[str, SolidBody],
     raise SolverError(
         f"contact: elements of {fine:.3g} mm were not reached in {ROUNDS} rounds of meshing; give a larger contact_size or reach"
     )
+
+
+def _curved_mesh(ng: EngineObject, geometry: EngineObject, sizes: EngineObject) -> EngineObject:
+    return ng.Mesh(geometry.GenerateMesh(mp=sizes)).Curve(2)
 
 
 def _too_large(name: str, skins: Mapping[str, Skin], fine: float, reach: float) -> tuple[Floats, Floats]:

@@ -7,6 +7,7 @@ from typing import Any
 from drivewright import registry, runner
 from drivewright.report.content import Picture, pictures, views
 from drivewright.report.pack import pack_plots
+from drivewright.steps import detailed
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.progress import Progress
 from drivewright.view.palette import ROLES, THEMES
@@ -23,7 +24,8 @@ def figures(
     spec = design.spec()
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
     default = tuple(analysis.name for analysis in mechanism.analyses if analysis.default)
-    result = runner.run(spec, () if everything else (*default, *analyses), everything, progress, model)
+    with detailed(progress) as step:
+        result = runner.run(spec, () if everything else (*default, *analyses), everything, step, model)
     done = result.provenance["analyses"]
     progress(len(done), len(done), "drawing")
     seen = views(result, model)
