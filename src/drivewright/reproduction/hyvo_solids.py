@@ -37,7 +37,7 @@ DESIGNS = {"group 3": ("paper-load", ()), "control group": ("classical", running
 FINENESS = 1.3  # with which contacts of pins 0.04 mm narrower in radius than their holes are wide enough for the elements
 PULL = 200.0  # N on a plate: F1
 CLEARANCES = (0.0, 2.0, 5.0, 10.0, 20.0, 40.0)  # um in the radius
-RUNNING_CLEARANCES = (0.0, 5.0, 10.0, 20.0)
+RUNNING_CLEARANCES = (0.0, 2.0, 5.0, 10.0, 20.0)
 CLEARANCE_LABEL = "Clearance of a pin in its hole, radial [µm]"
 SEATS = {"all of the seat": None, "30° to either side": np.radians(30.0)}
 PULLS = (50.0, 100.0, 200.0, 400.0)  # N
@@ -48,6 +48,7 @@ MICRO, MEGA = 1e-6, 1e6
 PIN_STRESSES = {"group 3": 162.026855, "control group": 245.183578}  # printed, MPa
 PRINTED_STRESSES = {"plate": PLATE_STRESSES, "pin": PIN_STRESSES}
 SECTIONS = {"plate": "section 6, plates", "pin": "section 6, pins"}
+FITS = {"exact fit": 0.0, f"{USUAL:g} um of clearance": USUAL}
 FIELDS = {"plate": 0, "pin": 1, "plate life": 2, "pin life": 3}  # of `runs_of`
 
 
@@ -136,25 +137,37 @@ def _running(each: Design, loads: Loads, clearance: float) -> Point:
 
 def solid_rows(folder: Path) -> Iterator[Row]:
     """Section 6 beside plates and pins as solids in contact: running, and under the same pull."""
-    common: dict[str, Any] = {
+    for body in ("plate", "pin"):
+        yield from _running_rows(body, _common(USUAL))
+        for words, clearance in FITS.items():
+            yield _quotient_row(body, words, clearance)
+        yield from _pulled_rows(body, _common(USUAL) | {"idealised": True})
+    for words, clearance in FITS.items():
+        yield _life_row(words, clearance)
+
+
+def _common(clearance: float) -> dict[str, Any]:
+    """What the rows of a fit say of their inputs."""
+    fit = f"pins {clearance:g} um narrower in radius than their holes" if clearance else "pins that fit their holes exactly"
+    return {
         "kind": "other code",
         "inputs": "F1 = 200 N, F0 = 50 N, 2000 rpm, 1 x 2, 2 mm",
-        "assumed": f"{running.PLATE.partition(';')[0]}; pins {USUAL:g} um narrower in radius than their holes, edges of holes rounded with "
-        f"{EDGE / MICRO:g} um; elastic plate and pins in contact",
+        "assumed": f"{running.PLATE.partition(';')[0]}; {fit}, edges of holes rounded with {EDGE / MICRO:g} um; elastic plate and pins in "
+        "contact",
         "pinned": OPEN,
     }
-    for body in ("plate", "pin"):
-        means = [running.mean_of_cases(runs_of(name)[FIELDS[body]]) for name in DESIGNS]
-        yield from _running_rows(body, means, common)
-        yield _quotient_row(body, means, common)
-        yield from _pulled_rows(body, common | {"idealised": True})
-    yield _life_row(common)
 
 
-def _running_rows(body: str, means: list[running.Interval], common: dict[str, Any]) -> Iterator[Row]:
+def _means(quantity: str, clearance: float = USUAL) -> list[running.Interval]:
+    """Means over the runs of either chain; of a life the geometric ones."""
+    number, logarithmic = FIELDS[quantity], quantity.endswith("life")
+    return [running.mean_of_cases(runs_of(name, clearance)[number], logarithmic) for name in DESIGNS]
+
+
+def _running_rows(body: str, common: dict[str, Any]) -> Iterator[Row]:
     """Greatest stress of a body in the running chain, one row a design."""
     beside = "" if body == "plate" else " Beside the rolling contact, whose own stress is Hertz's."
-    for (name, printed), ours in zip(PRINTED_STRESSES[body].items(), means, strict=True):
+    for (name, printed), ours in zip(PRINTED_STRESSES[body].items(), _means(body), strict=True):
         yield Row(
             f"greatest stress of a {body} as a solid, {name}, running",
             rounded(f"{printed} MPa", "Pa"),
@@ -169,11 +182,11 @@ def _running_rows(body: str, means: list[running.Interval], common: dict[str, An
         )
 
 
-def _quotient_row(body: str, means: list[running.Interval], common: dict[str, Any]) -> Row:
-    """Stress of the new chain over that of the classical one, both running."""
-    ours = running.ratio(*means)
+def _quotient_row(body: str, words: str, clearance: float) -> Row:
+    """Stress of the new chain over that of the classical one, both running with the same fit."""
+    ours = running.ratio(*_means(body, clearance))
     return Row(
-        f"greatest stress of a {body} as a solid, group 3 over control, running",
+        f"greatest stress of a {body} as a solid, group 3 over control, running, {words}",
         Printed("below 1", *BELOW_ONE),
         ours.value,
         "-",
@@ -182,7 +195,7 @@ def _quotient_row(body: str, means: list[running.Interval], common: dict[str, An
         high=ours.high,
         note=_order(body),
         reading_of=f"greatest stress of {_one(body)}, group 3 over control",
-        **common,
+        **_common(clearance),
     )
 
 
@@ -206,11 +219,11 @@ def _pulled_rows(body: str, common: dict[str, Any]) -> Iterator[Row]:
         )
 
 
-def _life_row(common: dict[str, Any]) -> Row:
-    """Life of the pins of the new chain over that of the classical one, both running."""
-    ours = running.quotient(*(running.mean_of_cases(runs_of(name)[FIELDS["pin life"]], logarithmic=True) for name in DESIGNS))
+def _life_row(words: str, clearance: float) -> Row:
+    """Life of the pins of the new chain over that of the classical one, both running with the same fit."""
+    ours = running.quotient(*_means("pin life", clearance))
     return Row(
-        "life of a pin as a solid, new over classical, running",
+        f"life of a pin as a solid, new over classical, running, {words}",
         Printed("above 1", *ABOVE_ONE),
         ours.value,
         "-",
@@ -219,7 +232,7 @@ def _life_row(common: dict[str, Any]) -> Row:
         high=ours.high,
         note=_order("pin"),
         reading_of="life of the pins, new over classical",
-        **common,
+        **_common(clearance),
     )
 
 
@@ -275,20 +288,20 @@ def map_of_life() -> "Drawn":
 def map_of_running() -> "Drawn":
     """Greatest stress and shortest life of plate and pin over the clearance, running under the paper's load case."""
     charts = [
-        Chart("Stress of the plate [MPa]", _while_running(0, MEGA), title="Plates, running", from_zero=True),
-        Chart("Stress of the pin [MPa]", _while_running(1, MEGA), title="Pins, running", from_zero=True),
-        Chart("Life of the plate [revolutions]", _while_running(2, None), log=True),
-        Chart("Life of the pin [revolutions]", _while_running(3, None), log=True),
+        Chart("Stress of the plate [MPa]", _while_running("plate", MEGA), title="Plates, running", from_zero=True),
+        Chart("Stress of the pin [MPa]", _while_running("pin", MEGA), title="Pins, running", from_zero=True),
+        Chart("Life of the plate [revolutions]", _while_running("plate life"), log=True),
+        Chart("Life of the pin [revolutions]", _while_running("pin life"), log=True),
     ]
     return chart_figure("Running at 2000 rpm, over the fit of the pins", CLEARANCE_LABEL, charts, columns=2, height=3.2)
 
 
-def _while_running(number: int, scale: float | None) -> list[Curve]:
-    """Means over the runs with their intervals: of a stress on a scale, or of the logarithms of a life."""
+def _while_running(quantity: str, scale: float = 1.0) -> list[Curve]:
+    """Means over the runs with their intervals, over the clearance."""
+    found = [_means(quantity, clearance) for clearance in RUNNING_CLEARANCES]
     curves = []
-    for name in DESIGNS:
-        found = [running.mean_of_cases(runs_of(name, each)[number], logarithmic=scale is None) for each in RUNNING_CLEARANCES]
-        value, low, high = np.array(found).T / (scale or 1.0)
+    for number, name in enumerate(DESIGNS):
+        value, low, high = np.array([each[number] for each in found]).T / scale
         curves.append(Curve(name, np.array(RUNNING_CLEARANCES), value, "both", low, high))
     return curves
 
