@@ -1,6 +1,9 @@
 """Solids in contact: two cylinders beside NGSolve's own contact by penalty, error beside time; load steps of a chain's plate and pins."""
 
+import os
+import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -8,6 +11,7 @@ import numpy as np
 from timing import best
 
 sys.path.insert(0, str(Path(__file__).parent.parent))
+EXAMPLES = Path(__file__).parent.parent / "examples"
 RADIUS, FORCE, SHEET = 1.2, 33.3333, 1e-3  # mm, N on a sheet of 1 mm
 PENALTY = 1e9  # MPa/mm, a hundredth of the indentation at the greatest pressure
 
@@ -163,4 +167,30 @@ def plate_and_pins():
     yield "life on the plate's skin", lives, ""
 
 
-SECTIONS = (("Solids in contact: two cylinders", cylinders), ("Solids in contact: plate and pins of a chain", plate_and_pins))
+def whole_runs():
+    """Both analyses of solids as a user starts them, with the memory that they take."""
+    for example, analysis, wanted in (
+        ("hyvo_chain", "solid_stress", "3 min and 4 GB"),
+        ("pin_indexer", "assembly", "4 min at 9 positions"),
+    ):
+        with tempfile.TemporaryDirectory() as folder:
+            given = [str(EXAMPLES / f"{example}.toml"), "--only", analysis, "--out", folder, "--no-figures"]
+            began = time.perf_counter()
+            process = subprocess.Popen(
+                [sys.executable, "-m", "drivewright", "run", *given], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+            )
+            _, status, usage = os.wait4(process.pid, 0)
+            seconds = time.perf_counter() - began
+        name = f"drivewright run {example}.toml --only {analysis}"
+        yield (
+            name,
+            (seconds, seconds),
+            f"peak memory {usage.ru_maxrss / 1e6:.2f} GB{'' if status == 0 else '; failed'}; wanted under {wanted}",
+        )
+
+
+SECTIONS = (
+    ("Solids in contact: two cylinders", cylinders),
+    ("Solids in contact: plate and pins of a chain", plate_and_pins),
+    ("Solids in contact: whole runs", whole_runs),
+)
