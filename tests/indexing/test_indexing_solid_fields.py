@@ -111,6 +111,15 @@ def test_displacements_have_no_motion_as_a_whole():
     assert body("cam_0").mirrored and body("cam_0").points[:, 2].max() == pytest.approx(WIDTH / 2, rel=1e-6)
 
 
+def test_a_shaft_of_glued_pieces_is_one_closed_surface():
+    """Every side belongs to two triangles; a face inside would be a third."""
+    shaft = body("shaft_0")
+    _, same = np.unique(shaft.points.round(9), axis=0, return_inverse=True)
+    corners = np.ravel(same)[shaft.triangles]
+    sides = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    assert np.unique(np.unique(sides, axis=0, return_counts=True)[1]).tolist() == [2]
+
+
 def test_tables_draw_the_body_that_bears_most_where_it_does():
     fields = loaded().fields
     tables = {table.name: table for table in stress_tables(fields)}

@@ -26,13 +26,13 @@ const FIELD = {vertex: `
   varying vec3 facing, spot; varying float value;
   void main() { facing = turn * normal; spot = position; value = level; gl_Position = place * vec4(position, 1.0); }`, fragment: `
   precision highp float;
-  uniform vec3 bare, sky, inside; uniform float strength; uniform sampler2D colours;
+  uniform vec3 bare, sky, inside; uniform float strength, filled; uniform sampler2D colours;
   varying vec3 facing; varying float value; ${CUT.declare}
   void main() {
     ${CUT.test}
     vec3 n = normalize(facing), own = value < -0.01 ? bare : texture2D(colours, vec2(clamp(value, 0.004, 0.996), 0.5)).rgb;
     float light = 0.7 + 0.3 * max(dot(n, normalize(vec3(-0.35, 0.55, 0.76))), 0.0);
-    gl_FragColor = vec4(mix(sky, gl_FrontFacing ? own * light : inside, strength), 1.0);
+    gl_FragColor = vec4(mix(sky, gl_FrontFacing || filled < 0.5 ? own * light : inside, strength), 1.0);
   }`};
 const EDGE = {vertex: `
   attribute vec3 position;
@@ -125,10 +125,11 @@ export function createRenderer(canvas) {
     const own = rgb(colours[part.colour] || colours.steel);
     gl.uniform3fv(gl.getUniformLocation(face, "colour"), own.map(c => dark ? 0.06 + 0.94 * c : 0.34 + 0.66 * c));
   };
-  const mapped = inside => () => {
+  const mapped = (inside, cut) => () => {
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.uniform3fv(gl.getUniformLocation(field, "bare"), rgb(row.bare));
     gl.uniform3fv(gl.getUniformLocation(field, "inside"), inside);
+    gl.uniform1f(gl.getUniformLocation(field, "filled"), cut ? 1 : 0);
   };
   function paintEdges(seen, matrix, cut, colour, strength) {
     gl.useProgram(edge);
@@ -158,7 +159,7 @@ export function createRenderer(canvas) {
       gl.clearColor(...sky, 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
       gl.enable(gl.DEPTH_TEST); gl.enable(gl.BLEND); gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
       paintFaces(seen.filter(part => !part.values), face, {matrix, turn}, {sky, faint, cut: cut || WHOLE, own: coloured(colours, dark)});
-      paintFaces(seen.filter(part => part.values), field, {matrix, turn}, {sky, faint, cut: cut || WHOLE, own: mapped(rgb(colours["grid-strong"]))});
+      paintFaces(seen.filter(part => part.values), field, {matrix, turn}, {sky, faint, cut: cut || WHOLE, own: mapped(rgb(colours["grid-strong"]), cut)});
       paintEdges(seen, matrix, cut || WHOLE, dark ? [0, 0, 0] : ink, part => faint(part) ? 0.15 : dark ? 0.7 : 0.55);
     },
     close() { gl.getExtension("WEBGL_lose_context")?.loseContext(); },
