@@ -2,6 +2,7 @@
 
 import base64
 import json
+import re
 import shutil
 from dataclasses import replace
 from functools import cache
@@ -9,9 +10,12 @@ from functools import cache
 import numpy as np
 import pytest
 from test_studio_jobs import design
+from test_studio_translations import LATIN, translated
 
 from drivewright import runner
+from drivewright.chains.solid import fields as chain
 from drivewright.errors import InputError, MissingExtra, UnknownName
+from drivewright.indexing.solid import fields as indexer
 from drivewright.studio.jobs import JOBS, fields, figures
 from drivewright.studio.jobs.fields import packed_fields
 from drivewright.studio.kept_results import MOST, keep_result, kept_result, result_of
@@ -176,3 +180,19 @@ def test_a_run_without_fields_says_why(tmp_path, monkeypatch):
 
 def test_the_parts_say_which_analyses_have_fields():
     assert JOBS["solid"](design("pressure_roller_shaft"), quiet)["analyses"] == []
+
+
+@pytest.mark.parametrize(
+    ("kind", "texts"),
+    [
+        (
+            "silent-chain",
+            [*chain.LABELS.values(), *chain.NOTES, chain.BESIDE, chain.LONGER]
+            + ["Von Mises stress", "Life in revolutions of the chain", "Contact pressure on the seats"],
+        ),
+        ("indexer", [*indexer.NOTES, indexer.MISSING, "Von Mises stress", "Cam 2", "Shaft 1", "Wheel", "input at 45°"]),
+    ],
+)
+def test_every_text_of_the_fields_is_translated(kind, texts):
+    left = [text for text in translated([(kind, texts)])[0] if set(re.findall("[A-Za-z]{2,}", text)) - LATIN]
+    assert left == []

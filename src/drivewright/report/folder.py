@@ -97,7 +97,7 @@ def _write_fields(folder: Path, fields: Iterable[SurfaceFields]) -> None:
     """Fields on the deformed solids, for `numpy.load`: names as in `SurfaceFields.arrays`."""
     for each in fields:
         (folder / "fields").mkdir(exist_ok=True)
-        np.savez_compressed(folder / "fields" / f"{file_name(each.name)}.npz", **each.arrays())
+        np.savez_compressed(folder / "fields" / f"{file_name(each.name)}.npz", allow_pickle=False, **each.arrays())
 
 
 def _write_tables(folder: Path, tables: Iterable[Table]) -> None:

@@ -193,8 +193,9 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
 
   function show(parts) {
     const had = state.whole.size, before = state.parts.map(part => part.name);
+    const seen = parts.filter(part => !look.hidden.has(part.name));
     state.parts = parts;
-    state.whole = extent(state.parts);
+    state.whole = extent(seen.length ? seen : parts);
     if (Math.abs(state.whole.size / had - 1) > 0.5) fit();
     renderer.load(state.parts);
     if (!same(before, parts.map(part => part.name))) chips();

@@ -31,7 +31,7 @@ const FIELD = {vertex: `
   void main() {
     ${CUT.test}
     vec3 n = normalize(facing), own = value < -0.01 ? bare : texture2D(colours, vec2(clamp(value, 0.004, 0.996), 0.5)).rgb;
-    float light = 0.7 + 0.3 * max(dot(n, normalize(vec3(-0.35, 0.55, 0.76))), 0.0);
+    float light = 0.84 + 0.2 * max(dot(n, normalize(vec3(-0.35, 0.55, 0.76))), 0.0);
     gl_FragColor = vec4(mix(sky, gl_FrontFacing || filled < 0.5 ? own * light : inside, strength), 1.0);
   }`};
 const EDGE = {vertex: `
@@ -136,7 +136,7 @@ export function createRenderer(canvas) {
     gl.uniform4fv(gl.getUniformLocation(edge, "cut"), cut);
     gl.uniformMatrix4fv(gl.getUniformLocation(edge, "place"), false, matrix);
     for (const part of seen) {
-      gl.uniform4f(gl.getUniformLocation(edge, "colour"), ...colour, strength(part));
+      gl.uniform4f(gl.getUniformLocation(edge, "colour"), ...colour(part), strength(part));
       draw(gl.LINES, edge, {position: [part.lines, 3]}, part.edges.length / 3);
     }
   }
@@ -160,7 +160,8 @@ export function createRenderer(canvas) {
       gl.enable(gl.DEPTH_TEST); gl.enable(gl.BLEND); gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
       paintFaces(seen.filter(part => !part.values), face, {matrix, turn}, {sky, faint, cut: cut || WHOLE, own: coloured(colours, dark)});
       paintFaces(seen.filter(part => part.values), field, {matrix, turn}, {sky, faint, cut: cut || WHOLE, own: mapped(rgb(colours["grid-strong"]), cut)});
-      paintEdges(seen, matrix, cut || WHOLE, dark ? [0, 0, 0] : ink, part => faint(part) ? 0.15 : dark ? 0.7 : 0.55);
+      paintEdges(seen, matrix, cut || WHOLE, part => dark || part.levels ? [0, 0, 0] : ink,
+        part => faint(part) ? 0.15 : dark || part.levels ? 0.7 : 0.55);
     },
     close() { gl.getExtension("WEBGL_lose_context")?.loseContext(); },
   };
