@@ -42,7 +42,8 @@ class Analysis(Generic[SpecT, ModelT]):
 
     `needs` names analyses that come first; their answers are in `done` by name.  `default` analyses run without being asked, those of
     `manufacture` before every export, for their checks or tables are the workshop's.
-    `missing(spec)` gives the reason why this analysis has to be left out (missing input), or None.
+    `missing(spec)` gives the reason why this analysis has to be left out (missing input), or None.  `fields`: its answer has
+    `SurfaceFields` of its name, which a viewer of solids shows.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Analysis(Generic[SpecT, ModelT]):
     needs: tuple[str, ...] = ()
     missing: Callable[[SpecT], str | None] = lambda spec: None
     manufacture: bool = False
+    fields: bool = False
 
 
 @dataclass(frozen=True)

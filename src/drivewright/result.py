@@ -17,6 +17,7 @@ from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import UnknownName
 from drivewright.labels import label_of
 from drivewright.stops import Stop
+from drivewright.surface_fields import SurfaceFields
 
 if TYPE_CHECKING:
     import pyarrow
@@ -175,11 +176,15 @@ class Column(NamedTuple):
 
 @dataclass(frozen=True)
 class Table:
-    """Columns of equal length, the first the independent variable; NAME.low and NAME.high are the ends of the 95 % intervals of NAME."""
+    """Columns of equal length, the first the independent variable; NAME.low and NAME.high are the ends of the 95 % intervals of NAME.
+
+    `missing` says why numbers are missing, where that is as it should be.
+    """
 
     name: str
     title: str
     columns: tuple[Column, ...]
+    missing: str = ""
 
     def __getitem__(self, name: str) -> Column:
         for column in self.columns:
@@ -351,10 +356,14 @@ class Answer:
     stopped: tuple[Stop, ...] = ()
     failure: str = ""
     warnings: tuple[str, ...] = ()
+    fields: tuple[SurfaceFields, ...] = ()
 
 
 def merge_answers(answers: Iterable[Answer]) -> Answer:
-    """Values, tables, checks, findings and warnings of several answers, in their order; partial where one is.  `data` stays with each."""
+    """Values, tables, checks, findings, warnings and fields of several answers, in their order; partial where one is.
+
+    `data` stays with each.
+    """
     answers = tuple(answers)
     values = {name: value for answer in answers for name, value in answer.values.items()}
     arrays = {name: array for answer in answers for name, array in answer.arrays.items()}
@@ -366,6 +375,7 @@ def merge_answers(answers: Iterable[Answer]) -> Answer:
         arrays,
         "partial" if any(answer.outcome == "partial" for answer in answers) else "complete",
         warnings=tuple(warning for answer in answers for warning in answer.warnings),
+        fields=tuple(each for answer in answers for each in answer.fields),
     )
 
 
@@ -389,6 +399,7 @@ class Result(Generic[SpecT]):
     outcome: str = "complete"
     failures: Mapping[str, str] = field(default_factory=dict)  # {analysis that failed: the finding that says why}
     warnings: tuple[str, ...] = ()  # those of the findings that a reader must not miss; the verdict counts them
+    fields: Mapping[str, SurfaceFields] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> float:
         """A value by its dotted name, as an SI float."""

@@ -111,7 +111,8 @@ def _missing_numbers(answers: Answers) -> Iterator[str]:
             if not (math.isfinite(check.value) and math.isfinite(check.limit)):
                 yield f"check '{check.name}' ({check.message}) does not exist for this design: {check.value} {check.sense} {check.limit}"
         for table in answer.tables:
-            yield from _missing_numbers_of(table)
+            if not table.missing:
+                yield from _missing_numbers_of(table)
 
 
 def _missing_numbers_of(table: Table) -> Iterator[str]:
@@ -238,6 +239,7 @@ def _result(spec: SpecT, mechanism: Mechanism[Any, Any], answers: Answers, findi
         values={k: v for k, v in values.items() if k not in absent},
         arrays={k: v for a in answers.values() for k, v in a.arrays.items()},
         tables={t.name: t for a in answers.values() for t in a.tables},
+        fields={each.name: each for a in answers.values() for each in a.fields},
         checks=tuple(c for a in answers.values() for c in a.checks),
         findings=tuple(findings),
         outcome="partial" if any(a.outcome == "partial" for a in answers.values()) else "complete",

@@ -2,8 +2,10 @@
 
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from pyarrow import parquet
 from sample_designs import PLOTS, SPEC_TEXT, all_views, four_bar_result, four_bar_scene
@@ -14,6 +16,7 @@ from drivewright.report import renames
 from drivewright.report.content import Views
 from drivewright.report.folder import file_name, is_run_folder, record_text, write_run_folder
 from drivewright.report.index import write_index
+from drivewright.surface_fields import ScalarField, SurfaceBody, SurfaceFields, single
 
 pytestmark = pytest.mark.interface
 
@@ -130,3 +133,19 @@ def test_the_gallery_links_what_is_there(tmp_path):
     assert "One &amp; &lt;b&gt;only&lt;/b&gt;" in page and page.count("<img") == 1
     assert "2 with failed checks" in page and "55.134°" in page and "computed in 0.41 s" in page
     assert "http" not in page.replace("http-equiv", "")
+
+
+def test_fields_on_solids_are_arrays_in_single_precision(tmp_path):
+    corner = SurfaceBody(
+        "plate",
+        "Plate",
+        np.eye(3),
+        np.array([[0, 1, 2]]),
+        single(np.ones((1, 3, 3))),
+        (ScalarField("mises", "Pa", "Von Mises stress", single(np.ones((1, 3)))),),
+    )
+    result = replace(four_bar_result(), fields={"solid_stress": SurfaceFields("solid_stress", "Solids", ("1 ms",), 0, (corner,))})
+    folder = write_run_folder(result, tmp_path / "run", figures=False)
+    with np.load(folder / "fields" / "solid_stress.npz") as found:
+        assert set(found) == {"steps", "plate.points", "plate.triangles", "plate.displacements", "plate.mises"}
+        assert found["plate.mises"].dtype == np.float32 and found["steps"].tolist() == ["1 ms"]

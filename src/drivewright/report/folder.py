@@ -6,20 +6,23 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from drivewright.errors import InputError
 from drivewright.execution.helper import Map
 from drivewright.report.content import Picture, Views, pictures, thumbnail, views
 from drivewright.report.html import write_report
 from drivewright.report.moving import Place, recover, replacing_folder
 from drivewright.result import Result, Table
+from drivewright.surface_fields import SurfaceFields
 
-OURS = {"result.json", "report.html", "spec.toml", "figures", "tables", "data"}  # what a run writes, and the next one replaces
+OURS = {"result.json", "report.html", "spec.toml", "figures", "tables", "fields", "data"}  # what a run writes, and the next one replaces
 
 
 def write_run_folder(result: Result[Any], out: str | Path, figures: bool = True, seen: Views | None = None, compute: Map = map) -> Path:
     """Write the run folder of a result to `out` and return its path.
 
-    result.json, report.html, figures/*.svg, tables/*.parquet, spec.toml.  `seen` is a `Views`; None takes what the result's
+    result.json, report.html, figures/*.svg, tables/*.parquet, fields/*.npz, spec.toml.  `seen` is a `Views`; None takes what the result's
     mechanism shows.  What an earlier run wrote is replaced, everything else in the folder stays; InputError for a folder that is
     not empty and no run folder.  `compute` may draw the figures side by side.
     """
@@ -80,6 +83,7 @@ def _fill(folder: Path, result: Result[Any], seen: Views, figures: bool, compute
     named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen, compute)] if figures else []
     write_report(result, seen, folder, named)
     _write_tables(folder, result.tables.values())
+    _write_fields(folder, result.fields.values())
     _write_figures(folder, [*named, thumbnail(seen.scene)] if figures and seen.scene else named)
 
 
@@ -87,6 +91,13 @@ def _write_figures(folder: Path, named: Iterable[Picture]) -> None:
     for picture in named:
         (folder / "figures").mkdir(exist_ok=True)
         (folder / "figures" / f"{picture.name}.svg").write_text(picture.svg, encoding="utf-8")
+
+
+def _write_fields(folder: Path, fields: Iterable[SurfaceFields]) -> None:
+    """Fields on the deformed solids, for `numpy.load`: names as in `SurfaceFields.arrays`."""
+    for each in fields:
+        (folder / "fields").mkdir(exist_ok=True)
+        np.savez_compressed(folder / "fields" / f"{file_name(each.name)}.npz", allow_pickle=False, **each.arrays())
 
 
 def _write_tables(folder: Path, tables: Iterable[Table]) -> None:

@@ -6,7 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats, Ints
+from drivewright.errors import InputError
 from drivewright.result import Column, Table
+from drivewright.surface_fields import SurfaceBody
 
 SMALLEST = 1e-300  # m: what does not move at all is drawn as it is
 
@@ -67,3 +69,33 @@ def displaced_table(
     columns.append(("displacement", f"displacement, drawn {times} times as large", np.linalg.norm(displacement, axis=1)))
     columns += [(f"rest_{'xyz'[axis]}", meaning, surface.points[:, axis]) for axis, meaning in rest]
     return Table(name, title, tuple(Column(key, "m", meaning, data[rows]) for key, meaning, data in columns))
+
+
+def field_table(
+    name: str, title: str, body: SurfaceBody, step: int, field: str, scale: float, drawn: Sequence[tuple[int, str]], parts: int = 1
+) -> Table:
+    """Table for a plot of style "mesh", three rows a triangle, of a body's scalar field at a load step on its deformed shape.
+
+    drawn: ((axis, meaning), ...) of what is drawn to the right, up, and along the line of sight, from the side on which that picture is
+    not mirrored; displacements are drawn `scale` times as large.  parts: each triangle is divided parts x parts, field and shape linear.
+    """
+    shown = body.field(field)
+    if shown is None:
+        raise InputError(f"{body.name}: has no field {field!r}; there are {', '.join(each.name for each in body.fields)}")
+    points, values, triangles = body.points + scale * body.displacements[step].astype(float), shown.at(step).astype(float), body.triangles
+    if body.mirrored:
+        triangles = np.concatenate([triangles, triangles[:, ::-1] + len(points)])
+        points, values = np.concatenate([points, points * (1, 1, -1)]), np.tile(values, 2)
+    grid, local = subdivided_triangle(parts)
+    weights = np.column_stack([grid / parts, 1 - grid.sum(axis=1) / parts])[local].reshape(-1, 3)  # of the corners, three rows a part
+    place = (weights @ points[triangles]).reshape(-1, 3)
+    times = f"displacements drawn {scale:,.0f} times as large".replace(",", " ") if scale >= 1 else f"displacements drawn {scale:.2g} times"
+    right, up, along = drawn
+    towards = np.cross(np.eye(3)[right[0]], np.eye(3)[up[0]])  # the viewer
+    columns = (
+        Column("right", "m", f"{right[1]}, {times}", place[:, right[0]]),
+        Column("up", "m", f"{up[1]}, {times}", place[:, up[0]]),
+        Column("depth", "m", f"{along[1]}, away from the viewer", -place @ towards),
+        Column(field, shown.unit, shown.label, (weights @ values[triangles][..., None]).ravel()),
+    )
+    return Table(name, title, columns, shown.missing)

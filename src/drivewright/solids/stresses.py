@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._typing import Floats, Ints
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.fatigue import von_mises
 from drivewright.solids.elastic import MM, FreeBody, lame_constants, sampled_triangles
 
@@ -28,7 +28,7 @@ class SkinStress(NamedTuple):
 def skin_stress(body: FreeBody, fields: Sequence[Floats], region: str = ".*", parts: int = 1) -> SkinStress:
     """`SkinStress` of coefficients (unknowns,) [mm] on the faces, in the plane the edges, whose names match `region`.
 
-    parts: into how many an element's edge is cut.
+    parts: into how many an element's edge is cut.  Faces inside, where glued pieces meet, are no skin.
     """
     ng, mesh, dim = body.ng, body.mesh, body.mesh.dim
     body.area(region)
@@ -46,7 +46,22 @@ def skin_stress(body: FreeBody, fields: Sequence[Floats], region: str = ".*", pa
         stress.append(hooke(body, np.asarray(ng.BoundaryFromVolumeCF(ng.Grad(shape))(at)).reshape(-1, dim, dim)))
         moved.append(MM * np.asarray(shape(at)))
     points = MM * np.asarray(ng.CF((ng.x, ng.y, ng.z)[:dim])(at))
-    return SkinStress(points, pieces, np.array(stress), np.array(moved))
+    skin = SkinStress(points, pieces, np.array(stress), np.array(moved))
+    outside = np.array(
+        [len(mesh[(each.faces if dim == 3 else each.edges)[0]].elements) == 1 for each in mesh.Boundaries(region).Elements()]
+    )
+    return skin if outside.all() else _of_elements(skin, outside)
+
+
+def _of_elements(skin: SkinStress, kept: Bools) -> SkinStress:
+    """The elements (e,) of a skin that are kept; they have equally many points and parts, one element's behind another's."""
+    count, size = len(kept), len(skin.points) // len(kept)
+    number = np.cumsum(kept) - 1
+    parts = skin.parts.reshape(count, -1, skin.parts.shape[1]) + size * (number - np.arange(count))[:, None, None]
+    points = np.repeat(kept, size)
+    return SkinStress(
+        skin.points[points], parts[kept].reshape(-1, skin.parts.shape[1]), skin.stress[:, points], skin.displacement[:, points]
+    )
 
 
 def hooke(body: FreeBody, gradient: Floats) -> Floats:

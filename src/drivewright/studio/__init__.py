@@ -12,6 +12,7 @@ guesses        wrong tokens cost time
 inbox          messages of one tab that wait for their turn
 input_parsing  raw tables of a design
 jobs           work that takes a while
+kept_results   results of long runs, so that the figures and the solids of one design share one run
 opening        where a design comes from: a file of this machine, a preset, the end of an address
 page_policy    what a browser may do with our answers: a content security policy
 preview        what a worker process does with a design for the page

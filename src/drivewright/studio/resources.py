@@ -12,6 +12,7 @@ from drivewright.report.folder import file_name
 
 KEPT = 600.0  # seconds that a file waits to be fetched
 MOST_OFFERS, MOST_BYTES = 50, 200_000_000  # of files that wait
+RESULTS = "results"  # folder of the results that jobs keep
 TABS_FILES = 200  # folders of files that pages sent; the oldest goes
 
 
@@ -33,14 +34,23 @@ class ServerResources:
 
     def new_folder(self) -> tuple[str, Path]:
         """(token, path) of a folder for the files of a page."""
-        if self._root is None:
-            self._root = Path(tempfile.mkdtemp(prefix="drivewright-studio-")).resolve()
-        token = secrets.token_urlsafe(16)
+        token, root = secrets.token_urlsafe(16), self._made_root()
         self._folders.append(token)
         while len(self._folders) > TABS_FILES:
-            shutil.rmtree(self._root / self._folders.pop(0), ignore_errors=True)
-        (self._root / token).mkdir()
-        return token, self._root / token
+            shutil.rmtree(root / self._folders.pop(0), ignore_errors=True)
+        (root / token).mkdir()
+        return token, root / token
+
+    def results_folder(self) -> Path:
+        """Where jobs leave results for each other; its name is no token."""
+        folder = self._made_root() / RESULTS
+        folder.mkdir(exist_ok=True)
+        return folder
+
+    def _made_root(self) -> Path:
+        if self._root is None:
+            self._root = Path(tempfile.mkdtemp(prefix="drivewright-studio-")).resolve()
+        return self._root
 
     def drop_folder(self, token: str) -> None:
         """Take a folder away again."""

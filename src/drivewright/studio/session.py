@@ -236,7 +236,8 @@ class Session:
         if other := sorted(set(options) - set(OPTIONS.get(name, ()))):
             raise InputError(f"{name} takes no {brief(other[0])}")
         locks = {"locks": sorted(self.document.locks)} if name in TAKE_LOCKS else {}
-        self.computations.job(name, self.gen, self.document.design, {**options, **locks})
+        kept = {"kept": str(self.resources.results_folder())} if name in TAKE_RESULTS else {}
+        self.computations.job(name, self.gen, self.document.design, {**options, **locks, **kept})
 
     async def export(self, format: str, anyway: bool = False) -> None:
         """A manufacturing file."""
@@ -317,6 +318,7 @@ class Session:
 
 
 TAKE_LOCKS = ("sensitivity", "optimise")
+TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = "hello again set unset add drop put take undo redo lock text load preset fresh open share reference pin job export save analyse"
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 

@@ -1,4 +1,7 @@
-"""A closed triangle surface seen from the side: nearest triangles last, coloured by a quantity, lightly shaded, its shape before dashed."""
+"""A closed triangle surface seen from the side: nearest triangles last, coloured by a quantity, lightly shaded, its shape before dashed.
+
+Where the quantity is nan it was not evaluated: grey.
+"""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -6,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drivewright._typing import Bools, Floats, Ints
-from drivewright.view.palette import colour
+from drivewright.view.palette import BARE, COLOUR_MAP, colour
 from drivewright.view.panels import Panel
 from drivewright.view.style import WIDTH, new_figure, styled
 from drivewright.view.text import axis_label, parts_of_label
@@ -30,7 +33,8 @@ def draw_mesh(shown: Sequence[Panel]) -> "Figure":
     corners = np.stack([panel.x.data, up.data, -depth.data], axis=1).reshape(-1, 3, 3)
     seen, order, bright = facing(corners)
     tint = size.data.reshape(-1, 3).mean(axis=1)[seen][order]
-    scale = ScalarMappable(Normalize(0.0, float(size.data.max()) or 1.0), colormaps["viridis"])
+    most = float(np.nanmax(size.data)) if np.isfinite(size.data).any() else 0.0
+    scale = ScalarMappable(Normalize(0.0, most or 1.0), colormaps[COLOUR_MAP].with_extremes(bad=BARE))
     with styled():
         figure = new_figure(_height(corners), panel.title)
         axis = figure.subplots()

@@ -33,6 +33,8 @@ SERIES = ("blue", "orange", "green", "violet", "steel")
 MARKERS = ("o", "s", "X", "D", "^", "P", "v")  # of groups of points; seven beside five colours make 35 pairs
 TRACES = ("violet", "orange", "green", "blue", "steel")
 THEMES = ("light", "dark")
+COLOUR_MAP = "viridis"  # of fields on surfaces: even to the eye, and on a grey printer
+BARE = "#b8b8b8"  # where a field was not evaluated
 
 
 def colour(role: str, theme: str = "light") -> str:
@@ -53,3 +55,11 @@ def style_sheet() -> str:
         f"@media screen and (prefers-color-scheme: dark) {{ :root:not([data-theme=light]) {{ color-scheme: dark; {dark} }} }}\n"
         f"@media screen {{ :root[data-theme=dark] {{ color-scheme: dark; {dark} }} }}\n"
     )
+
+
+def colour_stops(count: int = 33) -> list[str]:
+    """`count` colours of the map in which fields are drawn, as #rrggbb, evenly from its lowest to its highest."""
+    from matplotlib import colormaps
+    from matplotlib.colors import to_hex
+
+    return [to_hex(colormaps[COLOUR_MAP](n / (count - 1))) for n in range(count)]

@@ -4,6 +4,7 @@ assembly      torsional stiffness of the assembly: contact of pins, bearings and
 bodies        every body of a pin-wheel indexer condensed to the loads on its interfaces, a `Substructure`
 condensation  all bodies condensed for all positions at once
 correction    elastic bodies as an option of the lumped model
+fields        von Mises stress on the deformed bodies, for a viewer and for figures
 meshes        meshes [mm] of cam, split shaft and pin wheel, second order, with named faces whose areas are checked
 parts         measures that the solids of a pin-wheel indexer have and its reduced model does not; SI
 springs       the springs between the bodies at one position, with the laws of the reduced model

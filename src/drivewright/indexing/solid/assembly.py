@@ -18,7 +18,8 @@ from drivewright.errors import DoesNotAssemble, InputError, SolverError
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.drivetrain import Drivetrain
 from drivewright.indexing.pin_wheel import PinWheel
-from drivewright.indexing.solid.condensation import STRIP, Bodies, condensed
+from drivewright.indexing.solid.condensation import STRIP, Bodies, condensed, touching_point
+from drivewright.indexing.solid.fields import Loaded, pressed_points, stress_fields
 from drivewright.indexing.solid.parts import Solids, check
 from drivewright.indexing.solid.springs import Position, PositionSettings, springs_between
 from drivewright.indexing.solid.surfaces import deformed_surfaces
@@ -28,6 +29,7 @@ from drivewright.solids.coupling import CoupledSolution, InterfaceSpring, functi
 from drivewright.solids.deformation import DisplacedSurface
 from drivewright.solids.nonlinear_coupling import NonlinearSpring, solve_nonlinear
 from drivewright.steps import note_step
+from drivewright.surface_fields import SurfaceFields
 
 GROUPS = ("pin", "crank", "support", "gear", "wheel bearing", "output", "cam", "shaft", "wheel")
 
@@ -41,6 +43,7 @@ class SolidStiffness:
     pin_forces: one array (cams, k) [N] a position, as in `TorsionalStiffness`; energy (p,) [J] stored in bodies and springs.
     unknowns: {"cam", "shaft", "wheel"} of one mesh each, 0 where a body is not a solid.
     surfaces: {"cam", "shaft", "wheel": `DisplacedSurface`} of the solids, displacements (p, n, 3) [m].
+    fields: stress on the deformed solids at a few positions, None without pictures or solids.
     """
 
     theta: Floats
@@ -54,6 +57,7 @@ class SolidStiffness:
     unknowns: dict[str, int]
     seconds: float
     surfaces: dict[str, DisplacedSurface]
+    fields: SurfaceFields | None = None
 
     @property
     def ratio(self) -> Floats:
@@ -62,7 +66,8 @@ class SolidStiffness:
 
 
 class SolidAssembly(NamedTuple):
-    """Condensed bodies and positions of a drive, and the time [s] that it took to mesh and condense them."""
+    """Condensed bodies and positions of a drive, the time [s] that it took to mesh and condense them, and the width [m] of a contact's
+    strip on a cam."""
 
     wheel: PinWheel
     drive: Drivetrain
@@ -72,6 +77,7 @@ class SolidAssembly(NamedTuple):
     places: tuple[Position, ...]
     bodies: Bodies
     seconds: float
+    strip: float
 
 
 class _Loaded(NamedTuple):
@@ -104,7 +110,7 @@ def condense_assembly(
     theta = np.atleast_1d(np.asarray(theta, dtype=float))
     places = tuple(_position(wheel, float(angle), here, i) for i, (angle, here) in enumerate(zip(theta, contacts, strict=True)))
     bodies = condensed(wheel, drive, solids, places, cams, fineness, strip)
-    return SolidAssembly(wheel, drive, solids, cams, theta, places, bodies, perf_counter() - started)
+    return SolidAssembly(wheel, drive, solids, cams, theta, places, bodies, perf_counter() - started, strip * wheel.pin_radius)
 
 
 def load_assembly(
@@ -116,7 +122,7 @@ def load_assembly(
     SolverError where the reduced model carries the torque somewhere and the assembly nowhere.
     """
     started = perf_counter()
-    wheel, drive, _, cams, theta, places, bodies, _ = assembly
+    wheel, drive, _, cams, theta, places, bodies, *_ = assembly
     reduced = solve_torsional_stiffness(
         drive, theta, [each.contacts for each in places], wheel.eccentricity, torque, cams=cams, sense=int(wheel.sense), model=model
     )
@@ -144,6 +150,7 @@ def load_assembly(
         {name: bodies[key].unknowns for name, key in (("cam", ("cam", 0)), ("shaft", ("shaft", 0)), ("wheel", ("wheel",)))},
         assembly.seconds + perf_counter() - started,
         deformed_surfaces(bodies, {i: each.coupled for i, each in found.items()}, len(theta)) if pictures and found else {},
+        _fields(assembly, found) if pictures and found else None,
     )
 
 
@@ -168,6 +175,19 @@ def solid_stiffness(
         raise InputError(f"assembly: no position carries the torque: {reduced.reasons[0]}.")
     assembly = condense_assembly(wheel, drive, solids, theta, contacts, cams=cams, fineness=fineness, strip=strip)
     return load_assembly(assembly, torque, model)
+
+
+def _fields(assembly: SolidAssembly, found: Mapping[int, _Loaded]) -> SurfaceFields | None:
+    """Stress of the positions that carry."""
+    if not any(body.free for body in assembly.bodies.values()):
+        return None
+    loaded = []
+    for i, each in found.items():
+        place = assembly.places[i]
+        touched = [int(c) for c in np.flatnonzero(place.kept(False))]
+        points = {c: touching_point(assembly.wheel, place, c) for c in touched}
+        loaded.append(Loaded(place, each.coupled, pressed_points(points, each.pins, touched)))
+    return stress_fields(assembly.drive, assembly.bodies, loaded, assembly.wheel.eccentricity, assembly.cams, assembly.strip)
 
 
 def _spread(theta: Floats, values: Mapping[int, float]) -> Floats:

@@ -9,7 +9,8 @@ from drivewright.errors import InputError
 from drivewright.indexing.solid.assembly import SolidStiffness
 from drivewright.indexing.stiffness import TorsionalStiffness
 from drivewright.result import Column, Plot, Table
-from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for
+from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for, field_table
+from drivewright.surface_fields import SurfaceBody, SurfaceFields
 
 DRAWN = 0.03  # the largest displacement is drawn as about this part of the body
 BODIES = {  # label, shares of the assembly, shares of the lumped model
@@ -83,11 +84,48 @@ def surface_table(solid: SolidStiffness, position: int, body: str = "cam", where
     return displaced_table(f"assembly_{body}", title + where, surface, displacement, factor, drawn, rest)
 
 
+STRESSED = {  # title, axes that are drawn (right, up, towards the viewer) and their meanings, parts of an element's edge
+    "cam": ("Von Mises stress of a cam", ((0, "across"), (1, "height"), (2, "along the axis")), 2),
+    "shaft": ("Von Mises stress of a split shaft", ((2, "along the axis"), (1, "height"), (0, "across")), 3),
+    "wheel": (
+        "Von Mises stress of pins and wheel, seen from the axis",
+        ((0, "around the wheel"), (2, "along the axis"), (1, "outwards")),
+        3,
+    ),
+}
+
+
+def stress_tables(fields: SurfaceFields) -> Iterator[Table]:
+    """Tables for plots of style "mesh": von Mises stress on the deformed cam, shaft and wheel, of each the one that bears most."""
+    for kind, (title, drawn, parts) in STRESSED.items():
+        alike = [body for body in fields.bodies if body.name.split("_")[0] == kind]
+        if not alike:
+            continue
+        body = max(alike, key=lambda each: each.fields[0].range[1])
+        step = int(np.nanmax(body.fields[0].values, axis=1).argmax())
+        if kind == "wheel":
+            body = _half_body(body, step)
+        where = f", {fields.steps[step]}"
+        yield field_table(f"assembly_{kind}_stress", title + where, body, step, "mises", fields.scale, drawn, parts)
+
+
+def _half_body(body: SurfaceBody, step: int) -> SurfaceBody:
+    """The half of a wheel about the point that bears most, turned so that this point lies along y."""
+    turn = _turn_to(body.points[np.nanargmax(body.fields[0].values[step])])
+    points = body.points @ turn.T
+    half = body.triangles[points[body.triangles, 1].mean(axis=1) > 0]
+    return body._replace(points=points, triangles=half, displacements=body.displacements @ turn.T)
+
+
+def _turn_to(point: Floats) -> Floats:
+    """Rotation (3, 3) about z that brings a point (3,) onto the y axis."""
+    x, y = point[:2] / np.hypot(*point[:2])
+    return np.array([[y, -x, 0.0], [x, y, 0.0], [0.0, 0.0, 1.0]])
+
+
 def _half_from_axis(surface: DisplacedSurface, displacement: Floats) -> tuple[DisplacedSurface, Floats]:
     """The half of a wheel about the point that moves most, turned so that this point lies along y."""
-    x, y, _ = surface.points[np.linalg.norm(displacement, axis=1).argmax()]
-    away, around = np.array([x, y, 0.0]) / np.hypot(x, y), np.array([y, -x, 0.0]) / np.hypot(x, y)
-    turn = np.array([around, away, [0.0, 0.0, 1.0]])
+    turn = _turn_to(surface.points[np.linalg.norm(displacement, axis=1).argmax()])
     points = surface.points @ turn.T
     half = surface.triangles[points[surface.triangles, 1].mean(axis=1) > 0]
     return DisplacedSurface(points, half, surface.displacements), displacement @ turn.T
@@ -111,3 +149,7 @@ def assembly_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
             right, up, away = ("xyz"[axis] for axis, _ in drawn)
             reference = (f"rest_{right}", f"rest_{up}")
             yield Plot(name, tables[name].title, name, right, (up, away, "displacement"), equal=True, style="mesh", reference=reference)
+    for kind in STRESSED:
+        name = f"assembly_{kind}_stress"
+        if name in tables:
+            yield Plot(name, tables[name].title, name, "right", ("up", "depth", "mises"), equal=True, style="mesh")

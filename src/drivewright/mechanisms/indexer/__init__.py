@@ -40,6 +40,7 @@ ANALYSES = (
         "cams, shafts and wheel as solids in contact: torsional stiffness, and which body yields",
         default=False,
         missing=assembly.no_assembly,
+        fields=True,
     ),
     Analysis("bearings", loads.bearing_loads, "loads and lives of the bearings", missing=loads.no_loads),
 )

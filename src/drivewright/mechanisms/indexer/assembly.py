@@ -49,7 +49,10 @@ def assembly(model: IndexerModel, done: Answers) -> Answer:
     )
     found = (tables.assembly_table(loaded.angles, loaded.solids, loaded.lumped), *tables.share_tables(loaded.angles, own, lumped), forces)
     pictures = tuple(_pictures(loaded.angles, own))
-    return Answer(assembly_values(loaded, model.spec.contact.model, forces), found + pictures, (), tuple(_findings(loaded.angles, own)))
+    fields = () if own.fields is None else (own.fields,)
+    stressed = tuple(table for each in fields for table in tables.stress_tables(each))
+    values = assembly_values(loaded, model.spec.contact.model, forces)
+    return Answer(values, found + pictures + stressed, (), tuple(_findings(loaded.angles, own)), fields=fields)
 
 
 def load(model: IndexerModel, fineness: float = 1.0, positions: int = POSITIONS) -> LoadedAssembly:
@@ -132,3 +135,5 @@ def _findings(angles: Floats, own: SolidStiffness) -> Iterator[str]:
         "assembly: wheel, drum and seats have usual proportions where the spec has no key for them (theory.md); a finer mesh softens it by "
         f"up to {100 * MESH_ERROR:.0f} %"
     )
+    if own.fields is not None:
+        yield from (f"assembly, stress: {note}" for note in own.fields.notes)

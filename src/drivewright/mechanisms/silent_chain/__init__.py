@@ -46,6 +46,7 @@ ANALYSES = (
         default=False,
         needs=("dynamics",),
         missing=missing.no_solid_stress,
+        fields=True,
     ),
 )
 

@@ -7,6 +7,7 @@ import numpy as np
 from drivewright._typing import Floats, Ints
 from drivewright.chains.solid import tables
 from drivewright.chains.solid.assumptions import borne
+from drivewright.chains.solid.fields import solid_fields
 from drivewright.chains.solid.history import SkinLife, SolidHistory, skin_life, solid_history
 from drivewright.chains.solid.joint import Fit, Material, RollingPins, rolling_pins, stack_of
 from drivewright.chains.solid.meshes import usual_sizes
@@ -93,7 +94,8 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
         for name in ("plate", "pin")
     )
     found = (*_pictures(first, time, plates[0], pins[0]), pressure)
-    return Answer(values, found, checks, tuple(_remarks(model, rolling, histories)))
+    fields = solid_fields(first, time, {"plate": plates[0], **pins[0]})
+    return Answer(values, found, checks, tuple(_remarks(model, rolling, histories)), fields=(fields,))
 
 
 def _stresses(rolling: RollingPins, histories: list[SolidHistory], pressure: float) -> dict[str, Value]:

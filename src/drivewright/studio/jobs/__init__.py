@@ -5,6 +5,7 @@ without nan, or {"files": [{"name", "data": bytes}]}.  Our own errors go up to w
 may start processes of its own, so the process that it runs in must be no daemon.
 
 design_keys  the keys of a design as jobs see them
+fields       fields of an analysis on the deformed solids
 figures      figures for the page
 search       the [optimise] of a design: a search for its best, told while it goes on
 sensitivity  which key moves which number: every key of a design a little down and up, one at a time
@@ -12,7 +13,7 @@ solid        the assembly as triangles for a viewer
 study        the [study] of a design: its cases as rows of a table, and what they say
 """
 
-from drivewright.studio.jobs import figures, files, search, sensitivity, solid, study
+from drivewright.studio.jobs import fields, figures, files, search, sensitivity, solid, study
 
 # What a page may ask for: nothing that names a place on the disk, another machine, or how much of this one to take.
 JOBS = {
@@ -20,6 +21,7 @@ JOBS = {
     "study": study.study,
     "optimise": search.optimise,
     "solid": solid.solid,
+    "fields": fields.fields,
     "figures": figures.figures,
     "export": files.export,
     "report": files.report,
@@ -27,6 +29,7 @@ JOBS = {
 }
 OPTIONS = {
     "figures": ("theme", "analyses"),
+    "fields": ("analysis", "run"),
     "study": ("theme",),
     "optimise": ("theme",),
     "export": ("format", "anyway"),

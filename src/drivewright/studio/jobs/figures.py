@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 from drivewright import registry, runner
@@ -10,22 +11,26 @@ from drivewright.report.pack import pack_plots
 from drivewright.steps import detailed
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.progress import Progress
+from drivewright.studio.kept_results import result_of
 from drivewright.view.palette import ROLES, THEMES
 
 
 def figures(
-    design: Design, progress: Progress, theme: str = "light", analyses: Sequence[str] = (), everything: bool = False
+    design: Design, progress: Progress, theme: str = "light", analyses: Sequence[str] = (), everything: bool = False, kept: str = ""
 ) -> dict[str, Any]:
     """Every figure of a run that is not linked to the cycle: meshes, maps, drawings, plots over something else.
 
     {"figures": [{"name", "title", "svg"}], "requests": [{"name", "meaning", "missing"}] analyses that run on request and have not,
-    "findings"}.  `analyses` names those to run besides the default ones.
+    "findings"}.  `analyses` names those to run besides the default ones; kept: folder of the results that earlier runs have left.
     """
     spec = design.spec()
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
     default = tuple(analysis.name for analysis in mechanism.analyses if analysis.default)
     with detailed(progress) as step:
-        result = runner.run(spec, () if everything else (*default, *analyses), everything, step, model)
+        if everything:
+            result = runner.run(spec, (), everything, step, model)
+        else:
+            result = result_of(spec, (*default, *analyses), Path(kept) if kept else None, step, model)
     done = result.provenance["analyses"]
     progress(len(done), len(done), "drawing")
     seen = views(result, model)

@@ -1,11 +1,11 @@
 """The assembly as triangles for a viewer: flat arrays for the graphics card, round surfaces smooth, edges sharp."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright import registry, runner
-from drivewright._typing import Floats, Ints
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.errors import InputError
 from drivewright.report.pack import floats
 from drivewright.solids import facets
@@ -17,7 +17,8 @@ TOLERANCE = 3e-5  # m: chords stay about so near to a round surface
 
 
 def solid(design: Design, progress: Progress) -> dict[str, Any]:
-    """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "positions", "normals", "edges"}]}.
+    """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "positions", "normals", "edges"}],
+    "analyses": [{"name", "meaning", "missing"}] whose fields a viewer can show}.
 
     positions and normals: base64 of float32 x, y, z, three corners a triangle, counter-clockwise from outside; edges: two ends each.
     InputError where the drive has no solids; MissingExtra where a part needs the CAD kernel.
@@ -35,28 +36,43 @@ def solid(design: Design, progress: Progress) -> dict[str, Any]:
         ends += [points.min(axis=0), points.max(axis=0)]
         packed.append({"name": part.name, "colour": part.colour, "triangles": len(corners), **shaded(points, corners)})
     low, high = np.min(ends, axis=0), np.max(ends, axis=0)
-    return {"unit": "m", "size": float(np.linalg.norm(high - low)), "low": low.tolist(), "high": high.tolist(), "parts": packed}
+    analyses = [{"name": a.name, "meaning": a.meaning, "missing": a.missing(spec)} for a in mechanism.analyses if a.fields]
+    size = float(np.linalg.norm(high - low))
+    return {"unit": "m", "size": size, "low": low.tolist(), "high": high.tolist(), "parts": packed, "analyses": analyses}
 
 
 def shaded(points: Floats, corners: Ints) -> dict[str, Any]:
     """{"positions", "normals", "edges"} of a closed surface: points (n, 3), corners (m, 3)."""
-    corners, faces = _proper(points, corners)
+    shape = surface_shape(points, corners)
+    return {"positions": floats(points[shape.corners]), "normals": floats(shape.normals), "edges": floats(points[shape.edges])}
+
+
+class SurfaceShape(NamedTuple):
+    """proper (m,): which triangles have an area; corners (k, 3) of those, equal points being one, and unit normals (k, 3, 3) at them;
+    edges (e, 2): points at the ends of a side where two faces meet in a crease."""
+
+    proper: Bools
+    corners: Ints
+    normals: Floats
+    edges: Ints
+
+
+def surface_shape(points: Floats, corners: Ints, crease: float = CREASE) -> SurfaceShape:
+    """`SurfaceShape` of a surface: points (n, 3), corners (m, 3); crease: cosine of the angle from which on faces meet in an edge."""
+    proper, corners, faces = _proper(points, corners)
     sides = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    return {
-        "positions": floats(points[corners]),
-        "normals": floats(_normals(points, corners, faces)),
-        "edges": floats(points[_sharp(sides, np.repeat(np.arange(len(corners)), 3), faces)]),
-    }
+    edges = _sharp(sides, np.repeat(np.arange(len(corners)), 3), faces, crease)
+    return SurfaceShape(proper, corners, _normals(points, corners, faces, crease), edges)
 
 
 def _proper(points, corners):
-    """(triangles that have an area, their normals as long as twice that area), equal points being one."""
+    """(which triangles have an area, their corners, their normals as long as twice that area), equal points being one."""
     _, first, same = np.unique(points.round(9), axis=0, return_index=True, return_inverse=True)
     corners = first[np.ravel(same)][corners]
     a, b, c = np.moveaxis(points[corners], 1, 0)
     normals = np.cross(b - a, c - a)
     proper = np.linalg.norm(normals, axis=1) > 0
-    return corners[proper], normals[proper]
+    return proper, corners[proper], normals[proper]
 
 
 def _unit(vectors):
@@ -69,7 +85,7 @@ def _angles(points, corners):
     return np.arccos(np.clip(-np.einsum("ijk,ijk->ij", ahead, np.roll(ahead, 1, axis=1)), -1.0, 1.0))
 
 
-def _normals(points, corners, faces):
+def _normals(points, corners, faces, crease):
     """Unit normals (m, 3, 3) at the corners: of the faces at the point that turn by less than a crease from the own one, each by its
     angle there, so that it does not matter how a flat face is cut into triangles."""
     spots, owners = corners.ravel(), np.repeat(np.arange(len(corners)), 3)
@@ -80,7 +96,7 @@ def _normals(points, corners, faces):
     theirs = np.repeat(starts, counts) + np.arange(len(mine)) - np.repeat(np.cumsum(counts) - counts, counts)
     own, other = owners[order][mine], owners[order][theirs]
     unit = _unit(faces)
-    near = np.einsum("ij,ij->i", unit[own], unit[other]) > CREASE
+    near = np.einsum("ij,ij->i", unit[own], unit[other]) > crease
     total = np.zeros((len(order), 3))
     weights = _angles(points, corners).ravel()[order][theirs]
     np.add.at(total, mine[near], (weights[:, None] * unit[other])[near])
@@ -89,12 +105,12 @@ def _normals(points, corners, faces):
     return normals.reshape(-1, 3, 3)
 
 
-def _sharp(sides, owners, faces):
+def _sharp(sides, owners, faces, crease):
     """Sides (k, 2) where two faces meet in a crease, or that only one face has."""
     order = np.lexsort(sides.T)
     sides, owners, unit = sides[order], owners[order], _unit(faces)
     first = np.flatnonzero(np.concatenate([[True], np.any(np.diff(sides, axis=0) != 0, axis=1)]))
     count = np.diff(np.append(first, len(sides)))
     partner = np.minimum(first + 1, len(sides) - 1)
-    flat = (count == 2) & (np.einsum("ij,ij->i", unit[owners[first]], unit[owners[partner]]) > CREASE)
+    flat = (count == 2) & (np.einsum("ij,ij->i", unit[owners[first]], unit[owners[partner]]) > crease)
     return sides[first[~flat]]

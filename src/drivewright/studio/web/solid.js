@@ -1,6 +1,6 @@
 // A small viewer of solids: triangles with normals, feature edges, orbit, pan and zoom.  Nothing is drawn while nothing changes.
 
-import { pressable } from "./parts.js";
+import { pressable, same } from "./parts.js";
 import { element, fixed, floats, nice, watchTheme } from "./player.js";
 import { createRenderer } from "./triangles.js";
 
@@ -25,21 +25,25 @@ function extent(parts) {
   return {low, high, centre: low.map((l, k) => (l + high[k]) / 2), size: Math.hypot(...low.map((l, k) => high[k] - l)) || 1};
 }
 
-/** The viewer inside `host`; load({parts}), highlight(names), destroy(). */
-export function createSolid(host, {t}) {
+/**
+ * The viewer inside `host`; load({parts}) of packed parts, show(parts) of {name, label, colour, points, normals, edges, levels} as arrays,
+ * setRamp(stops, bare) for parts with levels, hide(names) before they are shown, cut([axis, part of the way along it] | null), highlight(names),
+ * destroy().  aside: px at the right that something else covers; toggled(hidden) is called when a part was hidden or shown.
+ */
+export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   const canvas = element("canvas", {class: "so-canvas", tabindex: 0, role: "img",
     "aria-label": t("Solid parts: drag turns, right drag moves, wheel zooms, arrow keys turn, f fits")});
   const overlay = element("canvas", {class: "so-overlay", "aria-hidden": "true"});
   const legend = element("div", {class: "dw-legend so-legend"}), tools = element("div", {class: "dw-segments so-tools"});
-  const view = {turn: VIEWS.iso[0], tilt: VIEWS.iso[1], scale: 1, fitted: true, shift: [0, 0], width: 0, height: 0, ratio: 1};
-  const look = {hidden: new Set(), lit: new Set()};  // names of parts
+  const view = {turn: VIEWS.iso[0], tilt: VIEWS.iso[1], scale: 1, fitted: true, shift: [-aside / 2, 0], width: 0, height: 0, ratio: 1};
+  const look = {hidden: new Set(), lit: new Set(), section: null};  // names of parts; section: [axis, part of the way along it]
   const state = {parts: [], whole: {low: [0, 0, 0], high: [1, 1, 1], centre: [0, 0, 0], size: 1}, frame: 0};
   const renderer = createRenderer(canvas), theme = watchTheme(host, () => redraw());
   host.classList.add("so");
   if (!renderer) {
     const words = t("This browser has no WebGL, so solids cannot be shown. STEP and STL can still be exported.");
     host.replaceChildren(element("p", {class: "vw-empty"}, words));
-    return {load() {}, highlight() {}, destroy() { theme.stop(); host.replaceChildren(); }};
+    return {load() {}, show() {}, hide: names => new Set(names), cut() {}, setRamp() {}, highlight() {}, destroy() { theme.stop(); host.replaceChildren(); }};
   }
   host.replaceChildren(canvas, overlay, legend, tools);
 
@@ -58,7 +62,7 @@ export function createSolid(host, {t}) {
       const at = axes[k].reduce((sum, a, i) => sum + a * ((corner >> i & 1 ? high[i] : low[i]) - centre[i]), 0);
       reach[k] = Math.max(reach[k], Math.abs(at));
     });
-    return Math.min(0.84 * view.width / 2 / (reach[0] || 1e-9), 0.74 * view.height / 2 / (reach[1] || 1e-9));
+    return Math.min(0.84 * Math.max(view.width - aside, 100) / 2 / (reach[0] || 1e-9), 0.74 * view.height / 2 / (reach[1] || 1e-9));
   }
   function draw() {
     cancelAnimationFrame(state.frame);
@@ -66,7 +70,7 @@ export function createSolid(host, {t}) {
     if (view.width < 2) return;
     if (view.fitted) view.scale = fitting();
     const axes = axesOf(view.turn, view.tilt);
-    renderer.paint(placing(axes), theme.colours, {hidden: look.hidden, faint: faintness()});
+    renderer.paint(placing(axes), theme.colours, {hidden: look.hidden, faint: faintness(), cut: cutPlane()});
     annotate(axes, view.scale);
   }
   /** Matrices from the parts' space to the window's, column by column. */
@@ -78,6 +82,12 @@ export function createSolid(host, {t}) {
     for (let k = 0; k < 3; k++) matrix.push(sx * axes[0][k], sy * axes[1][k], sz * axes[2][k], 0);
     matrix.push(sx * at[0] + 2 * view.shift[0] / view.width, sy * at[1] + 2 * view.shift[1] / view.height, sz * at[2], 1);
     return {matrix: new Float32Array(matrix), turn: new Float32Array([0, 1, 2].flatMap(k => axes.map(row => row[k])))};
+  }
+  /** The plane of the section [normal, distance], beyond which nothing is drawn; null without one. */
+  function cutPlane() {
+    if (!look.section) return null;
+    const [axis, part] = look.section, {low, high} = state.whole;
+    return [...[0, 1, 2].map(k => Number(k === axis)), low[axis] + part * (high[axis] - low[axis])];
   }
   /** Whether a part is faint, because others are lit. */
   function faintness() {
@@ -129,7 +139,7 @@ export function createSolid(host, {t}) {
     redraw();
   }
   function move(x, y) { view.fitted = false; view.shift = [view.shift[0] + x, view.shift[1] - y]; redraw(); }
-  function fit() { Object.assign(view, {fitted: true, shift: [0, 0]}); redraw(); }
+  function fit() { Object.assign(view, {fitted: true, shift: [-aside / 2, 0]}); redraw(); }
   function from(name) { [view.turn, view.tilt] = VIEWS[name]; fit(); mark(name); }
   function mark(name) { for (const [key, made] of buttons) made.setAttribute("aria-pressed", String(key === name)); }
 
@@ -170,27 +180,37 @@ export function createSolid(host, {t}) {
   canvas.addEventListener("webglcontextrestored", () => { renderer.ready(); redraw(); });
 
   function chips() {
-    legend.replaceChildren(...state.parts.map(({name, colour}) => {
+    legend.replaceChildren(...state.parts.map(({name, label, colour}) => {
       const looks = {class: "dw-chip", "aria-pressed": String(!look.hidden.has(name)), style: `--chip: var(--${colour}, var(--steel))`};
       return pressable(looks, chip => {
         if (!look.hidden.delete(name)) look.hidden.add(name);
         chip.setAttribute("aria-pressed", String(!look.hidden.has(name)));
         redraw();
-      }, t(name.replaceAll("_", " ")));
+        toggled(look.hidden);
+      }, t(label || name.replaceAll("_", " ")));
     }));
+  }
+
+  function show(parts) {
+    const had = state.whole.size, before = state.parts.map(part => part.name);
+    const seen = parts.filter(part => !look.hidden.has(part.name));
+    state.parts = parts;
+    state.whole = extent(seen.length ? seen : parts);
+    if (Math.abs(state.whole.size / had - 1) > 0.5) fit();
+    renderer.load(state.parts);
+    if (!same(before, parts.map(part => part.name))) chips();
+    redraw();
   }
 
   return {
     load({parts}) {
-      state.parts = parts.map(({name, colour, positions, normals, edges}) => ({name, colour,
-        points: floats(positions), normals: floats(normals), edges: floats(edges)}));
-      const had = state.whole.size;
-      state.whole = extent(state.parts);
-      if (Math.abs(state.whole.size / had - 1) > 0.5) fit();
-      renderer.load(state.parts);
-      chips();
-      redraw();
+      show(parts.map(({name, colour, positions, normals, edges}) => ({name, colour,
+        points: floats(positions), normals: floats(normals), edges: floats(edges)})));
     },
+    show,
+    hide(names) { look.hidden = new Set(names); return look.hidden; },
+    cut(section) { look.section = section; redraw(); },
+    setRamp(stops, bare) { renderer.setRamp(stops, bare); redraw(); },
     highlight(list) { look.lit = new Set(list.map(plain)); redraw(); },
     destroy() { observer.disconnect(); theme.stop(); cancelAnimationFrame(state.frame); renderer.close(); host.replaceChildren(); },
   };
