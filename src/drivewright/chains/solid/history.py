@@ -10,8 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Bools, Floats, Ints
-from drivewright.chains.solid.joint import STRIP
-from drivewright.chains.solid.pitch import WAYS, PlateAndPins, forces_at
+from drivewright.chains.solid.joint import OUTWARD, STRIP
+from drivewright.chains.solid.pitch import PlateAndPins, forces_at
 from drivewright.chains.stress.life import life_of_history
 from drivewright.chains.stress.plate import SIDES, Loads
 from drivewright.fatigue.material import StrainLife
@@ -100,6 +100,6 @@ def skin_life(skin: SkinStress, searched: Bools, material: StrainLife, plane: st
 def _searched(solid: PlateAndPins, body: str, skin: SkinStress) -> Bools:
     if body == "plate":
         return np.ones(len(skin.points), bool)
-    contact = 0.5 * WAYS[body] * solid.plate.link.pitch
+    contact = 0.5 * OUTWARD[body] * solid.plate.link.pitch
     away = np.hypot(skin.points[:, 0] - contact, skin.points[:, 1])
     return away > ROLLING * STRIP * solid.plate.seat("right").radius

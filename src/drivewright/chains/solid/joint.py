@@ -12,16 +12,17 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.chains.plate import Plate
-from drivewright.chains.solid.meshes import MM, Sizes, pin_mesh, plate_mesh
+from drivewright.chains.solid.meshes import Sizes, pin_mesh, plate_mesh
 from drivewright.contact import hertz
 from drivewright.contact.strip import hertz_beyond_strip
 from drivewright.errors import InputError
 from drivewright.scene import Outline
 from drivewright.solids.contact.model import ContactModel, ContactState, Functional, Link, Pair
 from drivewright.solids.contact.pairing import GapOf
-from drivewright.solids.elastic import FreeBody
+from drivewright.solids.elastic import MM, FreeBody
 from drivewright.solids.engine import EngineObject, fe_module
 
+OUTWARD = {"left": -1.0, "right": 1.0}  # sense along x that leads out of a plate
 STRIP = 0.08  # width sigma of a rolling contact's strip in radii of the seat
 HATS = 12  # of the rolling contact along half a pin
 APART = 1.0  # mm: gap of a part of a seat that does not bear
@@ -126,7 +127,7 @@ def seat_pair(plate: Plate, name: str, side: str, pin: str, fit: Fit, edges: tup
 
 def seat_gap(plate: Plate, side: str, fit: Fit, edges: tuple[float, float], shift: float = 0.0) -> GapOf:
     """Gap of a seat that the mesh does not have: clearance, rounded edges of the hole, and the part of the seat that does not bear."""
-    seat, outward = plate.seat(side), 1.0 if side == "right" else -1.0
+    seat = plate.seat(side)
     centre, radius = (complex(*seat.center) + shift) / MM, fit.edge_radius / MM
 
     def gap(points: Floats, normals: Floats) -> Floats:
@@ -137,7 +138,7 @@ def seat_gap(plate: Plate, side: str, fit: Fit, edges: tuple[float, float], shif
                 near = np.maximum(radius - np.abs(points[:, 2] - edge / MM), 0.0)
                 relief += radius - np.sqrt(np.maximum(radius**2 - near**2, 0.0))
         if fit.seat is not None:
-            turn = np.angle((points[:, 0] + 1j * points[:, 1] - centre) * outward)
+            turn = np.angle((points[:, 0] + 1j * points[:, 1] - centre) * OUTWARD[side])
             relief += np.where(np.abs(turn) > fit.seat, APART, 0.0)
         return relief
 

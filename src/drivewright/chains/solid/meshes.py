@@ -7,10 +7,10 @@ from drivewright.chains.plate import Plate
 from drivewright.chains.stress.plate import SIDES
 from drivewright.scene import Arc, Outline, Part, Piece, Prism
 from drivewright.solids import cad, pieces
+from drivewright.solids.elastic import MM
 from drivewright.solids.engine import EngineObject, fe_module
 from drivewright.solids.meshing import solid_mesh
 
-MM = 1e-3
 GRADING = 0.35
 FLAT = 1e-4  # mm: a bounding box so low is a flat face; boxes carry about 1e-7 of slack
 
@@ -44,7 +44,7 @@ def plate_mesh(plate: Plate, low: float, high: float, sizes: Sizes, half: float 
         reach = 2 * plate.link.pitch / MM
         a, b = (middle, middle + reach) if half > 0 else (middle - reach, middle)
         shape = shape * occ.Box(occ.Pnt(a, -reach, low / MM - 1), occ.Pnt(b, reach, high / MM + 1))
-    named = {f"{name}": piece for name, piece in plate.pieces.items()}
+    named = dict(plate.pieces)
     for side in SIDES:
         seat = plate.seat(side)
         for name, piece in plate.hole(side).items():

@@ -12,15 +12,15 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.chains.plate import Plate
-from drivewright.chains.solid.joint import STRIP, Fit, Material, Stack, pin_body, seat_pair, strip_rows, turn_row
+from drivewright.chains.solid.joint import OUTWARD, STRIP, Fit, Material, Stack, pin_body, seat_pair, strip_rows, turn_row
 from drivewright.chains.solid.meshes import Sizes, plate_mesh
 from drivewright.chains.stress.plate import SIDES, Loads
 from drivewright.solids.contact.model import ContactModel, Functional, Link
 from drivewright.solids.elastic import FreeBody, superposed_field
+from drivewright.solids.engine import EngineObject
 
 FLANK = 0.5  # width sigma of a flank's strip in radii of the seat
 MARGIN = np.radians(10.0)  # of a force's direction from the end of a seat that bears in part
-WAYS = {"left": -1.0, "right": 1.0}
 
 
 class PlateAndPins(NamedTuple):
@@ -42,7 +42,7 @@ def plate_and_pins(
     bodies, pairs, links, loads = {"plate": body}, [], [], {}
     sigma = STRIP * plate.seat("right").radius
     for side, outline in zip(SIDES, plate.own_pins, strict=True):
-        way, pin = WAYS[side], pin_body(outline, stack, material, sizes, 0.0)
+        way, pin = OUTWARD[side], pin_body(outline, stack, material, sizes, 0.0)
         bodies[side] = pin
         pairs.append(seat_pair(plate, "plate", side, side, fit, stack.own, 0.0))
         links.append(Link((Functional(side, turn_row(pin)),)))
@@ -70,18 +70,18 @@ def _on_seat(force: Floats, side: str, fit: Fit) -> Floats:
     """A pin's force (2,) [N], turned back onto a seat that bears only in part: its shape, not its contact, holds a real pin there."""
     if fit.seat is None:
         return force
-    along = complex(*force) * WAYS[side]
+    along = complex(*force) * OUTWARD[side]
     most = max(fit.seat - MARGIN, 0.0)
-    turned = abs(along) * np.exp(1j * np.clip(np.angle(along), -most, most)) * WAYS[side]
+    turned = abs(along) * np.exp(1j * np.clip(np.angle(along), -most, most)) * OUTWARD[side]
     return np.array([turned.real, turned.imag])
 
 
-def _flank(body: FreeBody, plate: Plate, side: str, height: float):
+def _flank(body: FreeBody, plate: Plate, side: str, height: float) -> EngineObject:
     """Load vector of a unit force into an outer flank at a height [m]."""
     (x0, y0), (x1, y1) = plate.flank(side)
     x = x0 + (height - y0) / (y1 - y0) * (x1 - x0)
     along = complex(x1 - x0, y1 - y0) / np.hypot(x1 - x0, y1 - y0)
-    normal = along * 1j if (along * 1j).real * WAYS[side] > 0 else -along * 1j
+    normal = along * 1j if (along * 1j).real * OUTWARD[side] > 0 else -along * 1j
     row = body.gaussian_strip(f"flank {side}", complex(x, height), normal, FLANK * plate.seat("right").radius)
     row.data = -1.0 * row
     return row

@@ -6,8 +6,8 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.chains.solid.history import FACES, SkinLife, SolidHistory
-from drivewright.chains.solid.joint import RollingPins
-from drivewright.chains.solid.pitch import WAYS
+from drivewright.chains.solid.joint import OUTWARD, RollingPins
+from drivewright.chains.stress.plate import SIDES
 from drivewright.contact import hertz
 from drivewright.fatigue import von_mises
 from drivewright.result import Column, Table
@@ -18,6 +18,7 @@ from drivewright.solids.stresses import SkinStress, hooke, skin_stress
 DRAWN = 0.03  # of the plate's length: the largest displacement as drawn
 FINER = 3  # parts of an element's edge in a picture
 WORDS = ("along the chain", "across the chain", "along the pin")
+AROUND = 2.2  # radii of the seat to either side of it that a section shows
 GRID = (160, 60)  # rectangles of a section, along and across
 
 
@@ -81,26 +82,15 @@ def life_table(name: str, title: str, skin: SkinStress, life: SkinLife, axes: Se
 
 def seat_table(history: SolidHistory, side: str, instant: int) -> Table:
     """Table "seat_pressure": pressure on a seat unrolled, at one instant: angle from the outer direction, height, pressure."""
-    number = tuple(WAYS).index(side)
-    pairing, (skin, _) = history.solid.model.pairings[number], history.solid.model.skins[number]
-    pressure = np.zeros(skin.nodes.max() + 1)
-    pressure[pairing.corners] = history.states[instant].pressure[number]
-    seat = history.solid.plate.seat(side)
-    place = skin.places[:, :3] * MM
-    turn = np.angle(((place[..., 0] - seat.center[0]) + 1j * (place[..., 1] - seat.center[1])) * WAYS[side])
-    flat = np.stack([seat.radius * turn, place[..., 2]], axis=-1)
-    (ax, ay), (bx, by) = np.moveaxis(flat[:, 1] - flat[:, 0], -1, 0), np.moveaxis(flat[:, 2] - flat[:, 0], -1, 0)
-    order = np.where((ax * by > ay * bx)[:, None], [0, 1, 2], [0, 2, 1])  # counter-clockwise
-    along, height = np.take_along_axis(flat, order[..., None], axis=1).reshape(-1, 2).T
-    rows = np.take_along_axis(skin.corners, order, axis=1).ravel()
+    along, height, pressure = _unrolled(history, side, instant)
     return Table(
         "seat_pressure",
         "Pressure of a pin on its seat, unrolled",
         (
             Column("along", "m", "along the seat from the outer direction", along),
             Column("height", "m", "along the pin from the plate's middle", height),
-            Column("depth", "m", "flat", np.zeros(len(rows))),
-            Column("pressure", "Pa", "pressure on the seat", pressure[rows]),
+            Column("depth", "m", "flat", np.zeros(len(along))),
+            Column("pressure", "Pa", "pressure on the seat", pressure),
         ),
     )
 
@@ -125,10 +115,9 @@ def section_table(history: SolidHistory, side: str, instant: int) -> Table:
     """Table "hole_section": von Mises stress of plate and pin in the plane of both pins' axes, around one hole, at one instant."""
     solid = history.solid
     seat = solid.plate.seat(side)
-    x0 = seat.center[0] - WAYS[side] * 2.2 * seat.radius
-    x1 = seat.center[0] + WAYS[side] * 2.2 * seat.radius
+    span = seat.center[0] + AROUND * seat.radius * np.array([-1.0, 1.0])
     blocks = [
-        _section(solid.model.bodies[name], history.states[instant].displacement(name), seat.center[1], sorted((x0, x1)), solid.stack.end)
+        _section(solid.model.bodies[name], history.states[instant].displacement(name), seat.center[1], span, solid.stack.end)
         for name in ("plate", side)
     ]
     x, z, size = (np.concatenate([block[n] for block in blocks]) for n in range(3))
@@ -144,11 +133,28 @@ def section_table(history: SolidHistory, side: str, instant: int) -> Table:
     )
 
 
-def _section(body: FreeBody, field: Floats, y: float, span: Sequence[float], height: float) -> tuple[Floats, Floats, Floats]:
-    """Triangles (x, z) [m] and von Mises stress [Pa] of the rectangles of a grid in the plane y that lie in a body."""
+def _unrolled(history: SolidHistory, side: str, instant: int) -> tuple[Floats, Floats, Floats]:
+    """Triangles of a seat, three rows each, counter-clockwise: place along it from the outer direction and height [m], pressure [Pa]."""
+    number = SIDES.index(side)
+    pairing, (skin, _) = history.solid.model.pairings[number], history.solid.model.skins[number]
+    pressure = np.zeros(skin.nodes.max() + 1)
+    pressure[pairing.corners] = history.states[instant].pressure[number]
+    seat = history.solid.plate.seat(side)
+    place = skin.places[:, :3] * MM
+    turn = np.angle(((place[..., 0] - seat.center[0]) + 1j * (place[..., 1] - seat.center[1])) * OUTWARD[side])
+    flat = np.stack([seat.radius * turn, place[..., 2]], axis=-1)
+    (ax, ay), (bx, by) = np.moveaxis(flat[:, 1] - flat[:, 0], -1, 0), np.moveaxis(flat[:, 2] - flat[:, 0], -1, 0)
+    order = np.where((ax * by > ay * bx)[:, None], [0, 1, 2], [0, 2, 1])  # counter-clockwise
+    along, height = np.take_along_axis(flat, order[..., None], axis=1).reshape(-1, 2).T
+    rows = np.take_along_axis(skin.corners, order, axis=1).ravel()
+    return along, height, pressure[rows]
+
+
+def _section(body: FreeBody, field: Floats, y: float, span: Floats, height: float) -> tuple[Floats, Floats, Floats]:
+    """Triangles (x, z) [m] and von Mises stress [Pa] of the rectangles of a grid in the plane y [m] that lie in a body; field [mm]."""
     ng = body.ng
     x, z = np.linspace(span[0], span[1], GRID[0] + 1), np.linspace(0.0, height, GRID[1] + 1)
-    middle = np.array([(a, b) for a in 0.5 * (x[1:] + x[:-1]) for b in 0.5 * (z[1:] + z[:-1])]) / MM
+    middle = np.stack(np.meshgrid(0.5 * (x[1:] + x[:-1]), 0.5 * (z[1:] + z[:-1]), indexing="ij"), axis=-1).reshape(-1, 2) / MM
     inside = [body.mesh.Contains(float(a), y / MM, float(b)) for a, b in middle]
     kept = middle[inside]
     if not len(kept):

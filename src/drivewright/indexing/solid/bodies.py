@@ -7,10 +7,11 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.contact import gaussian_strip_approach
-from drivewright.indexing.drivetrain import Drivetrain, SplitShaft
+from drivewright.indexing.drivetrain import SIDES, Drivetrain, SplitShaft
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.solid import meshes
 from drivewright.indexing.solid.parts import CamBody, ShaftBody, WheelBody
+from drivewright.indexing.stiffness.assembly import cam_phases
 from drivewright.indexing.stiffness.layout import bending_flexibility, torsion_flexibility
 from drivewright.scene import Outline
 from drivewright.solids.elastic import FreeBody
@@ -28,7 +29,6 @@ from drivewright.solids.substructures import (
 ContactKey: TypeAlias = tuple[int, int]  # position, number of the contact
 Strip: TypeAlias = tuple[complex, complex]  # point [m] on the profile, normal
 
-HALVES = 2
 TURN_RADIUS = 0.01  # m: at which the rotation of a gear's seat counts as a displacement
 
 
@@ -51,10 +51,19 @@ def cam(
     if body is None or outline is None:
         return rigid_substructure(places, PLANAR)
     mesh = meshes.cam_mesh(outline, body, holes, sigma, fineness)
-    free = FreeBody(mesh, HALVES * body.modulus, body.poisson, dirichletz="middle")  # so stiff, the half carries the whole force
+    free = FreeBody(mesh, 2 * body.modulus, body.poisson, dirichletz="middle")  # so stiff, the half carries the whole force
     functionals = [free.mean(f"seat{side}", np.eye(3)[axis]) for side in (0, 1) for axis in (0, 1)]
     functionals += [free.gaussian_strip("profile", point, normal, sigma) for point, normal in strips.values()]
     return elastic_substructure(free, functionals, places, PLANAR, "the cam")
+
+
+def cam_holes(spacing: float, cams: int) -> list[list[complex]]:
+    """Centres [m] of both holes of each cam in its own frame, `spacing` [m] apart; of an even number those of the first half.
+
+    Half a turn brings the holes back on each other, so that two opposite cams are one body with its seats exchanged.
+    """
+    count = cams // 2 if cams % 2 == 0 else cams
+    return [[complex(side * spacing / 2 / way) for side in SIDES] for way in cam_phases(cams)[:count]]
 
 
 def cam_places(holes: Sequence[complex], strips: Mapping[ContactKey, Strip]) -> list[InterfaceLoad]:

@@ -10,7 +10,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from drivewright.indexing.drivetrain import SIDES, Drivetrain
+from drivewright.indexing.drivetrain import Drivetrain
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.solid import bodies as of
 from drivewright.indexing.solid.parts import CamBody, Solids
@@ -44,20 +44,18 @@ def condensed(
 def _cams(
     wheel: PinWheel, drive: Drivetrain, body: CamBody | None, places: Sequence[Position], cams: int, fineness: float, sigma: float
 ) -> list[Substructure]:
-    """Condensed cams; half a turn brings the holes back on each other, so that two opposite cams are one body with its seats exchanged."""
+    """Condensed cams, of two opposite ones the second from the first."""
     strips = {
         (place.number, int(c)): (touching_point(wheel, place, int(c)), complex(place.contacts.normal[c]))
         for place in places
         for c in np.flatnonzero(place.kept(False))
     }
     outline = wheel.profile.outline() if body else None
-    half = cams // 2 if cams % 2 == 0 else cams
     found = []
-    for way in cam_phases(cams)[:half]:
-        holes = [complex(side * drive.spacing / 2 / way) for side in SIDES]
+    for holes in of.cam_holes(drive.spacing, cams):
         made = of.cam(outline, body, holes, strips, sigma, fineness)
         found.append(made if body is None else _without_strip(made, of.strip_compliance(sigma, wheel.pin_radius, body)))
-    return found + [_exchanged(body) for body in found[: cams - half]]
+    return found + [_exchanged(body) for body in found[: cams - len(found)]]
 
 
 def touching_point(wheel: PinWheel, place: Position, c: int) -> complex:

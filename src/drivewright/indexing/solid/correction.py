@@ -12,12 +12,11 @@ import numpy as np
 from drivewright._typing import Complexes, Floats
 from drivewright.errors import InputError
 from drivewright.indexing.body_compliance import BodyCompliance
-from drivewright.indexing.drivetrain import SIDES, Drivetrain
+from drivewright.indexing.drivetrain import Drivetrain
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.solid import bodies as of
 from drivewright.indexing.solid.condensation import STRIP
 from drivewright.indexing.solid.parts import Solids, check, seated
-from drivewright.indexing.stiffness.assembly import cam_phases
 from drivewright.shafts import COWPER
 from drivewright.solids.elastic import Response, spring_supported
 from drivewright.solids.substructures import InterfaceName, Substructure
@@ -77,13 +76,11 @@ def _cam_compliance(
         return np.zeros((cams, len(points)))
     strips = {(0, n): (complex(point), complex(normal)) for n, (point, normal) in enumerate(zip(points, normals, strict=True))}
     found, outline = [], wheel.profile.outline()
-    half = cams // 2 if cams % 2 == 0 else cams
-    for way in cam_phases(cams)[:half]:
-        holes = [complex(side * drive.spacing / 2 / way) for side in SIDES]
+    for holes in of.cam_holes(drive.spacing, cams):
         body = of.cam(outline, solids.cam, holes, strips, sigma, fineness)
         own = held(body, [("seat", side, axis) for side in (0, 1) for axis in (0, 1)], [("contact", *key) for key in strips])
         found.append(np.maximum(np.diagonal(own) - of.strip_compliance(sigma, wheel.pin_radius, solids.cam), 0.0))
-    return np.array(found + found[: cams - half])
+    return np.array(found + found[: cams - len(found)])
 
 
 def _pin_compliance(wheel: PinWheel, drive: Drivetrain, solids: Solids, cams: int, fineness: float) -> Floats:

@@ -11,7 +11,7 @@ from drivewright.solids.deformation import DisplacedSurface, with_mirror_images
 from drivewright.solids.elastic import MM, superposed_field
 from drivewright.solids.substructures import Substructure
 
-HALVES = (((1, 1, 1), (1, 1, 1)), ((1, 1, -1), (1, 1, -1)))  # the upper half of a cam, and its image in the middle plane
+MIRROR_IMAGES = (((1, 1, 1), (1, 1, 1)), ((1, 1, -1), (1, 1, -1)))  # the upper half of a cam, and its image in the middle plane
 CAM_FACES = "profile|seat.*|bore|side"
 SHOWN: dict[str, BodyName] = {"cam": ("cam", 0), "shaft": ("shaft", 0), "wheel": ("wheel",)}
 FINE = {"cam": 2, "shaft": 2, "wheel": 1}  # parts of an edge of an element in the picture
@@ -33,7 +33,7 @@ def _deformed(name: str, bodies: Bodies, found: Mapping[int, CoupledSolution], c
     fields = [superposed_field(body.fields, each.loads[at]) for each in found.values()]
     if name == "cam":
         motions = np.zeros((free.basis.shape[1], len(fields)))
-        whole = with_mirror_images(free.surface(CAM_FACES, fields, motions, FINE[name]), HALVES)
+        whole = with_mirror_images(free.surface(CAM_FACES, fields, motions, FINE[name]), MIRROR_IMAGES)
     else:
         amounts = np.array([each.motions[key] for each in found.values()])
         if name == "wheel":

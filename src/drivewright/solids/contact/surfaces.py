@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from drivewright._typing import Floats, Ints
+from drivewright._typing import Bools, Floats, Ints
 from drivewright.errors import InputError
 from drivewright.solids.engine import EngineObject, fe_module
 from drivewright.solids.meshing import PURPOSE
@@ -138,9 +138,9 @@ def hit_by_rays(skin: Skin, start: Floats, direction: Floats) -> Hits:
 # ---------------------------------------------------------------------------------------------------------------------- pieces
 
 
-def _along_ray(skin: Skin, element: Ints, local: Floats, start: Floats, direction: Floats) -> tuple[Floats, Floats, Floats]:
+def _along_ray(skin: Skin, element: Ints, local: Floats, start: Floats, direction: Floats) -> tuple[Floats, Floats, Bools]:
     """(local coordinates, distance, whether on the element) of rays on one element each, by Newton's method."""
-    local, count = local.copy(), len(start)
+    local = local.copy()
     distance = np.einsum("nd,nd->n", tangents(skin, element, local)[0] - start, direction)
     for _ in range(TURNS):
         points, along = tangents(skin, element, local)
@@ -154,7 +154,7 @@ def _along_ray(skin: Skin, element: Ints, local: Floats, start: Floats, directio
     points = tangents(skin, element, local)[0]
     miss = np.linalg.norm(points - start - distance[:, None] * direction, axis=1)
     inside = (_barycentric(local) >= -OVER).all(axis=1)
-    return local, distance, inside & (miss < 1e-7 * skin.size[element]) & np.ones(count, bool)
+    return local, distance, inside & (miss < 1e-7 * skin.size[element])
 
 
 def _reference(dim: int) -> Floats:
