@@ -13,6 +13,7 @@ from drivewright.registry import Analysis
 from drivewright.report.pack import floats
 from drivewright.result import Result
 from drivewright.solids.engine import fe_module
+from drivewright.steps import detailed
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.progress import Progress
 from drivewright.studio.jobs.solid import surface_shape
@@ -43,7 +44,8 @@ def fields(design: Design, progress: Progress, analysis: str = "", run: bool = F
     if found is None:
         fe_module("ngsolve", f"analysis '{analysis}'")  # what an extra brings is missed before anything has run
         default = [each.name for each in mechanism.analyses if each.default]
-        found = result_of(spec, [*default, analysis], folder, progress, runner.build(spec))
+        with detailed(progress) as step:
+            found = result_of(spec, [*default, analysis], folder, step, runner.build(spec))
     if analysis not in found.fields:
         raise InputError(_reason(known[analysis], found))
     return {"analysis": analysis, **packed_fields(found.fields[analysis])}
