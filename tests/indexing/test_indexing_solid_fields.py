@@ -62,7 +62,7 @@ def test_the_stress_of_a_cam_balances_its_load():
     stress = stress_at(made.free, vector, [(0.0, *spot) for spot in spots])
     measured = 2 * stress[:, 0, 0].sum() * (y[1] - y[0]) * (z[1] - z[0])
     scale = pull / measured
-    assert scale == pytest.approx(1 / bodies.HALVES, rel=0.03)
+    assert scale == pytest.approx(1 / bodies.STIFFENED, rel=0.03)
     solution = CoupledSolution(np.zeros(0), np.zeros(0), loads, np.zeros(len(loads)), {})
     place = Position(0, 0.0, 0.0, wheel().pins, find_contacts(wheel(), ANGLES[1]))
     fields = stress_fields(drive(), {("cam", 0): made}, [Loaded(place, solution, (np.zeros(0, complex),))], 0.01, 1, 1.6e-3)

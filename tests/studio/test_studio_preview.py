@@ -261,9 +261,9 @@ def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a
 def test_a_whole_result_without_a_scene_has_no_plots(four_bar, without_a_scene, monkeypatch):
     monkeypatch.setattr(preview.runner, "run", lambda spec, only, progress, model: "result")
     monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: scene)
-    assert preview.analyse(None, four_bar) == (None, {})
+    assert preview.analyse(lambda told: None, four_bar) == (None, {})
     without_a_scene.scene = None
-    assert preview.analyse(None, four_bar) == (None, {})
+    assert preview.analyse(lambda told: None, four_bar) == (None, {})
 
 
 def test_findings_and_the_outcome_come_along(monkeypatch):

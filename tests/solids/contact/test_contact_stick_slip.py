@@ -188,6 +188,21 @@ def test_pressures_tractions_and_slips_obey_coulomb(ways, coefficient, seed):
     assert found.gap[grips.along][pressed] == pytest.approx(s[pressed], abs=close)
 
 
+@pytest.mark.parametrize("ways", [1, 2])
+@pytest.mark.parametrize("seed", range(6))
+def test_the_same_load_once_more_changes_nothing(ways, seed):
+    """Tractions at their bound whose places slip no further, which rounding could take for sticking or slipping."""
+    matrix, right, *rest = problem(seed, ways, 0.3)
+    first = solve_friction(matrix, right, *rest)
+    along = rest[-1].along.ravel()
+    held = rest[0]
+    slipped = right.copy()
+    slipped[along] -= (matrix @ first.x + right + held.T @ first.motions)[along]
+    again = solve_friction(matrix, slipped, *rest, first)
+    assert again.x == pytest.approx(first.x, abs=1e-9 * np.abs(first.x).max())
+    assert np.abs(again.gap[along]).max() < 1e-9
+
+
 @pytest.mark.parametrize(("ways", "over"), [(1, 1.001), (2, 1.083)])
 def test_a_balance_wants_the_cone_and_its_pyramid_stands_close_about_it(ways, over):
     """One place that presses with 1: a pull across it of less than mu is balanced in any direction, one beyond the pyramid is not."""

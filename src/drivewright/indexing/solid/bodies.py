@@ -29,6 +29,7 @@ from drivewright.solids.substructures import (
 ContactKey: TypeAlias = tuple[int, int]  # position, number of the contact
 Strip: TypeAlias = tuple[complex, complex]  # point [m] on the profile, normal
 
+STIFFENED = 2  # times as stiff as it is, half a cam carries the whole force
 TURN_RADIUS = 0.01  # m: at which the rotation of a gear's seat counts as a displacement
 
 
@@ -51,7 +52,7 @@ def cam(
     if body is None or outline is None:
         return rigid_substructure(places, PLANAR)
     mesh = meshes.cam_mesh(outline, body, holes, sigma, fineness)
-    free = FreeBody(mesh, 2 * body.modulus, body.poisson, dirichletz="middle")  # so stiff, the half carries the whole force
+    free = FreeBody(mesh, STIFFENED * body.modulus, body.poisson, dirichletz="middle")
     functionals = [free.mean(f"seat{side}", np.eye(3)[axis]) for side in (0, 1) for axis in (0, 1)]
     functionals += [free.gaussian_strip("profile", point, normal, sigma) for point, normal in strips.values()]
     return elastic_substructure(free, functionals, places, PLANAR, "the cam")

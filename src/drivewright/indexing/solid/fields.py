@@ -11,7 +11,7 @@ import numpy as np
 
 from drivewright._typing import Bools, Complexes, Floats, Ints
 from drivewright.indexing.drivetrain import SIDES, Drivetrain
-from drivewright.indexing.solid.bodies import HALVES
+from drivewright.indexing.solid.bodies import STIFFENED
 from drivewright.indexing.solid.condensation import Bodies
 from drivewright.indexing.solid.springs import Position
 from drivewright.indexing.solid.surfaces import CAM_FACES
@@ -73,7 +73,7 @@ def _body(
     vectors = [superposed_field(body.fields, each.coupled.loads[at]) for each in loaded]
     region = CAM_FACES if is_cam else ".*"
     skin = skin_stress(free, [vector.FV().NumPy() for vector in vectors], region)
-    mises = skin.mises / (HALVES if is_cam else 1)  # half a cam carries the whole force on twice the modulus
+    mises = skin.mises / (STIFFENED if is_cam else 1)  # half a cam carries the whole force on twice the modulus
     if is_cam:
         flat = skin.points[:, 0] + 1j * skin.points[:, 1]
         for row, each in zip(mises, loaded, strict=True):

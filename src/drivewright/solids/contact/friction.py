@@ -19,6 +19,7 @@ from drivewright.solids.contact.complementarity import BALANCED, TINY, Pressed, 
 
 TRIES = 40  # of Newton's method
 CLOSE = 1e-9  # of the unknowns, relative: two iterates that agree
+ABOVE = 1e-9  # of what friction bears: a traction at its bound whose place does not slip sticks
 ROUNDS = 4000  # of alternating directions
 NEAR = 1e-7  # of the unknowns, relative: where they stop
 HELD = 1e-12  # keeps motions that nothing holds from being singular
@@ -90,7 +91,7 @@ class _Problem(NamedTuple):
             trial = x - gap
             closed = ~self.one_sided | (trial > 0) | everything
             pull, most = np.linalg.norm(trial[along], axis=1), coefficient * np.maximum(x[normal], 0.0)
-            slips = closed[normal] & (pull > most) & (not everything)
+            slips = closed[normal] & (pull > most * (1 + ABOVE)) & (not everything)
             sticks = closed[normal] & ~slips
             everything = False
             new, motions = self._step(closed, sticks, slips, trial, most / np.where(slips, pull, 1.0))
