@@ -3,6 +3,7 @@
 import math
 
 EXACT = 5
+ROUGH = 2  # digits of each number where only the power of ten is known
 
 
 def last_place(value: float, low: float | None, high: float | None, digits: int = EXACT) -> int | None:
@@ -18,6 +19,11 @@ def last_place(value: float, low: float | None, high: float | None, digits: int 
     if half < 0.5 * 10.0**exact:
         return None
     return max(math.floor(math.log10(float(f"{half:.1e}"))) - 1, exact)
+
+
+def over_decades(low: float | None, high: float | None) -> bool:
+    """Whether an interval of a positive number spans more than a power of ten, as of a life: then one place does not serve its ends."""
+    return low is not None and high is not None and 0 < 10 * low < high < math.inf
 
 
 def to_place(value: float, place: int) -> str:

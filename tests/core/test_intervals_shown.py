@@ -144,6 +144,11 @@ def test_command_line_prints_the_digits_that_an_interval_supports():
     assert show.number(-1.79834e-7, "m", -6.56e-7, 2.96e-7) == "-0.00018 (-0.00066 to 0.00030) mm"
 
 
+def test_command_line_prints_a_life_over_powers_of_ten_with_two_digits_each():
+    assert show.number(2.2166e10, "-", 1.7e7, 2.74e13) == "2.2e+10 (1.7e+07 to 2.7e+13)"
+    assert show.number(0.03, "m", 0.0029, 0.031) == "30 (2.9 to 31) mm"
+
+
 def test_page_tells_the_interval_with_a_hint(tmp_path):
     result = run()
     text = page("report.html.j2", content(result), player=None, pictures=[])

@@ -160,6 +160,8 @@ def _numbers(value: float, factor: float, low: float | None, high: float | None)
     place = digits.last_place(value, low, high)
     if place is None or low is None or high is None:
         return [_exact(value)]
+    if digits.over_decades(low, high):
+        return [_to_place(each, math.floor(math.log10(each)) - digits.ROUGH + 1) for each in (value, low, high)]
     return [_to_place(each, place) for each in (value, low, high)]
 
 

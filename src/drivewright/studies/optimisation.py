@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from drivewright import registry, units
 from drivewright._typing import Floats
-from drivewright.digits import last_place, to_place
+from drivewright.digits import ROUGH, last_place, over_decades, to_place
 from drivewright.errors import InputError, SolverError
 from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.execution.outputs import case_outputs
@@ -305,7 +305,9 @@ def _with_interval(reached, name):
     place = last_place(*(factor * each for each in (reached[name].value, *bounds.values()))) if bounds else None
     if place is None:
         return _shown(reached[name].value, reached[name].unit)
-    value, low, high = (to_place(factor * each, place) for each in (reached[name].value, *bounds.values()))
+    rough = over_decades(*bounds.values())
+    shown = [factor * each for each in (reached[name].value, *bounds.values())]
+    value, low, high = (f"{each:.{ROUGH}g}" if rough else to_place(each, place) for each in shown)
     return f"{value} ({low} to {high}) {unit}".removesuffix(" -")
 
 

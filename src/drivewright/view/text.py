@@ -4,7 +4,7 @@ import math
 import re
 import textwrap
 
-from drivewright.digits import EXACT, last_place, to_place
+from drivewright.digits import EXACT, ROUGH, last_place, over_decades, to_place
 from drivewright.result import Value
 from drivewright.units import BY_UNIT, display
 
@@ -39,13 +39,15 @@ def _signed(text: str) -> str:
 
 
 def numbers(value: float, low: float | None, high: float | None, digits: int = EXACT) -> tuple[str, str, str]:
-    """(value, low, high) as texts with the digits that the interval supports, all with the same power of ten.
+    """(value, low, high) as texts with the digits that the interval supports, all with the same power of ten but where it spans several.
 
     The bounds are "" where there are none, or where they say nothing beyond the printed digits: then the value stands as if exact.
     """
     place = last_place(value, low, high, digits)
     if place is None or low is None or high is None:
         return number(value, digits), "", ""
+    if over_decades(low, high):
+        return number(value, ROUGH), number(low, ROUGH), number(high, ROUGH)
     exponent = math.floor(math.log10(max(abs(value), abs(low), abs(high))))
     return _to_place(value, place, exponent), _to_place(low, place, exponent), _to_place(high, place, exponent)
 

@@ -63,6 +63,10 @@ HEADLINE = (
     "dynamics.centre_distance.fluctuation",
     "dynamics.centre_distance.mesh_order_amplitude",
     "quasi_static.centre_distance.mean",
+    "solid.plate.max_stress",
+    "solid.pin.max_stress",
+    "solid.plate.min_life",
+    "solid.pin.min_life",
     "plate.max_von_mises",
     "plate.life",
 )
