@@ -67,7 +67,7 @@ def test_every_load_step_is_told_to_who_shows_progress(monkeypatch):
 
 def test_a_contact_too_narrow_at_the_greatest_force_is_told_and_else_let_be():
     gaps = [each.gap + 0.2 * each.area for each in solid().model.pairings]  # 0.2 mm: a line
-    with pytest.raises(InputError, match="larger than half the contact's width"):
+    with pytest.raises(InputError, match="larger than half the width of the contact"):
         solid_history(solid(), straight(PULL), gaps=gaps)
     assert len(solid_history(solid(), straight(0.1, PULL)).states) == 2
 

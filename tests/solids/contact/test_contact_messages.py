@@ -88,9 +88,8 @@ def test_elements_larger_than_half_the_contact_are_told_with_the_size_to_take():
     lower = FreeBody(quarter_disc(1.2, -1, 0.04, 0.2), E, NU, RIGHT, dirichletx="sym", dirichlety="flat")
     pair = Pair(("upper", "contact"), ("lower", "contact"), 1e-4)
     made = ContactModel({"upper": upper, "lower": lower}, [pair], [], {"push": Functional("upper", upper.mean("flat", (0, -1)))})
-    with pytest.raises(
-        InputError, match=r"elements of 0\.04 mm on 'contact' of 'upper' are larger than half the contact's width.*give elements of"
-    ):
+    words = r"elements of 0\.04 mm on 'contact' of 'upper' are larger than half the width of the contact, which is .*give elements of"
+    with pytest.raises(InputError, match=words):
         made.solve({"push": 0.5})
     assert made.solve({"push": 0.5}, narrow=True).force(0)[1] == pytest.approx(0.5)
 
@@ -173,6 +172,19 @@ def test_a_block_from_a_file_is_held_by_friction_and_slides_without(files):
         press({"weight": weight, "block": block}, 1.5e-3, 1e-6, friction=-1.0)
 
 
+def test_flat_blocks_face_to_face_are_meshed_as_finely_as_asked(files):
+    import netgen.occ as occ
+
+    occ.Box(occ.Pnt(0, 0, -6), occ.Pnt(10, 10, 0)).WriteStep(str(files / "low.step"))
+    occ.Box(occ.Pnt(3, 3, 0), occ.Pnt(7, 7, 4)).WriteStep(str(files / "top.step"))
+    low = SolidBody(files / "low.step", E, NU, 2e-3, fixed=[(1e-3, 1e-3, -6e-3)])
+    top = SolidBody(files / "top.step", E, NU, 2e-3, loads=[((5e-3, 5e-3, 4e-3), (0.0, 0.0, -2000.0))])
+    pressed = press({"top": top, "low": low}, 0.8e-3, 50e-6)
+    assert pressed.force("top", "low")[2] == pytest.approx(2000.0, rel=1e-9)
+    assert pressed.area("top", "low") == pytest.approx(16e-6, rel=1e-6)
+    assert len(repr(pressed)) < 200
+
+
 def test_files_and_faces_that_are_not_there_are_told(files):
     bodies = ball_and_block(files)
     with pytest.raises(InputError, match=r"no file .*none\.step.* for the body 'ball'; give the path of a STEP file"):
@@ -184,5 +196,9 @@ def test_files_and_faces_that_are_not_there_are_told(files):
         press(ball_and_block(files, loads=[((30e-3, 0, 0), (0, 0, -1.0))]), 1e-4, 1e-5)
     with pytest.raises(InputError, match="modulus of -1 Pa"):
         press(ball_and_block(files, modulus=-1.0), 1e-4, 1e-5)
+    with pytest.raises(InputError, match="1 bodies; give two or more"):
+        press({"ball": bodies["ball"]}, 1e-4, 1e-5)
+    with pytest.raises(InputError, match="plane of symmetry of 'ball' has the axis 'w'"):
+        press(ball_and_block(files, planes=[((0, 4e-3, 6e-3), "w")]), 1e-4, 1e-5)
     with pytest.raises(InputError, match="contact_size -1 m"):
         press(bodies, -1.0, 1e-5)

@@ -62,7 +62,7 @@ class Link(NamedTuple):
     gap: float = 0.0
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactState:
     """Answer to one load.
 
@@ -115,7 +115,7 @@ class ContactState:
         return MM * float(functional.vector.FV().NumPy() @ self.displacement(functional.body))
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ContactModel:
     """Bodies, pairs of skins, links and unit loads {name: functional}, condensed when made.
 
@@ -181,8 +181,9 @@ class ContactModel:
         width = contact_width(each, pressing, self.bodies[pair.first[0]])
         if width < ACROSS * size:
             raise InputError(
-                f"contact: the elements of {size:.3g} mm on {pair.first[1]!r} of {pair.first[0]!r} are larger than half the contact's "
-                f"width of about {width:.3g} mm; give elements of {width / 4:.2g} mm there or smaller."
+                f"contact: the elements of {size:.3g} mm on {pair.first[1]!r} of {pair.first[0]!r} are larger than half the width of the "
+                f"contact, which is {f'about {width:.3g} mm wide' if width > 0 else 'narrower than one of them'}; give elements of "
+                f"{(width or size) / 4:.2g} mm there or smaller."
             )
 
     def displacement(self, body: str, state: ContactState) -> Floats:

@@ -28,6 +28,7 @@ FEW = 0.05  # part of a contact's elements that may be larger than that
 WIDER = 3.0  # reach within which elements are small: beyond the contact too, for what goes on under its edge
 SHRINK = 0.3  # of an element's size, per round
 ASKED = 0.7  # of the size wanted, for the mesher's elements turn out larger
+LESS = 0.85  # of that, more in every round: on flat faces each mesh is new, and some of its elements are always the larger ones
 SLACK = 1.4  # of the size wanted: longest edges
 NEAR = 1e-3  # mm: a face so near to a point is the one meant
 
@@ -49,7 +50,7 @@ class SolidBody(NamedTuple):
     loads: Sequence[tuple[Point, tuple[float, float, float]]] = ()
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PressedBodies:
     """Bodies pressed on each other; pairs: the names of each two that may touch."""
 
@@ -109,6 +110,11 @@ def press(
     """
     if not (contact_size > 0 and reach > 0):
         raise InputError(f"contact: contact_size {contact_size:g} m and reach {reach:g} m; both must be above 0")
+    if len(bodies) < 2:
+        raise InputError(f"contact: {len(bodies)} bodies; give two or more")
+    for name, body in bodies.items():
+        if wrong := [axis for _, axis in body.planes if axis not in ("x", "y", "z")]:
+            raise InputError(f"contact: a plane of symmetry of {name!r} has the axis {wrong[0]!r}; give 'x', 'y' or 'z', the one across it")
     if not friction >= 0:
         raise InputError(f"contact: a coefficient of friction of {friction:g}; it must be 0 or more")
     if progress is None:
@@ -207,7 +213,7 @@ def _meshes(shapes: Mapping[str, EngineObject], bodies: Mapping[str, SolidBody],
             with translated_errors(SolverError, f"contact: the mesher gave up on {name!r}", advice, PURPOSE):
                 meshes[name] = interruptible(partial(_curved_mesh, ng, occ.OCCGeometry(shape), sizes))
         skins = {name: skin_of(mesh, ".*") for name, mesh in meshes.items()}
-        more = {name: _too_large(name, skins, fine, reach) for name in shapes}
+        more = {name: _too_large(name, skins, fine, reach, ASKED * LESS**number) for name in shapes}
         if not any(len(places) for places, _ in more.values()):
             return meshes
         for name, (places, size) in more.items():
@@ -221,14 +227,14 @@ def _curved_mesh(ng: EngineObject, geometry: EngineObject, sizes: EngineObject) 
     return ng.Mesh(geometry.GenerateMesh(mp=sizes)).Curve(2)
 
 
-def _too_large(name: str, skins: Mapping[str, Skin], fine: float, reach: float) -> tuple[Floats, Floats]:
-    """Places (n, 3) and sizes (n,) [mm] for elements of a skin that may touch another and are larger than wanted."""
+def _too_large(name: str, skins: Mapping[str, Skin], fine: float, reach: float, asked: float) -> tuple[Floats, Floats]:
+    """Places (n, 3) and sizes (n,) [mm], `asked` of the size wanted at least, for elements of a skin near another that are larger."""
     own = skins[name]
     near = np.any([_may_touch(own, skin, reach) for other, skin in skins.items() if other != name], axis=0)
     chosen = near & (own.size > SLACK * fine)
     if chosen.sum() <= FEW * near.sum():
         chosen[:] = False
-    return middles(own)[0][chosen], np.maximum(SHRINK * own.size[chosen], ASKED * fine)
+    return middles(own)[0][chosen], np.maximum(SHRINK * own.size[chosen], asked * fine)
 
 
 def _may_touch(own: Skin, other: Skin, reach: float) -> Bools:
