@@ -76,5 +76,5 @@ def _answer_call(call: Callable[[], T], answer: Future[T]) -> None:
     with _one_call:
         try:
             answer.set_result(call())
-        except Exception as error:
+        except BaseException as error:  # whoever waits must hear of any end
             answer.set_exception(error)

@@ -135,9 +135,9 @@ def test_the_same_fit_has_the_gaps_that_the_model_was_made_with():
 
 def test_normals_of_a_seat_point_to_its_middle():
     for side, pairing in zip(("left", "right"), solid().model.pairings, strict=True):
-        inward = 1e3 * np.array([*plate().seat(side).center]) - pairing.places[:, :2]
+        inward = 1e3 * np.array([*plate().seat(side).center]) - pairing.points[:, :2]
         across = inward / np.linalg.norm(inward, axis=1, keepdims=True)
-        assert np.sum(across * pairing.normals[:, :2], axis=1) == pytest.approx(np.ones(len(across)), abs=0.01)
+        assert np.sum(across * pairing.outward[:, :2], axis=1) == pytest.approx(np.ones(len(across)), abs=0.01)
 
 
 def test_clearance_adds_its_volume_to_the_gaps():

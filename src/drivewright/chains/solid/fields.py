@@ -31,9 +31,8 @@ def solid_fields(history: SolidHistory, time: Floats, lives: Mapping[str, SkinLi
     The instants with the greatest stress of each body and with the greatest pressure are among those kept.  Displacements are relative to
     the mean of each body's.
     """
-    pressure = np.array([[part.max(initial=0.0) for part in state.pressure] for state in history.states])
     worst = {name: history.worst(name)[1] for name in BODIES}
-    steps = kept_steps(len(history.states), [*worst.values(), int(pressure.max(axis=1).argmax())], STEPS)
+    steps = kept_steps(len(history.states), [*worst.values(), int(history.seat_pressure.max(axis=1).argmax())], STEPS)
     bodies = tuple(_body(history, name, steps, lives[name]) for name in BODIES)
     moved = np.concatenate([each.displacements.reshape(-1, 3) for each in bodies]).astype(float)
     scale = exaggeration_for(float(np.ptp(bodies[0].points, axis=0).max()), moved, DRAWN)

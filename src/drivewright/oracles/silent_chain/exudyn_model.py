@@ -170,6 +170,7 @@ class _Twin:
         plates, load = 3 * self.count, np.zeros(2 * self.count + len(nodes))
 
         def force(system, time, number, q, rates):
+            """Forces on all coordinates, from the coordinates off the start and their rates."""
             load[:] = 0.0
             q, rates = np.asarray(q), np.asarray(rates)
             chain, own = plates_of(self.start + q[:plates].reshape(-1, 3), rates[:plates].reshape(-1, 3)), load[:plates].reshape(-1, 3)
@@ -203,6 +204,7 @@ class _Twin:
         return np.concatenate([system.systemData.GetODE2Coordinates(), system.systemData.GetODE2Coordinates_t()])
 
     def solve(self, steps, duration, samples, solver):
+        """Run `steps` steps over a duration [s] with one of Exudyn's solvers, writing so many samples."""
         settings = exudyn.SimulationSettings()
         time = settings.timeIntegration
         time.endTime, time.numberOfSteps, time.verboseMode = duration, steps, 0

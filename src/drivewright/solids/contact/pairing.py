@@ -29,15 +29,14 @@ GapOf: TypeAlias = Callable[[Floats, Floats], Floats]  # (points (n, d) [mm], no
 class Pairing(NamedTuple):
     """h hats of pressure between a first and a second skin.
 
-    corners (h,): numbers of the first skin's nodes; places, normals (h, d) there; area (h,) [mm^2] and gap (h,) [mm^3] of the hats; first,
-    second (h, d nodes): the functionals int h u.n of either body; tangents (h, d - 1, d) at right angles to these normals, and the
+    corners (h,): numbers of the first skin's nodes; places (h, d) of them; area (h,) [mm^2] and gap (h,) [mm^3] of the hats; first,
+    second (h, d nodes): the functionals int h u.n of either body; tangents (h, d - 1, d) at right angles to n, and the
     functionals int h u.t of either body along them, first_along, second_along (h (d - 1), d nodes).  weights (h, q): of the integrals over
     q points (q, d), which lie `apart` (q,) [mm] from the second body as meshed, along the normals `outward`.
     """
 
     corners: Ints
     places: Floats
-    normals: Floats
     area: Floats
     gap: Floats
     first: Rows
@@ -90,12 +89,12 @@ def paired(
         (amount[used], (owner[used], np.broadcast_to(np.arange(len(at))[:, None], owner.shape)[used])), shape=(len(corners), len(at))
     )
     own = surfaces.shape_functions(spot[at], dim)
-    place, out = _at_corners(first, corners, nodes[0])
+    place = np.zeros((nodes[0], dim))
+    place[first.corners] = first.places[:, :dim]
     across = _tangents(quadrature @ normal[at])
     return Pairing(
         corners,
-        place,
-        out,
+        place[corners],
         part[corners],
         quadrature @ gap[at],
         quadrature @ _normal_rows(own, first.nodes[element[at]], normal[at], nodes[0]),
@@ -158,21 +157,6 @@ def _tangents(normal: Floats) -> Floats:
     one /= np.linalg.norm(one, axis=1, keepdims=True)
     other: Floats = np.cross(normal, one)
     return np.stack([one, other], axis=1)
-
-
-def _at_corners(skin: Skin, corners: Ints, count: int) -> tuple[Floats, Floats]:
-    """Places (h, d) of corners, and unit normals there, mean over the elements that meet."""
-    dim = skin.places.shape[2]
-    place, normal = np.zeros((count, dim)), np.zeros((count, dim))
-    for number in range(dim):
-        local = np.zeros((len(skin.nodes), dim - 1))
-        if number < dim - 1:
-            local[:, number] = 1.0
-        points, out, stretch = surfaces.normals(skin, np.arange(len(skin.nodes)), local)
-        place[skin.nodes[:, number]] = points
-        np.add.at(normal, skin.nodes[:, number], out * stretch[:, None])
-    out = normal[corners]
-    return place[corners], out / np.linalg.norm(out, axis=1, keepdims=True)
 
 
 def _refuse_apart(met: Bools, distance: Floats, reach: float) -> None:
