@@ -398,6 +398,7 @@ class Result(Generic[SpecT]):
     arrays: Mapping[str, Array] = field(default_factory=dict)
     outcome: str = "complete"
     failures: Mapping[str, str] = field(default_factory=dict)  # {analysis that failed: the finding that says why}
+    left_out: Mapping[str, str] = field(default_factory=dict)  # {analysis that was left out: the finding that says why}
     warnings: tuple[str, ...] = ()  # those of the findings that a reader must not miss; the verdict counts them
     fields: Mapping[str, SurfaceFields] = field(default_factory=dict)
 

@@ -31,17 +31,21 @@ def run(
 ) -> Result[SpecT]:
     """Result of the default analyses of a spec, of exactly those named in `only` and what they need, or of all.
 
-    `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings.
+    `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings, an analysis of `only` among
+    the warnings.
     `model` is the spec's own, where it has been built already.  An analysis that fails in whatever way, or that looks at a run which
     stopped, makes the outcome "partial", and a finding says why; the other analyses keep their answers.
     """
     started = time.perf_counter()
     mechanism = registry.mechanism(spec.mechanism)
+    only = (only,) if isinstance(only, str) and only else tuple(only)
     selected = select_analyses(mechanism.analyses, only, everything)
     model = mechanism.build(spec) if model is None else model
     answers = run_analyses(spec, model, selected, progress)
-    warnings = tuple(warning for answer in answers.values() for warning in answer.warnings)
-    findings = [*warnings, *getattr(model, "findings", ()), *_findings(answers)]
+    left_out = {name: answer.findings[-1] for name, answer in answers.items() if answer.outcome == "left out"}
+    unanswered = [left_out[name] for name in only if name in left_out]
+    warnings = tuple(dict.fromkeys([*(warning for answer in answers.values() for warning in answer.warnings), *unanswered]))
+    findings = [*warnings, *getattr(model, "findings", ()), *(each for each in _findings(answers) if each not in unanswered)]
     findings += [*stop_findings(answers), *_missing_numbers(answers)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
@@ -49,7 +53,8 @@ def run(
         if not only and not everything and not a.default
     ]
     answers = {name: _with_stop_times(answer) for name, answer in answers.items()}
-    return replace(_result(spec, mechanism, answers, findings, time.perf_counter() - started), warnings=warnings)
+    result = _result(spec, mechanism, answers, findings, time.perf_counter() - started)
+    return replace(result, warnings=warnings, left_out=left_out)
 
 
 def run_analyses(

@@ -10,7 +10,7 @@ import pytest
 from spec_cases import FULL, install
 
 from drivewright import cli
-from drivewright.errors import InputError, SolverError
+from drivewright.errors import InputError, MissingExtra, SolverError
 from drivewright.registry import Analysis
 from drivewright.result import Answer, Check, Value
 
@@ -26,6 +26,8 @@ def answer(spec, done):
         raise InputError("no force holds it")
     if MODES["kind"] == "has a fault":
         raise ZeroDivisionError("division by zero")
+    if MODES["kind"] == "is left out":
+        raise MissingExtra("the reach", "fe")
     if MODES["kind"] == "interrupted":
         raise KeyboardInterrupt
     limit = Check("reach", spec.length, 0.1, "<=", "m", "must fit the box")
@@ -92,6 +94,16 @@ def test_the_last_line_is_the_verdict_and_a_warning_stands_before_it(drivewright
     code, _, err = drivewright("run", "toy.toml", "--no-figures", "--strict")
     assert code == 0 and err.splitlines()[-2:] == ["warning: pins slip", "verdict: 1 check passes, 1 warning"]
     assert "note: pins slip" not in err
+
+
+@pytest.mark.parametrize("command", [["run", "toy.toml", "--no-figures"], ["compare", "toy.toml", "toy.toml"]])
+def test_what_was_asked_for_by_name_and_is_left_out_exits_with_2_and_says_why(drivewright, toy, monkeypatch, command):
+    monkeypatch.setitem(MODES, "kind", "is left out")
+    code, _, err = drivewright(*command, "--only", "reach")
+    assert code == 2
+    assert "analysis 'reach' (how far) is left out: the reach needs the extra 'fe'" in err
+    assert "warning: " in err
+    assert drivewright(*command)[0] == 0
 
 
 def test_json_alone_goes_to_stdout(drivewright, toy):
@@ -212,7 +224,8 @@ def test_an_interrupt_exits_with_130_and_leaves_no_rubbish(drivewright, toy, mon
     monkeypatch.setitem(MODES, "kind", "interrupted")
     before = snapshot(toy)
     code, out, err = drivewright("run", "toy.toml", "--no-figures")
-    assert code == 130 and out == "" and "interrupted" in err and "Traceback" not in err and snapshot(toy) == before
+    assert code == 130 and out == "" and "interrupted; what was not written yet is lost" in err and snapshot(toy) == before
+    assert "Traceback" not in err
 
 
 # -- the other commands --------------------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@ from drivewright import registry
 from drivewright._jit import compilation
 from drivewright._jit.compilation import BEGUN, DONE, FOUND, USUAL, Compilation, usual_seconds, watched_by
 from drivewright.cli import show
+from drivewright.steps import note_step
 
 pytestmark = pytest.mark.interface
 
@@ -121,6 +122,23 @@ def test_where_kernels_cannot_be_kept_it_says_that_every_run_compiles(clock, cap
     assert lines_of(clock, capsys, "file.toml", "press", ("a", BEGUN, 0), ("a", DONE, 2))[0].startswith(
         "compiling kernels for 'press' (in every run: the user's cache folder cannot be written to) 1/3"
     )
+
+
+def test_without_a_terminal_a_line_now_and_then_says_how_far_it_is(clock, capsys, monkeypatch):
+    monkeypatch.setattr("drivewright.steps.EACH", 0.0)
+    with show.progress("file.toml", "stranger") as step:
+        for done, seconds in enumerate([0, 29, 2, 5, 20]):
+            clock.now += seconds
+            step(done, 5, f"stress {done}")
+        clock.now += 31
+        note_step("load steps", 3, 24)
+        clock.now += 31
+        step(0, 0, "of unknown length")
+    assert capsys.readouterr().err.splitlines() == [
+        "file.toml: 2 of 5 done, stress 2",
+        "file.toml: 4 of 5 done, stress 4: load steps, 3 of 24",
+        "file.toml: of unknown length",
+    ]
 
 
 def test_two_quick_kernels_are_not_worth_a_line(clock, capsys):

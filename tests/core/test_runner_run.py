@@ -130,6 +130,18 @@ def test_what_is_left_out_says_why_and_takes_its_dependants_along(kind):
     )
 
 
+def test_an_analysis_asked_for_by_name_that_is_left_out_is_a_warning_and_what_it_needs_is_not(kind):
+    kind(Analysis("a", needs_extra, "solid"), Analysis("b", says(b=1.0), "on top", needs=("a",)), Analysis("c", says(c=1.0), "apart"))
+    result = runner.run(SPEC, only=("b", "c"))
+    (told,) = result.warnings
+    assert told == "analysis 'b' (on top) is left out: it needs 'a', which is left out"
+    assert result.findings.count(told) == 1
+    assert result.findings[0] == told
+    assert set(result.left_out) == {"a", "b"}
+    assert result.left_out["b"] == told
+    assert runner.run(SPEC).warnings == () != runner.run(SPEC).left_out
+
+
 def test_warnings_of_all_analyses_come_first_among_the_findings(kind):
     kind(
         Analysis("a", lambda model, done: Answer(findings=("all is told",), warnings=("pins slip",)), "first"),

@@ -23,6 +23,7 @@ from drivewright.errors import DrivewrightError, InputError
 
 INTERRUPTED = 130
 COMPLETION = "_DRIVEWRIGHT_COMPLETE"  # set by the shell where it asks for words: eval "$(_DRIVEWRIGHT_COMPLETE=source_bash drivewright)"
+RESUMABLE = frozenset({"sweep", "optimise", "reproduce"})  # commands that keep each part as soon as it is finished
 GRACE = 2.0  # seconds in which a command may find out by itself that memory is used up
 
 _ended, _starved = threading.Event(), threading.Event()  # the command; a thread of it, for want of memory
@@ -63,7 +64,7 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
     except (KeyboardInterrupt, *_aborts()):
         if _starved.is_set():
             sys.exit(_no_memory())
-        print("interrupted; what was finished before is kept, and the same command goes on", file=sys.stderr)
+        print(f"interrupted; {_kept(sys.argv[1:] if arguments is None else arguments)}", file=sys.stderr)
         _leave(exit_code(received))
     except BrokenPipeError:
         sys.stderr.close()
@@ -72,6 +73,13 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
         if not _wants_memory(error):
             raise
         sys.exit(_no_memory())
+
+
+def _kept(arguments: list[str]) -> str:
+    """What is left of an interrupted command."""
+    if RESUMABLE.intersection(arguments):
+        return "what was finished before is kept, and the same command goes on"
+    return "what was not written yet is lost, and the same command begins it anew"
 
 
 def _leave(code: int) -> NoReturn:

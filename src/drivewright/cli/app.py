@@ -117,7 +117,7 @@ def run(
         show.note(f"wrote {folder}/")
         if not as_json:
             show.result(result)
-    show.finish_run(results, as_json, strict)
+    show.finish_run(results, _names(only), as_json, strict)
 
 
 @app.command()
@@ -149,7 +149,7 @@ def compare(
             write_comparison(comparison, [seen for _, seen in designs], folder, compute)
     show.note(f"wrote {folder}/")
     compared.show_comparison(comparison, bool(set_))
-    show.finish_run(comparison.results)
+    show.finish_run(comparison.results, _names(only))
 
 
 @app.command()

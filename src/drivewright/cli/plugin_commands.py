@@ -118,7 +118,7 @@ def _run_command(command: Command, texts: Mapping[str, str], out: Path | None, f
     show.note(f"wrote {folder}/")
     if not as_json:
         show.result(result)
-    show.finish_run([result], as_json, strict)
+    show.finish_run([result], as_json=as_json, strict=strict)
 
 
 @contextmanager

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     Header: TypeAlias = Iterable[tuple[str, JustifyMethod]]
 
 MAX_STUDY_ROWS = 12  # of a study's values
+SELDOM = 30.0  # seconds between two lines on how far a command is, where no bar can be drawn
 
 
 def note(text: str) -> None:
@@ -57,7 +58,7 @@ def _disk_error(error: OSError) -> InputError:
 
 @contextlib.contextmanager
 def progress(title: str, kind: str = "") -> "Iterator[Progress]":
-    """A callable step(done, total, what) that moves a bar; without a terminal only what is compiled is said, on stderr.
+    """A callable step(done, total, what) that moves a bar; without a terminal a line on stderr every `SELDOM` seconds says how far it is.
 
     `kind` of the drive, for the words about compiling.
     """
@@ -65,8 +66,8 @@ def progress(title: str, kind: str = "") -> "Iterator[Progress]":
     from drivewright.steps import detailed
 
     if not sys.stderr.isatty():
-        with compiling(kind or title):
-            yield lambda done, total, what: None
+        with compiling(kind or title), detailed(_seldom(title)) as step:
+            yield step
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, ProgressColumn, Task, TextColumn, TimeRemainingColumn
@@ -85,6 +86,19 @@ def progress(title: str, kind: str = "") -> "Iterator[Progress]":
         task = bar.add_task(title, total=None, what="")
         with detailed(lambda done, total, what: bar.update(task, completed=done, total=total, what=what)) as step:
             yield step
+
+
+def _seldom(title: str) -> "Progress":
+    """step(done, total, what) that says how far it is once `SELDOM` seconds have passed since it last did, or since now."""
+    told = time.monotonic()
+
+    def step(done: int, total: int, what: str) -> None:
+        nonlocal told
+        if time.monotonic() - told >= SELDOM:
+            told = time.monotonic()
+            note(f"{title}: {', '.join(filter(None, [f'{done} of {total} done' if total else '', what]))}")
+
+    return step
 
 
 @contextlib.contextmanager
@@ -222,8 +236,9 @@ def _meaning(value: "Value") -> str:
     return f"{value.meaning} ({interval})" if interval else value.meaning
 
 
-def finish_run(results: "Sequence[Result[Any]]", as_json: bool = False, strict: bool = False) -> None:
-    """The end of a run: JSON on stdout where requested; exit 4 after a solver that gave up, 3 after a failed check with `strict`."""
+def finish_run(results: "Sequence[Result[Any]]", only: "Sequence[str]" = (), as_json: bool = False, strict: bool = False) -> None:
+    """The end of a run: JSON on stdout where requested; exit 4 after a solver that gave up, 2 where an analysis that was asked for by
+    name was left out, 3 after a failed check with `strict`."""
     import typer
 
     if as_json:
@@ -232,6 +247,8 @@ def finish_run(results: "Sequence[Result[Any]]", as_json: bool = False, strict: 
         print()
     if any(each.outcome == "partial" for each in results):
         raise typer.Exit(4)
+    if any(name in each.left_out for each in results for name in only):
+        raise typer.Exit(2)
     if strict and not all(each.ok for each in results):
         raise typer.Exit(3)
 

@@ -210,7 +210,7 @@ class ProcessExecutor:
     def close(self) -> None:
         """The process leaves as soon as its end of the pipe is closed, whatever it does at the moment."""
         self._hold.close()
-        self._executor.shutdown(wait=False, cancel_futures=True)
+        self._executor.shutdown(cancel_futures=True)  # waits: Python 3.11 may trip over a pool that ends while the interpreter does
 
 
 def _load_evaluation() -> None:

@@ -9,6 +9,7 @@ from places import ROOT
 from drivewright.contact import hertz
 from drivewright.errors import InputError
 from drivewright.solids.contact import ContactModel, Functional, Link, Pair, SolidBody, press
+from drivewright.solids.contact.model import CoarseContact
 from drivewright.solids.elastic import FreeBody, Plane
 from tests.support.pressed_bodies import NU, SHEET, E, block, quarter_disc
 
@@ -59,8 +60,22 @@ def test_a_motion_that_nothing_holds_and_nothing_drives_is_left_alone():
 
 
 def test_a_load_that_lifts_off_is_refused():
-    with pytest.raises(InputError, match="no pressure on the surfaces balances the loads.*'upper'"):
+    with pytest.raises(InputError, match="pressure does not keep 'upper' from moving along y, where the loads drive it"):
         model(upper_block()).solve({"push": -100.0})
+
+
+def test_a_load_that_tips_is_refused_with_the_turn():
+    """A push outside the foot tips the block over its edge; the two senses differ."""
+    upper = upper_block()
+    lower = lower_block()
+    turn = Functional("upper", upper.mean("top", (1, 0)))
+    stop = Link((Functional("upper", upper.mean("bottom", (1, 0))),))
+    push = Functional("upper", upper.mean("top", (0, -1)))
+    pair = Pair(("upper", "bottom"), ("lower", "top"), 1e-4)
+    made = ContactModel({"upper": upper, "lower": lower}, [pair], [stop], {"push": push, "turn": turn})
+    assert made.solve({"push": 100.0, "turn": 10.0}).force(0)[1] == pytest.approx(100.0, rel=1e-6)
+    with pytest.raises(InputError, match="pressure does not keep 'upper' from turning, where"):
+        made.solve({"push": 100.0, "turn": 200.0})
 
 
 def test_a_link_holds_it():
@@ -89,8 +104,10 @@ def test_elements_larger_than_half_the_contact_are_told_with_the_size_to_take():
     pair = Pair(("upper", "contact"), ("lower", "contact"), 1e-4)
     made = ContactModel({"upper": upper, "lower": lower}, [pair], [], {"push": Functional("upper", upper.mean("flat", (0, -1)))})
     words = r"elements of 0\.04 mm on 'contact' of 'upper' are larger than half the width of the contact, which is .*give elements of"
-    with pytest.raises(InputError, match=words):
+    with pytest.raises(CoarseContact, match=words) as told:
         made.solve({"push": 0.5})
+    assert told.value.size == pytest.approx(0.04, rel=0.2)
+    assert told.value.width < 2 * told.value.size
     assert made.solve({"push": 0.5}, narrow=True).force(0)[1] == pytest.approx(0.5)
 
 
@@ -166,7 +183,7 @@ def test_a_block_from_a_file_is_held_by_friction_and_slides_without(files):
     assert traction.T @ area == pytest.approx([20.0, 10.0, 0.0], abs=1e-6)
     bound = 0.3 * pressed.pressure("weight", "block")[1]
     assert np.all(np.linalg.norm(traction, axis=1) <= bound * (1 + 1e-9))
-    with pytest.raises(InputError, match="make it slide"):
+    with pytest.raises(InputError, match="pressure and friction do not keep 'weight' from moving along x, where the loads drive it"):
         press({"weight": weight, "block": block}, 1.5e-3, 1e-6, friction=0.2)
     with pytest.raises(InputError, match="coefficient of friction of -1; it must be 0 or more"):
         press({"weight": weight, "block": block}, 1.5e-3, 1e-6, friction=-1.0)
@@ -190,7 +207,10 @@ def test_files_and_faces_that_are_not_there_are_told(files):
     with pytest.raises(InputError, match=r"no file .*none\.step.* for the body 'ball'; give the path of a STEP file"):
         press(ball_and_block(files, file=files / "none.step"), 1e-4, 1e-5)
     (files / "broken.step").write_text("nothing")
-    with pytest.raises(InputError, match=r"'broken\.step' cannot be read as a STEP file"):
+    with pytest.raises(InputError, match=r"'broken\.step' cannot be read as a STEP file: it does not begin with ISO-10303-21"):
+        press(ball_and_block(files, file=files / "broken.step"), 1e-4, 1e-5)
+    (files / "broken.step").write_text("ISO-10303-21; nothing more")
+    with pytest.raises(InputError, match=r"'broken\.step' cannot be read as a STEP file \("):
         press(ball_and_block(files, file=files / "broken.step"), 1e-4, 1e-5)
     with pytest.raises(InputError, match=re.escape("no face of 'ball' lies at (30, 0, 0) mm; the nearest is")):
         press(ball_and_block(files, loads=[((30e-3, 0, 0), (0, 0, -1.0))]), 1e-4, 1e-5)
@@ -202,3 +222,12 @@ def test_files_and_faces_that_are_not_there_are_told(files):
         press(ball_and_block(files, planes=[((0, 4e-3, 6e-3), "w")]), 1e-4, 1e-5)
     with pytest.raises(InputError, match="contact_size -1 m"):
         press(bodies, -1.0, 1e-5)
+    with pytest.raises(InputError, match="'ball': size is '2 mm'; give a number in SI units, such as 2e-3 for 2 mm"):
+        press(ball_and_block(files, size="2 mm"), 1e-4, 1e-5)
+    with pytest.raises(InputError, match="contact_size is '0.1 mm'; give a number in SI units"):
+        press(bodies, "0.1 mm", 1e-5)  # pyright: ignore[reportArgumentType]
+
+
+def test_elements_too_large_are_told_with_the_bodies_that_touch(files):
+    with pytest.raises(CoarseContact, match=r"elements of [\d.]+ mm on 'ball' at 'block' are larger than half"):
+        press(ball_and_block(files, force=-0.5), 0.3e-3, 5e-6)

@@ -26,6 +26,7 @@ OUTWARD = {"left": -1.0, "right": 1.0}  # sense along x that leads out of a plat
 STRIP = 0.08  # width sigma of a rolling contact's strip in radii of the seat
 HATS = 12  # of the rolling contact along half a pin
 APART = 1.0  # mm: gap of a part of a seat that does not bear
+LOOSEST = 0.05  # clearance in radii of the seat
 REACH = 2e-5  # m: beyond the clearance, what may close
 
 
@@ -122,12 +123,22 @@ def pin_body(outline: Outline, stack: Stack, material: Material, sizes: Sizes, s
 def seat_pair(plate: Plate, name: str, side: str, pin: str, fit: Fit, edges: tuple[float, float], shift: float) -> Pair:
     """The `Pair` of a plate's seat and its pin in a `Fit`, between a plate's faces at `edges` [m]."""
     more = seat_gap(plate, side, fit, edges, shift)
-    return Pair((name, f"seat {side}.*"), (pin, "skin"), fit.clearance + 0.5 * fit.edge_radius + REACH, more, friction=fit.friction)
+    reach = fit.clearance + 0.5 * fit.edge_radius + REACH
+    return Pair((name, f"seat {side}.*"), (pin, "skin"), reach, more, friction=fit.friction, label=f"the {side} seat of a plate")
 
 
 def seat_gap(plate: Plate, side: str, fit: Fit, edges: tuple[float, float], shift: float = 0.0) -> GapOf:
-    """Gap of a seat that the mesh does not have: clearance, rounded edges of the hole, and the part of the seat that does not bear."""
+    """Gap of a seat that the mesh does not have: clearance, rounded edges of the hole, and the part of the seat that does not bear.
+
+    InputError where the clearance is no small part of the seat's radius: the mesh has hole and pin alike.
+    """
     seat = plate.seat(side)
+    if fit.clearance > LOOSEST * seat.radius:
+        most = LOOSEST * seat.radius
+        raise InputError(
+            f"stress of solids: a clearance of {fit.clearance / MM:.4g} mm is too much for small displacements around a pin of "
+            f"{seat.radius / MM:.4g} mm in radius; give solid.clearance {most / MM:.2g} mm or less."
+        )
     centre, radius = (complex(*seat.center) + shift) / MM, fit.edge_radius / MM
 
     def gap(points: Floats, normals: Floats) -> Floats:

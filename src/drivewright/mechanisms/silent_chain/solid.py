@@ -1,6 +1,7 @@
 """Plate and pins of the running chain as elastic solids in contact: stress, pressure, life."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 import numpy as np
 
@@ -14,11 +15,14 @@ from drivewright.chains.solid.meshes import usual_sizes
 from drivewright.chains.solid.pitch import PlateAndPins, plate_and_pins
 from drivewright.chains.stress.plate import SIDES, stress_history, worst
 from drivewright.chains.stress.revolution import PlateRevolution, loads_at, turning_points
+from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.missing import unless_impossible
+from drivewright.mechanisms.silent_chain.spec import FINEST, Solid
 from drivewright.mechanisms.silent_chain.stress import card_of, plane_basis, plate_revolution
 from drivewright.numerics.ensemble import mean_of_members
 from drivewright.result import Answer, Answers, Check, Table, Value
+from drivewright.solids.contact.model import ACROSS, CoarseContact
 from drivewright.solids.plane import plane_von_mises
 
 PIN_VIEW = (2, 1, 0)  # along the pin to the right, seen from outside
@@ -38,10 +42,26 @@ def solid_stress(model: ChainModel, done: Answers) -> Answer:
             findings=("solid_stress is left out: the run is shorter than a revolution of the chain; give dynamics.duration more, or none",),
             outcome="left out",
         )
-    rolling, solid = condensed(model, revolutions)
     kept = [steps(model, each) for each in revolutions]
-    histories = [solid_history(solid, loads_at(each.loads, rows)) for each, rows in zip(revolutions, kept, strict=True)]
+    with _fine_enough(model.spec.solid):
+        rolling, solid = condensed(model, revolutions)
+        histories = [solid_history(solid, loads_at(each.loads, rows)) for each, rows in zip(revolutions, kept, strict=True)]
     return _answer(model, rolling, histories, revolutions[0].time[kept[0]])
+
+
+@contextmanager
+def _fine_enough(given: Solid) -> Iterator[None]:
+    """Says of a contact that is too narrow for its elements which keys of the spec help."""
+    try:
+        yield
+    except CoarseContact as error:
+        width = f"{error.width:.3g} mm" if error.width > 0 else "less than an element"
+        finer = given.fineness * ACROSS * error.size / error.width if error.width > 0 else np.inf
+        remedy = f"solid.fineness {np.ceil(10 * finer) / 10:.2g} or more, or " if finer <= FINEST else ""
+        raise InputError(
+            f"a pin presses its seat on {width}, narrower than two elements of {error.size:.3g} mm; with a clearance of "
+            f"{1e6 * given.clearance:.4g} um they touch almost along a line. Give {remedy}a smaller solid.clearance."
+        ) from None
 
 
 def steps(model: ChainModel, revolution: PlateRevolution) -> Ints:

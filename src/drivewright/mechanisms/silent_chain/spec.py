@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 else:
     ContactLaw = Literal[("kelvin-voigt", *sorted(installed("drivewright.contact_laws")))]
 TURN = 6.283185307179586
+FINEST = 3.0  # fineness of solids: beyond, memory and time run out
 LEAST_TEETH = 6  # below, a polygon is no sprocket
 
 
@@ -284,7 +285,7 @@ class Solid(Spec):
     load_steps: Integer = Field(
         24, ge=2, le=500, description="instants of a revolution of the chain, the largest and smallest forces among them"
     )
-    fineness: Number = Field(1.0, ge=0.7, le=3, description="of the elements: 2 halves them all")
+    fineness: Number = Field(1.0, ge=0.7, le=FINEST, description="of the elements: 2 halves them all")
 
 
 class Limits(Spec):

@@ -65,13 +65,17 @@ def sizes(matrix: Floats, held: Floats) -> Floats:
     return np.maximum(np.maximum(own, SHARE * usual * weight), np.sqrt(TINY) * own.max(initial=1e-300))
 
 
-def balance_exists(rays: Floats, load: Floats) -> bool:
-    """Whether amounts, not negative, of rays (m, k) have a sum that balances a load (m,): R y + h = 0."""
+def unbalanced(rays: Floats, load: Floats) -> Floats:
+    """What of a load (m,) no amounts y >= 0 of rays (m, k) balance: r = R y + h of the least length, 0 where a balance exists.
+
+    As a motion no ray works against it, R'r >= 0, while the load does, h'r = |r|^2 > 0 (Farkas): it is the way things go.
+    """
     from scipy.optimize import nnls
 
     size = np.linalg.norm(rays, axis=0)
-    _, missing = nnls(rays[:, size > 0] / size[size > 0], -load)
-    return bool(missing <= BALANCED * np.linalg.norm(load))
+    unit = rays[:, size > 0] / size[size > 0]
+    rest = unit @ nnls(unit, -load)[0] + load
+    return np.where(np.linalg.norm(rest) > BALANCED * np.linalg.norm(load), rest, 0.0)
 
 
 def _active_set(matrix: Floats, right: Floats, held: Floats, load: Floats, one_sided: Bools, pressing: Bools) -> Pressed | None:

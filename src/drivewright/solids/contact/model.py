@@ -14,7 +14,7 @@ import scipy
 
 from drivewright._typing import Bools, Floats
 from drivewright.errors import InputError, SolverError
-from drivewright.solids.contact.complementarity import Pressed, balance_exists, solve_complementarity
+from drivewright.solids.contact.complementarity import Pressed, solve_complementarity, unbalanced
 from drivewright.solids.contact.condensing import Condensed, Rows, condense, load_rows, solved
 from drivewright.solids.contact.friction import Grips, solve_friction
 from drivewright.solids.contact.pairing import GapOf, Pairing, paired
@@ -32,7 +32,8 @@ class Pair(NamedTuple):
     """Two named parts of two bodies' boundaries that may touch: (body, regular expression) each.
 
     The pressure lives on the elements of the first: take the finer or the more curved.  reach [m]: the largest gap that may close; `more`:
-    what is added to the gap; press_fit: an overlap before any load is meant; friction: Coulomb's coefficient.
+    what is added to the gap; press_fit: an overlap before any load is meant; friction: Coulomb's coefficient; label: what a message calls
+    the part of the first.
     """
 
     first: tuple[str, str]
@@ -41,6 +42,15 @@ class Pair(NamedTuple):
     more: GapOf | None = None
     press_fit: bool = False
     friction: float = 0.0
+    label: str = ""
+
+
+class CoarseContact(InputError):
+    """A contact narrower than two of its elements; size and width [mm]: of the elements there, and of the contact, 0 where unknown."""
+
+    def __init__(self, message: str, size: float = 0.0, width: float = 0.0) -> None:
+        super().__init__(message)
+        self.size, self.width = size, width
 
 
 class Functional(NamedTuple):
@@ -153,8 +163,8 @@ class ContactModel:
         With friction the answer depends on the way there: what slips is counted from the state before, or from the unloaded bodies.
         Without friction `start` only saves time.
 
-        InputError where a contact is too narrow for its elements, unless `narrow` says that it does not matter, as under a load that is
-        small beside others.
+        `CoarseContact` where a contact is too narrow for its elements, unless `narrow` says that it does not matter, as under a load that
+        is small beside others.
         """
         if unknown := sorted(set(forces) - set(self.loads)):
             raise InputError(f"contact: no load is called {unknown[0]!r}; there are {', '.join(self.loads)}")
@@ -162,7 +172,7 @@ class ContactModel:
         slid = np.zeros(sum(self._rubbing)) if start is None else start.slid
         right[sum(self._hats) : sum(self._hats) + len(slid)] -= slid
         basis = _held_motions(held, load, self._motions)
-        found = self._pressed(matrix, right, basis.T @ held, basis.T @ load, start)
+        found = self._pressed(matrix, right, held, load, basis, start)
         moved = dict.fromkeys(self.bodies, np.zeros(0))
         moved |= _split(basis @ found.motions, {name: len(body.modes) for name, body in self._motions})
         state = self._state(forces, found, slid, moved)
@@ -172,7 +182,7 @@ class ContactModel:
         return state
 
     def refuse_narrow(self, state: ContactState, number: int) -> None:
-        """InputError where what presses of a pair is narrower than two of the elements there."""
+        """`CoarseContact` where what presses of a pair is narrower than two of the elements there."""
         pair, each, (skin, _) = self.pairs[number], self.pairings[number], self.skins[number]
         pressing = state.pressure[number] > 0
         if not pressing.any():
@@ -180,10 +190,12 @@ class ContactModel:
         size = float(np.median(skin.size[np.isin(skin.corners, each.corners[pressing]).any(axis=1)]))
         width = contact_width(each, pressing, self.bodies[pair.first[0]])
         if width < ACROSS * size:
-            raise InputError(
-                f"contact: the elements of {size:.3g} mm on {pair.first[1]!r} of {pair.first[0]!r} are larger than half the width of the "
-                f"contact, which is {f'about {width:.3g} mm wide' if width > 0 else 'narrower than one of them'}; give elements of "
-                f"{(width or size) / 4:.2g} mm there or smaller."
+            raise CoarseContact(
+                f"contact: the elements of {size:.3g} mm on {pair.label or f'{pair.first[1]!r} of {pair.first[0]!r}'} are larger than half "
+                f"the width of the contact, which is {f'about {width:.3g} mm wide' if width > 0 else 'narrower than one of them'}; give "
+                f"elements of {(width or size) / 4:.2g} mm there or smaller.",
+                size,
+                width,
             )
 
     def displacement(self, body: str, state: ContactState) -> Floats:
@@ -217,22 +229,22 @@ class ContactModel:
         normal = np.flatnonzero(rubs)
         return Grips(normal, sum(hats) + np.arange(len(normal) * ways).reshape(-1, ways), rubs[normal])
 
-    def _pressed(self, matrix: Floats, right: Floats, held: Floats, load: Floats, start: ContactState | None) -> Pressed:
-        """Solution of the programme; InputError where nothing balances the loads."""
+    def _pressed(self, matrix: Floats, right: Floats, held: Floats, load: Floats, basis: Floats, start: ContactState | None) -> Pressed:
+        """Solution of the programme with the rigid motions of `basis` (m, k); InputError where nothing balances the loads."""
         first = None if start is None else start.answer
+        held, load = basis.T @ held, basis.T @ load
         try:
             if any(self._rubbing):
                 return solve_friction(matrix, right, held, load, self.one_sided, self._grips, first)
             return solve_complementarity(matrix, right, held, load, self.one_sided, None if first is None else first.pressing)
         except SolverError:
-            if balance_exists(self._rays(held), load):
+            motion = unbalanced(self._rays(held), load)
+            if not motion.any():
                 raise
-            words = ", ".join(repr(name) for name, _ in self._motions)
-            what, how = "no pressure on the surfaces balances", "pull a body off, or tip it over an edge"
-            if any(self._rubbing):
-                what, how = "no pressure and friction on the surfaces balance", "pull a body off, tip it over an edge, or make it slide"
+            name, way = _largest_motion(self._motions, basis @ motion)
+            what = "pressure and friction do not keep" if any(self._rubbing) else "pressure does not keep"
             raise InputError(
-                f"contact: {what} the loads on {words}: they {how}. Turn the load round, or give the body a support."
+                f"contact: {what} {name!r} from {way}, where the loads drive it. Turn a load round, or give the body a support."
             ) from None
 
     @property
@@ -339,10 +351,10 @@ def _held_motions(held: Floats, load: Floats, bodies: Sequence[tuple[str, FreeBo
     basis = axes[:, : int(np.sum(sizes > LOOSE * sizes[0]))]
     rest = load - basis @ (basis.T @ load)
     if np.abs(rest).max() > DRIVEN * np.abs(load).max(initial=1e-300):
-        name, motion = [(name, k) for name, body in bodies for k in range(len(body.modes))][int(np.abs(rest).argmax())]
+        name, way = _largest_motion(bodies, rest)
         raise InputError(
-            f"contact: nothing holds {name!r} against {_words(dict(bodies)[name], motion)}, and a load drives it there; give it a "
-            "support, a plane of symmetry, or a surface to press on."
+            f"contact: nothing holds {name!r} against {way}, and a load drives it there; give it a support, a plane of symmetry, or a "
+            "surface to press on."
         )
     return basis
 
@@ -351,10 +363,13 @@ def _split(values: Floats, sizes: Mapping[str, int]) -> dict[str, Floats]:
     return dict(zip(sizes, np.split(values, np.cumsum(list(sizes.values()))[:-1]), strict=True))
 
 
-def _words(body: FreeBody, motion: int) -> str:
-    """The rigid motion in words."""
-    part = int(np.abs(body.basis[:, motion]).argmax())
-    shifts = body.mesh.dim
+def _largest_motion(bodies: Sequence[tuple[str, FreeBody]], motion: Floats) -> tuple[str, str]:
+    """The body that moves most in a motion (m,) of all of them, and the greatest part of how it moves in words."""
+    amounts = _split(motion, {name: len(body.modes) for name, body in bodies})
+    moves = {name: body.basis @ amounts[name] for name, body in bodies}
+    name = max(moves, key=lambda each: np.abs(moves[each]).max())
+    part = int(np.abs(moves[name]).argmax())
+    shifts, sign = dict(bodies)[name].mesh.dim, "-" if moves[name][part] < 0 else ""
     if part < shifts:
-        return f"moving along {'xyz'[part]}"
-    return "turning" if shifts == 2 else f"turning about {'xyz'[part - shifts]}"
+        return name, f"moving along {sign}{'xyz'[part]}"
+    return name, "turning" if shifts == 2 else f"turning about {sign}{'xyz'[part - shifts]}"

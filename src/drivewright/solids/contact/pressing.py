@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from drivewright._typing import Bools, Floats
-from drivewright.errors import InputError, SolverError
+from drivewright.errors import InputError, SolverError, brief
 from drivewright.solids.contact.model import ContactModel, ContactState, Functional, Pair
 from drivewright.solids.contact.surfaces import Skin, at_nodes, hit_by_rays, middles, skin_of
 from drivewright.solids.elastic import MM, FreeBody
@@ -30,6 +30,8 @@ SHRINK = 0.3  # of an element's size, per round
 ASKED = 0.7  # of the size wanted, for the mesher's elements turn out larger
 LESS = 0.85  # of that, more in every round: on flat faces each mesh is new, and some of its elements are always the larger ones
 SLACK = 1.4  # of the size wanted: longest edges
+TOUCHING = "(?!fixed|load).*"  # faces that may touch another body
+STEP = b"ISO-10303-21"  # the first words of every STEP file
 NEAR = 1e-3  # mm: a face so near to a point is the one meant
 
 
@@ -108,6 +110,7 @@ def press(
     overlap before any load is meant.  `progress(done, total, what)` is called, with 0 of 1, as bodies are meshed and condensed: `what` says
     how far that is.
     """
+    _refuse_text("contact", contact_size=contact_size, reach=reach, friction=friction)
     if not (contact_size > 0 and reach > 0):
         raise InputError(f"contact: contact_size {contact_size:g} m and reach {reach:g} m; both must be above 0")
     if len(bodies) < 2:
@@ -136,7 +139,7 @@ def _pressed(bodies: Mapping[str, SolidBody], contact_size: float, reach: float,
         gap = min(MM * one.Distance(other) for one, other in combinations(shapes.values(), 2))
         raise InputError(f"contact: no two bodies come nearer than the reach of {1e3 * reach:.4g} mm; the least gap is {1e3 * gap:.4g} mm")
     pairs = [
-        Pair((first, "(?!fixed|load).*"), (second, "(?!fixed|load).*"), reach, press_fit=press_fit, friction=friction)
+        Pair((first, TOUCHING), (second, TOUCHING), reach, press_fit=press_fit, friction=friction, label=f"{first!r} at {second!r}")
         for first, second in near
     ]
     loads = {
@@ -153,14 +156,17 @@ def _named(name: str, body: SolidBody) -> EngineObject:
     occ, path = fe_module("netgen.occ", PURPOSE), Path(body.file)
     if not path.is_file():
         raise InputError(f"contact: no file {str(path)!r} for the body {name!r}; give the path of a STEP file")
+    _refuse_text(f"contact: {name!r}", modulus=body.modulus, poisson=body.poisson, size=body.size)
     if not (body.size > 0 and body.modulus > 0 and -1 < body.poisson < 0.5):
         raise InputError(
             f"contact: {name!r} has elements of {body.size:g} m, a modulus of {body.modulus:g} Pa and Poisson's ratio {body.poisson:g}; "
             "the first two must be above 0, the last between -1 and 0.5"
         )
-    with translated_errors(
-        InputError, f"contact: {path.name!r} cannot be read as a STEP file", "export it again as AP214 or AP242", PURPOSE
-    ):
+    unreadable = f"contact: {path.name!r} cannot be read as a STEP file"
+    with path.open("rb") as file:
+        if STEP not in file.read(1000):
+            raise InputError(f"{unreadable}: it does not begin with {STEP.decode()}; export the body as STEP AP214 or AP242")
+    with translated_errors(InputError, unreadable, "export it again as AP214 or AP242", PURPOSE):
         shape = occ.OCCGeometry(str(path)).shape
     if len(shape.solids) != 1:
         raise InputError(f"contact: {path.name!r} holds {len(shape.solids)} solids; a body wants one. Fuse them, or give each its own file")
@@ -174,6 +180,13 @@ def _named(name: str, body: SolidBody) -> EngineObject:
         for point in points:
             _face_at(occ, shape, point, name).name = words
     return shape
+
+
+def _refuse_text(where: str, **numbers: object) -> None:
+    """InputError for a quantity that is no number, such as "2 mm": this call takes SI numbers."""
+    for name, value in numbers.items():
+        if not isinstance(value, (int, float, np.number)):
+            raise InputError(f"{where}: {name} is {brief(value)}; give a number in SI units, such as 2e-3 for 2 mm or 206e9 for 206 GPa")
 
 
 def _face_at(occ: EngineObject, shape: EngineObject, point: Point, name: str) -> EngineObject:
