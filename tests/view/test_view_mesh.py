@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from matplotlib import colormaps
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import PolyCollection
 from sample_designs import four_bar_result, four_bar_scene
@@ -13,7 +14,7 @@ from drivewright.result import Column, Plot, Table
 from drivewright.scene import Part, Turned
 from drivewright.solids import facets
 from drivewright.view import draw_panels, svg
-from drivewright.view.meshes import facing, silhouette
+from drivewright.view.meshes import colour_range, facing, silhouette
 from drivewright.view.panels import panels
 
 pytestmark = pytest.mark.interface
@@ -112,6 +113,34 @@ def test_the_side_towards_the_viewer_is_at_low_x():
     figure = draw_panels(panels(replace(RESULT, tables={"solid": square}), PLOT._replace(reference=())))
     (drawn,) = figure.axes[0].collections
     assert drawn.get_facecolors()[-1, 1] > drawn.get_facecolors()[0, 1]
+
+
+def test_colours_from_0_or_over_so_many_powers_of_ten():
+    assert colour_range(np.array([2.0, 5.0, np.nan]), False) == (0.0, 5.0)
+    assert colour_range(np.array([np.nan, np.inf]), False) == (0.0, 1.0)
+    assert colour_range(np.array([1e3, 1e5, np.inf, 0.0]), True) == (1e3, 1e5)
+    assert colour_range(np.array([1e3, 1e30]), True) == (1e3, 1e9)
+    assert colour_range(np.array([np.inf]), True) == (0.1, 1.0)
+
+
+def test_what_lasts_longer_than_the_scale_has_the_colour_of_its_end():
+    """Four triangles in a row with lives of 1, 1000, 1e9 and without end: the last two look alike, and the bar says that more is beyond."""
+    x = np.concatenate([np.array([0, 1, 0.0]) + n for n in range(4)])
+    columns = (
+        Column("z", "m", "right", x),
+        Column("y", "m", "up", np.array([0, 0, 1.0] * 4)),
+        Column("x", "m", "depth", np.zeros(12)),
+        Column("size", "-", "life", np.repeat([1.0, 1e3, 1e9, np.inf], 3)),
+    )
+    plot = PLOT._replace(reference=(), log=True)
+    figure = draw_panels(panels(replace(RESULT, tables={"solid": Table("solid", "S", columns)}), plot))
+    (drawn,) = figure.axes[0].collections
+    first, middle, late, endless = drawn.get_facecolors()
+    assert late == pytest.approx(endless)
+    assert first[1] < middle[1] < late[1]
+    assert middle[:3] == pytest.approx(np.array(colormaps["viridis"](0.5)[:3]) * middle[1] / colormaps["viridis"](0.5)[1], rel=0.02)
+    assert figure.axes[1].get_xscale() == "log"
+    assert figure.axes[1].get_xlim() == pytest.approx((1.0, 1e6))
 
 
 def test_silhouette_of_two_steps_has_their_corners():

@@ -70,7 +70,7 @@ PLOTS = (
         ("plate", "left_pin", "right_pin", "left_seat", "right_seat"),
     ),
     *(
-        Plot(name, title, name, x, (y, "depth", size), equal=True, style="mesh")
+        Plot(name, title, name, x, (y, "depth", size), equal=True, style="mesh", log=size == "life")
         for name, title, x, y, size in (
             ("solid_plate", "Plate as a solid: von Mises stress at its worst instant", "x", "y", "mises"),
             ("solid_pin", "Pin as a solid, from its seat: von Mises stress at its worst instant", "x", "y", "mises"),
@@ -81,5 +81,5 @@ PLOTS = (
         )
     ),
     Plot("rolling_pressure", "Rolling contact of two pins along the pins", "rolling_pressure", "height", ("line_load", "pressure")),
-    Plot("life_map", "Life around a plate", "life_map", "x", ("y", "depth", "life"), equal=True, style="mesh"),
+    Plot("life_map", "Life around a plate", "life_map", "x", ("y", "depth", "life"), equal=True, style="mesh", log=True),
 )

@@ -38,6 +38,7 @@ if TYPE_CHECKING:
 
 FEW = 25  # up to so many points each one is marked
 DASH = 4.0  # line widths that a dash of a covered line is long
+BESIDE = 0.02  # of the width of a cloud: room at both ends
 MANY = 1500  # from so many points on lines are thinner and points smaller
 
 
@@ -163,7 +164,7 @@ def _draw_series(axis, panel, series, x, names):
             rasterized=len(x) > MANY,
         )
     elif panel.style == "points":
-        size = 7 if len(x) <= FEW else 4 if len(x) <= MANY else 1.5
+        size = 7 if len(x) <= FEW else 5 if len(x) <= MANY else 1.5
         # A cloud is drawn as an image: as outlines ten thousand points are megabytes.
         axis.plot(x, data, ls="none", marker=".", ms=size, mew=0, color=hue, label=label, rasterized=len(x) > MANY)
     elif panel.style == "stems" and not series.dashed:
@@ -293,7 +294,8 @@ def _scale(axis, panel, x):
         axis.set_yscale("log")
         log_ticks(axis.yaxis)
     if len(x) > FEW and np.ptp(x) > 0 and panel.style not in BARS and not _is_cloud(panel):
-        axis.set_xlim(np.min(x), np.max(x))
+        room = BESIDE * np.ptp(x) if panel.style == "points" and len(x) <= MANY else 0.0  # whole dots at the ends
+        axis.set_xlim(np.min(x) - room, np.max(x) + room)
     if panel.x.unit == "°":
         angle_ticks(axis.xaxis, np.min(x), np.max(x))
     if panel.series[0].unit == "°" and panel.high - panel.low > 100:

@@ -10,8 +10,8 @@ import numpy as np
 
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.view.palette import BARE, COLOUR_MAP, colour
-from drivewright.view.panels import Panel
-from drivewright.view.style import WIDTH, new_figure, styled
+from drivewright.view.panels import DECADES, Panel
+from drivewright.view.style import WIDTH, log_ticks, new_figure, styled
 from drivewright.view.text import axis_label, parts_of_label
 
 if TYPE_CHECKING:
@@ -26,15 +26,15 @@ def draw_mesh(shown: Sequence[Panel]) -> "Figure":
     """Figure of a panel of style "mesh"; axes in the panel's units at one scale, a colour bar below."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
-    from matplotlib.colors import Normalize
+    from matplotlib.colors import LogNorm, Normalize
 
     panel = shown[0]
     up, depth, size, *before = panel.series
     corners = np.stack([panel.x.data, up.data, -depth.data], axis=1).reshape(-1, 3, 3)
     seen, order, bright = facing(corners)
-    tint = size.data.reshape(-1, 3).mean(axis=1)[seen][order]
-    most = float(np.nanmax(size.data)) if np.isfinite(size.data).any() else 0.0
-    scale = ScalarMappable(Normalize(0.0, most or 1.0), colormaps[COLOUR_MAP].with_extremes(bad=BARE))
+    low, high = colour_range(size.data, panel.log)
+    tint = _of_triangles(size.data, high, panel.log)[seen][order]
+    scale = ScalarMappable((LogNorm if panel.log else Normalize)(low, high), colormaps[COLOUR_MAP].with_extremes(bad=BARE))
     with styled():
         figure = new_figure(_height(corners), panel.title)
         axis = figure.subplots()
@@ -44,10 +44,28 @@ def draw_mesh(shown: Sequence[Panel]) -> "Figure":
         axis.set_aspect("equal", adjustable="datalim")
         axis.autoscale_view()
         axis.set(xlabel=axis_label(panel.x.label, panel.x.unit), ylabel=axis_label(*parts_of_label(panel.label), width=30))
-        figure.colorbar(
-            scale, ax=axis, orientation="horizontal", aspect=45, pad=0.02, shrink=0.7, label=axis_label(size.label, size.unit)
-        ).outline.set_visible(False)
+        label, beyond = axis_label(size.label, size.unit), "max" if np.any(size.data > high) else "neither"
+        bar = figure.colorbar(scale, ax=axis, orientation="horizontal", aspect=45, pad=0.02, shrink=0.7, label=label, extend=beyond)
+        bar.outline.set_visible(False)
+        if panel.log:
+            log_ticks(bar.ax.xaxis)
     return figure
+
+
+def colour_range(data: Floats, log: bool) -> tuple[float, float]:
+    """Ends of the colours: from 0 to the greatest; on a logarithmic scale from the least to the greatest, `DECADES` at most."""
+    finite = data[np.isfinite(data) & (data > 0)]
+    most = float(finite.max(initial=0.0)) or 1.0
+    if not log:
+        return 0.0, most
+    least = float(finite.min(initial=most))
+    return (least, min(most, least * 10.0**DECADES)) if least < most else (0.1 * most, most)
+
+
+def _of_triangles(data: Floats, high: float, log: bool) -> Floats:
+    """Means of the corners' values (3 m,), of the logarithms where the scale is so, of nothing beyond its upper end."""
+    values = np.minimum(data, high).reshape(-1, 3)  # nan stays
+    return np.exp(np.log(values).mean(axis=1)) if log else values.mean(axis=1)
 
 
 def facing(corners: Floats) -> tuple[Bools, Ints, Floats]:

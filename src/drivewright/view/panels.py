@@ -248,7 +248,7 @@ def _mesh_panel(plot: Plot, table: Table) -> Panel:
         colour = colour._replace(unit="µm", data=np.asarray(table[plot.y[2]].data) * 1e6)
     before = tuple(series_of(table[name], dashed=True) for name in plot.reference)
     label = axis_label(up.label, up.unit)
-    return Panel(plot.title, label, series_of(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh")
+    return Panel(plot.title, label, series_of(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh", plot.log)
 
 
 def _map_panel(result: Result[Any], plot: Plot, table: Table) -> Panel:

@@ -153,12 +153,13 @@ def areas(triangles):
     return 0.5 * (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
 
 
-@pytest.mark.parametrize(("body", "axes"), [("plate", (0, 1, 2)), ("left", (2, 1, 0))])
+@pytest.mark.parametrize(("body", "axes"), [("plate", (0, 1, 2)), ("left", (2, 1, 0)), ("right", (2, 1, 0))])
 def test_the_stress_table_draws_the_deformed_skin(body, axes):
-    table = tables.stress_table("t", "title", pulled(), body, 1, axes)
+    table = tables.stress_table("t", "title", pulled(), body, 1)
     assert [column.name for column in table.columns] == ["x", "y", "depth", "mises"]
     corners(table, "x", "y")
-    assert "displacements drawn" in table["x"].meaning
+    assert ", displacements drawn " in table["x"].meaning
+    assert table["x"].meaning.endswith(" times as large")
     skin = pulled().skins[body].points
     for name, axis in zip(("x", "y", "depth"), axes, strict=True):
         reach = np.ptp(skin[:, axis])
@@ -169,24 +170,28 @@ def test_the_stress_table_draws_the_deformed_skin(body, axes):
     assert FACES[body]
 
 
-def test_depth_is_towards_the_viewer_turned_round():
-    still = tables.stress_table("t", "title", pulled(), "plate", 3)
-    assert still["depth"].data.min() == pytest.approx(-1e-3, abs=1e-5)
-    assert still["depth"].data.max() <= 1e-5
+@pytest.mark.parametrize(("body", "towards"), [("plate", (0, 0, 1)), ("left", (-1, 0, 0)), ("right", (1, 0, 0))])
+def test_a_plate_is_seen_from_its_face_and_a_pin_from_its_seat_and_no_picture_is_mirrored(body, towards):
+    """Triangles that turn counter-clockwise in the picture face the viewer, and of a closed skin these are the nearer half."""
+    table = tables.stress_table("t", "title", pulled(), body, 3)
+    view = tables.SEATED.get(body, tables.FACE)
+    assert np.cross(view.right, view.up) == pytest.approx(towards)
+    faces = areas(corners(table, "x", "y")) > 0
+    depth = table["depth"].data.reshape(-1, 3).mean(axis=1)
+    assert depth[faces].mean() < depth[~faces].mean() - 0.1 * np.ptp(depth)
 
 
-def test_the_life_table_is_the_power_of_ten_and_the_longest_elsewhere():
+def test_the_life_table_has_the_lives_and_no_end_elsewhere():
     skin = pulled().skins["plate"]
     points = np.array([0, 5, 9])
-    table = tables.life_table("l", "title", skin, SkinLife(points, np.array([1e4, 1e7, np.inf]), np.array([1e-4, 1e-7, 0.0])))
+    table = tables.life_table("l", "title", skin, SkinLife(points, np.array([1e4, 1e7, np.inf]), np.array([1e-4, 1e-7, 0.0])), "plate")
     assert len(table["life"].data) % 3 == 0
     rows = skin.parts.ravel()
-    expected = np.full(len(skin.points), 7.0)
-    expected[0] = 4.0
-    assert table["life"].data == pytest.approx(expected[rows])
+    expected = np.full(len(skin.points), np.inf)
+    expected[[0, 5]] = 1e4, 1e7
+    assert np.array_equal(table["life"].data, expected[rows])
     assert table["x"].data == pytest.approx(skin.points[rows, 0])
-    endless = tables.life_table("l", "title", skin, SkinLife(points, np.full(3, np.inf), np.zeros(3)))
-    assert not endless["life"].data.any()
+    assert table.missing
 
 
 @pytest.mark.parametrize("side", ["left", "right"])

@@ -1,6 +1,6 @@
 """Tables of plate and pins as solids: history, deformed bodies, lives, pressure on the seat, rolling contact, section through the hole."""
 
-from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,9 +17,33 @@ from drivewright.solids.stresses import SkinStress, hooke, skin_stress
 
 DRAWN = 0.03  # of the plate's length: the largest displacement as drawn
 FINER = 3  # parts of an element's edge in a picture
-WORDS = ("along the chain", "across the chain", "along the pin")
+ENDLESS = "where a body takes no damage, or bears much less than at its worst, its life is longer than all others"
 AROUND = 2.2  # radii of the seat to either side of it that a section shows
 GRID = (160, 60)  # rectangles of a section, along and across
+
+
+class View(NamedTuple):
+    """What a picture shows to the right and upwards: unit vectors (3,) and their meaning."""
+
+    right: tuple[float, float, float]
+    up: tuple[float, float, float]
+    words: tuple[str, str]
+
+    def columns(self, points: Floats, words: str = "") -> tuple[Column, Column, Column]:
+        """Columns x, y, depth of points (n, 3) [m]; `words` are added to the meaning of the first two."""
+        right, up = np.array(self.right), np.array(self.up)
+        return (
+            Column("x", "m", self.words[0] + words, points @ right),
+            Column("y", "m", self.words[1] + words, points @ up),
+            Column("depth", "m", "away from the viewer", -points @ np.cross(right, up)),
+        )
+
+
+FACE = View((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), ("along the chain", "across the chain"))  # of a plate
+SEATED = {  # a pin from the side on which it is seated
+    "left": View((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), ("along the pin", "across the chain")),
+    "right": View((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), ("along the pin", "across the chain, downwards")),
+}
 
 
 def history_table(history: SolidHistory, time: Floats) -> Table:
@@ -39,45 +63,24 @@ def history_table(history: SolidHistory, time: Floats) -> Table:
     )
 
 
-def stress_table(name: str, title: str, history: SolidHistory, body: str, instant: int, axes: Sequence[int] = (0, 1, 2)) -> Table:
-    """Table for a plot of style "mesh": a body's skin at one instant, deformed, seen against the last of the axes."""
+def stress_table(name: str, title: str, history: SolidHistory, body: str, instant: int) -> Table:
+    """Table for a plot of style "mesh": a body's skin at one instant, deformed; a plate from its face, a pin from its seat."""
     skin = skin_stress(history.solid.model.bodies[body], [history.states[instant].displacement(body)], FACES[body], FINER)
     moved = skin.displacement[0] - skin.displacement[0].mean(axis=0)
     times = exaggeration_for(float(np.ptp(skin.points, axis=0).max()), moved, DRAWN)
-    place = skin.points + times * moved
     rows = skin.parts.ravel()
-    x, y, depth = (place[rows, axis] for axis in axes)
-    words = f"displacements drawn {times:,.0f} times as large".replace(",", " ")
-    return Table(
-        name,
-        title,
-        (
-            Column("x", "m", f"{WORDS[axes[0]]}, {words}", x),
-            Column("y", "m", f"{WORDS[axes[1]]}, {words}", y),
-            Column("depth", "m", "towards the viewer, turned round", -depth),
-            Column("mises", "Pa", "von Mises stress", skin.mises[0][rows]),
-        ),
-    )
+    words = ", displacements drawn " + f"{times:,.0f} times as large".replace(",", " ")
+    place = SEATED.get(body, FACE).columns((skin.points + times * moved)[rows], words)
+    return Table(name, title, (*place, Column("mises", "Pa", "von Mises stress", skin.mises[0][rows])))
 
 
-def life_table(name: str, title: str, skin: SkinStress, life: SkinLife, axes: Sequence[int] = (0, 1, 2)) -> Table:
-    """Table for a plot of style "mesh": power of ten of the life on a skin, not shorter than the longest that was found."""
-    finite = np.isfinite(life.life)
-    longest = np.log10(life.life[finite].max()) if finite.any() else 0.0
-    power = np.full(len(skin.points), longest)
-    power[life.points[finite]] = np.log10(life.life[finite])
+def life_table(name: str, title: str, skin: SkinStress, life: SkinLife, body: str) -> Table:
+    """Table for a plot of style "mesh": life on a body's skin, inf where there is no damage."""
+    lives = np.full(len(skin.points), np.inf)
+    lives[life.points] = life.life
     rows = skin.parts.ravel()
-    x, y, depth = (skin.points[rows, axis] for axis in axes)
-    return Table(
-        name,
-        title,
-        (
-            Column("x", "m", WORDS[axes[0]], x),
-            Column("y", "m", WORDS[axes[1]], y),
-            Column("depth", "m", "towards the viewer, turned round", -depth),
-            Column("life", "-", "life, power of ten of the revolutions of the chain", power[rows]),
-        ),
-    )
+    seen = SEATED.get(body, FACE).columns(skin.points[rows])
+    return Table(name, title, (*seen, Column("life", "-", "life in revolutions of the chain", lives[rows])), missing=ENDLESS)
 
 
 def seat_table(history: SolidHistory, side: str, instant: int) -> Table:
@@ -88,7 +91,7 @@ def seat_table(history: SolidHistory, side: str, instant: int) -> Table:
         "Pressure of a pin on its seat, unrolled",
         (
             Column("along", "m", "along the seat from the outer direction", along),
-            Column("height", "m", "along the pin from the plate's middle", height),
+            Column("height", "m", "along the pin from the plate's middle", height, "Along the pin"),
             Column("depth", "m", "flat", np.zeros(len(along))),
             Column("pressure", "Pa", "pressure on the seat", pressure),
         ),

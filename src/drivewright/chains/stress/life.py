@@ -79,8 +79,8 @@ def _greatest(share, unit_stress):
 
 
 def life_map(basis: Basis, lives: PlateLife, side: float) -> Table:
-    """Table "life_map" for a plot of style "mesh": squares with a side [m] around the rim, two triangles each, with the logarithm of
-    their life; lives without damage are left out."""
+    """Table "life_map" for a plot of style "mesh": squares with a side [m] around the rim, two triangles each, with their
+    life; lives without damage are left out."""
     kept = np.isfinite(lives.life)
     centre, half = basis.body.rim.points[lives.rows[kept]], 0.5 * side
     corners = np.array([(-1, -1), (1, -1), (1, 1), (-1, -1), (1, 1), (-1, 1)]) * half
@@ -92,6 +92,6 @@ def life_map(basis: Basis, lives: PlateLife, side: float) -> Table:
             Column("x", "m", "along the plate", x),
             Column("y", "m", "across the plate", y),
             Column("depth", "m", "flat", 0 * x),
-            Column("life", "-", "power of ten of the revolutions", np.repeat(np.log10(lives.life[kept]), 6)),
+            Column("life", "-", "life in revolutions of the chain", np.repeat(lives.life[kept], 6)),
         ),
     )

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError
 from drivewright.indexing.solid.assembly import SolidStiffness
 from drivewright.indexing.stiffness import TorsionalStiffness
@@ -12,6 +12,8 @@ from drivewright.result import Column, Plot, Table
 from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for, field_table
 from drivewright.surface_fields import SurfaceBody, SurfaceFields
 
+NOTHING = "at some input angles the assembly carries nothing"
+WINDOW = 0.6  # of the radius: what is drawn of a wheel to both sides of a pin
 DRAWN = 0.03  # the largest displacement is drawn as about this part of the body
 BODIES = {  # label, shares of the assembly, shares of the lumped model
     "cam": ("cams", ("cam",), ()),
@@ -24,7 +26,7 @@ BODIES = {  # label, shares of the assembly, shares of the lumped model
 SURFACES = {  # title, axes that are drawn (right, up, away) and their meanings
     "cam": ("Deformed cam", ((0, "across"), (1, "height"), (2, "along the axis"))),
     "shaft": ("Deformed split shaft", ((2, "along the axis"), (1, "height"), (0, "across"))),
-    "wheel": ("Deformed pins and wheel, seen from the axis", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards"))),
+    "wheel": ("Deformed wheel, seen from the axis", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards"))),
 }
 
 
@@ -53,7 +55,7 @@ def assembly_table(
         columns.append(Column(model, "N m/rad", f"assembly of solids, {text}", solids[model].secant))
     for model, text in words.items():
         columns.append(Column(f"ratio_{model}", "-", f"assembly over lumped model, {text}", solids[model].secant / lumped[model].secant))
-    return Table("assembly", title, tuple(columns))
+    return Table("assembly", title, tuple(columns), missing=NOTHING)
 
 
 def share_tables(angles: Floats, solid: SolidStiffness, lumped: TorsionalStiffness) -> Iterator[Table]:
@@ -63,14 +65,14 @@ def share_tables(angles: Floats, solid: SolidStiffness, lumped: TorsionalStiffne
         ("assembly_added", "Compliance that the lumped model leaves out, by bodies", added_compliance(solid, lumped)),
     ):
         columns = [Column(body, "rad/(N m)", label, shares[body]) for body, (label, _, _) in BODIES.items()]
-        yield Table(name, title, (Column("angle", "rad", "input angle", angles), *columns))
+        yield Table(name, title, (Column("angle", "rad", "input angle", angles), *columns), missing=NOTHING)
 
 
 def surface_table(solid: SolidStiffness, position: int, body: str = "cam", where: str = "", exaggeration: float | None = None) -> Table:
     """Table of a deformed body ("cam", "shaft", "wheel") at one position for a plot of style "mesh": three rows a triangle.
 
-    The cam without its motion as a whole, the shaft against the housing; of the wheel, against its output, the half that moves most, seen
-    from its axis outwards.  `where` ends the title.
+    The cam without its motion as a whole, the shaft against the housing; of the wheel, against its output, what lies about
+    the pin that moves most, seen from its axis outwards.  `where` ends the title.
     """
     title, drawn = SURFACES[body]
     surface = solid.surfaces.get(body)
@@ -78,7 +80,7 @@ def surface_table(solid: SolidStiffness, position: int, body: str = "cam", where
         raise InputError(f"assembly: the {body} is not a solid and has no deformed surface; give it as one.")
     displacement = surface.displacements[position]
     if body == "wheel":
-        surface, displacement = _half_from_axis(surface, displacement)
+        surface, displacement = _window_surface(surface, displacement)
     factor = exaggeration or exaggeration_for(np.ptp(surface.points[:, drawn[0][0]]), displacement, DRAWN)
     rest = tuple((axis, f"{words}, unloaded") for axis, words in drawn[:2])
     return displaced_table(f"assembly_{body}", title + where, surface, displacement, factor, drawn, rest)
@@ -87,11 +89,7 @@ def surface_table(solid: SolidStiffness, position: int, body: str = "cam", where
 STRESSED = {  # title, axes that are drawn (right, up, towards the viewer) and their meanings, parts of an element's edge
     "cam": ("Von Mises stress of a cam", ((0, "across"), (1, "height"), (2, "along the axis")), 2),
     "shaft": ("Von Mises stress of a split shaft", ((2, "along the axis"), (1, "height"), (0, "across")), 3),
-    "wheel": (
-        "Von Mises stress of pins and wheel, seen from the axis",
-        ((0, "around the wheel"), (2, "along the axis"), (1, "outwards")),
-        3,
-    ),
+    "wheel": ("Von Mises stress of the wheel, seen from the axis", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards")), 3),
 }
 
 
@@ -104,17 +102,23 @@ def stress_tables(fields: SurfaceFields) -> Iterator[Table]:
         body = max(alike, key=lambda each: each.fields[0].range[1])
         step = int(np.nanmax(body.fields[0].values, axis=1).argmax())
         if kind == "wheel":
-            body = _half_body(body, step)
+            body = _window_body(body, step)
         where = f", {fields.steps[step]}"
         yield field_table(f"assembly_{kind}_stress", title + where, body, step, "mises", fields.scale, drawn, parts)
 
 
-def _half_body(body: SurfaceBody, step: int) -> SurfaceBody:
-    """The half of a wheel about the point that bears most, turned so that this point lies along y."""
+def _window_body(body: SurfaceBody, step: int) -> SurfaceBody:
+    """What lies about the point of a wheel that bears most, turned so that this point lies along y."""
     turn = _turn_to(body.points[np.nanargmax(body.fields[0].values[step])])
     points = body.points @ turn.T
-    half = body.triangles[points[body.triangles, 1].mean(axis=1) > 0]
-    return body._replace(points=points, triangles=half, displacements=body.displacements @ turn.T)
+    return body._replace(points=points, triangles=_window(points, body.triangles), displacements=body.displacements @ turn.T)
+
+
+def _window_surface(surface: DisplacedSurface, displacement: Floats) -> tuple[DisplacedSurface, Floats]:
+    """What lies about the point of a wheel that moves most, turned so that this point lies along y."""
+    turn = _turn_to(surface.points[np.linalg.norm(displacement, axis=1).argmax()])
+    points = surface.points @ turn.T
+    return DisplacedSurface(points, _window(points, surface.triangles), surface.displacements), displacement @ turn.T
 
 
 def _turn_to(point: Floats) -> Floats:
@@ -123,12 +127,11 @@ def _turn_to(point: Floats) -> Floats:
     return np.array([[y, -x, 0.0], [x, y, 0.0], [0.0, 0.0, 1.0]])
 
 
-def _half_from_axis(surface: DisplacedSurface, displacement: Floats) -> tuple[DisplacedSurface, Floats]:
-    """The half of a wheel about the point that moves most, turned so that this point lies along y."""
-    turn = _turn_to(surface.points[np.linalg.norm(displacement, axis=1).argmax()])
-    points = surface.points @ turn.T
-    half = surface.triangles[points[surface.triangles, 1].mean(axis=1) > 0]
-    return DisplacedSurface(points, half, surface.displacements), displacement @ turn.T
+def _window(points: Floats, triangles: Ints) -> Ints:
+    """The triangles (k, 3) of the upper half that lie within `WINDOW` to both sides of the y axis, seen from the z axis."""
+    middle = points[triangles, :2].mean(axis=1)
+    near = np.abs(middle[:, 0]) < WINDOW * np.hypot(*points[:, :2].T).max()
+    return triangles[near & (middle[:, 1] > 0)]
 
 
 def assembly_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:

@@ -77,6 +77,7 @@ def pin_force_table(
             Column("arm", "m", "lever about the wheel's axis", data[4]),
             Column("pressure", "Pa", "Hertz pressure", data[5]),
         ),
+        missing="no Hertz pressure at a corner, in a pull, or where the profile is as hollow as the pin",
     )
 
 

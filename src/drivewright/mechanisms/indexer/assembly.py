@@ -73,14 +73,19 @@ def assembly_values(loaded: LoadedAssembly, model: str, forces: Table) -> dict[s
     own, lumped, angles = loaded.solids[model], loaded.lumped[model], loaded.angles
     carried = np.isfinite(own.secant)
     words = "part of the positions where the assembly carries nothing"
+    over = "" if carried.all() else ", of the positions where it carries anything"
     values = {"assembly.undefined_fraction": Value(float(np.mean(~carried)), "-", words)}
     if not carried.any():
         return values
     secant, least = own.secant[carried], int(np.nanargmin(own.secant))
     ratio = float(np.mean(secant) / np.mean(lumped.secant[carried]))
     values |= {
-        "assembly.stiffness.mean": _within_mesh(float(np.mean(secant)), "N m/rad", "mean secant stiffness of the assembly of solids"),
-        "assembly.stiffness.minimum": _within_mesh(float(own.secant[least]), "N m/rad", "least secant stiffness of the assembly of solids"),
+        "assembly.stiffness.mean": _within_mesh(
+            float(np.mean(secant)), "N m/rad", f"mean secant stiffness of the assembly of solids{over}"
+        ),
+        "assembly.stiffness.minimum": _within_mesh(
+            float(own.secant[least]), "N m/rad", f"least secant stiffness of the assembly of solids{over}"
+        ),
         "assembly.stiffness.minimum.at": Value(float(angles[least]), "rad", "input angle of the least stiffness of the assembly"),
         "assembly.stiffness.ratio": _within_mesh(ratio, "-", "mean stiffness of the assembly over that of the lumped model"),
     }

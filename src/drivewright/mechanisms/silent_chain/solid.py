@@ -25,8 +25,6 @@ from drivewright.result import Answer, Answers, Check, Table, Value
 from drivewright.solids.contact.model import ACROSS, CoarseContact
 from drivewright.solids.plane import plane_von_mises
 
-PIN_VIEW = (2, 1, 0)  # along the pin to the right, seen from outside
-
 
 @unless_impossible
 def solid_stress(model: ChainModel, done: Answers) -> Answer:
@@ -166,18 +164,19 @@ def _pictures(first: SolidHistory, time: Floats, plate: SkinLife, pins: dict[str
     return (
         tables.history_table(first, time),
         tables.stress_table("solid_plate", "Plate as a solid at its worst instant", first, "plate", instant),
-        tables.stress_table("solid_pin", "Pin as a solid at its worst instant", first, side, pin_instant, PIN_VIEW),
+        tables.stress_table("solid_pin", "Pin as a solid at its worst instant", first, side, pin_instant),
         tables.section_table(first, side, pin_instant),
         tables.seat_table(first, side, pin_instant),
-        tables.life_table("solid_plate_life", "Life on the plate as a solid", first.skins["plate"], plate),
-        tables.life_table("solid_pin_life", "Life on the pin as a solid", first.skins[side], pins[side], PIN_VIEW),
+        tables.life_table("solid_plate_life", "Life on the plate as a solid", first.skins["plate"], plate, "plate"),
+        tables.life_table("solid_pin_life", "Life on the pin as a solid", first.skins[side], pins[side], side),
     )
 
 
 def _remarks(model: ChainModel, rolling: RollingPins, histories: list[SolidHistory]) -> Iterable[str]:
     unknowns = {name: body.unknowns for name, body in histories[0].solid.model.bodies.items()}
     yield (
-        f"solids: {unknowns['plate']} unknowns of the plate, {unknowns['left']} of a pin; on elements half as large the greatest stress "
+        f"solids: {len(histories[0].states)} load steps of a revolution, turning points of the stress (solid.load_steps); "
+        f"{unknowns['plate']} unknowns of the plate, {unknowns['left']} of a pin; on elements half as large the greatest stress "
         "changes by about 2 %, pressures at the edges of a hole by up to 20 % (solid.fineness)"
     )
     if rolling.state.model.bodies["own pin"].basis.shape[1] < 3:
