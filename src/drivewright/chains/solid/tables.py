@@ -91,7 +91,7 @@ def seat_table(history: SolidHistory, side: str, instant: int) -> Table:
         "Pressure of a pin on its seat, unrolled",
         (
             Column("along", "m", "along the seat from the outer direction", along),
-            Column("height", "m", "along the pin from the plate's middle", height, "Along the pin"),
+            Column("height", "m", "along the pin", height),
             Column("depth", "m", "flat", np.zeros(len(along))),
             Column("pressure", "Pa", "pressure on the seat", pressure),
         ),
