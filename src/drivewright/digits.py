@@ -26,6 +26,31 @@ def over_decades(low: float | None, high: float | None) -> bool:
     return low is not None and high is not None and 0 < 10 * low < high < math.inf
 
 
+def plain(value: float, low: float | None = None, high: float | None = None) -> list[str]:
+    """Texts of a number and, where it says something, of the ends of its interval, in the digits that this supports.
+
+    In plain letters: "4.1e-04" for what is very small or large.
+    """
+    place = last_place(value, low, high)
+    if place is None or low is None or high is None:
+        return [_exact(value)]
+    rough = over_decades(low, high)
+    return [_powered(each, math.floor(math.log10(each)) - ROUGH + 1 if rough else place) for each in (value, low, high)]
+
+
+def _exact(value: float) -> str:
+    rounded = f"{value:.{EXACT}g}"
+    return to_place(value, 1) if 1e5 <= abs(float(rounded)) < 1e6 else rounded
+
+
+def _powered(value: float, place: int) -> str:
+    """Rounded to a power of ten; with one where it is very small or large."""
+    if place >= -5 and abs(value) < 1e6:
+        return to_place(value, place)
+    count = math.floor(math.log10(abs(value))) - place if value else 0
+    return f"{value:.{max(count, 0)}e}"
+
+
 def to_place(value: float, place: int) -> str:
     """A number rounded to a power of ten, as text: (12.345, -1) -> '12.3', (1234.5, 2) -> '1200'; never '-0'."""
     text = f"{value:.{-place}f}" if place < 0 else f"{round(value / 10.0**place) * 10**place:d}"

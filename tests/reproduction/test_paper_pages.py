@@ -120,6 +120,15 @@ def test_a_page_with_everything_on_it(bench, tmp_path):
     assert {path.name for path in (tmp_path / "out" / "figures").iterdir()} == {"figure-fig-1.svg", "figure-fig-2.svg"}
 
 
+def test_the_folder_of_another_paper_is_refused_and_left_as_it_is(bench, tmp_path):
+    pages.reproduce(bench.paper, tmp_path)
+    before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
+    with pytest.raises(InputError, match="holds the page of shaft-paper; give hyvo-paper another --out. Nothing was written"):
+        pages.reproduce(replace(bench.paper, source=replace(bench.paper.source, name="hyvo-paper")), tmp_path)
+    assert {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()} == before
+    pages.reproduce(bench.paper, tmp_path)
+
+
 def test_rows_json_is_the_contract(bench, tmp_path):
     pages.reproduce(bench.paper, tmp_path)
     rows = json.loads((tmp_path / "rows.json").read_text(encoding="utf-8"))

@@ -164,37 +164,12 @@ def table(title: str, header: "Header", rows: Iterable[Iterable[object]]) -> Non
 def number(value: float, unit: str, low: float | None = None, high: float | None = None, wanted: str = "") -> str:
     """A number in the unit people read, or in a `wanted` one, with the unit, and with its interval in the digits that this supports."""
     factor, shown = units.display(unit, wanted)
-    text, *ends = _numbers(value, factor, low, high)
+    text, *ends = digits.plain(factor * value, low and factor * low, high and factor * high)
     return _with_unit(f"{text} ({ends[0]} to {ends[1]})" if ends else text, shown)
-
-
-def _numbers(value: float, factor: float, low: float | None, high: float | None) -> list[str]:
-    """Texts of a number times a factor, and of the ends of its interval where this says something."""
-    value, low, high = value * factor, None if low is None else low * factor, None if high is None else high * factor
-    place = digits.last_place(value, low, high)
-    if place is None or low is None or high is None:
-        return [_exact(value)]
-    if digits.over_decades(low, high):
-        return [_to_place(each, math.floor(math.log10(each)) - digits.ROUGH + 1) for each in (value, low, high)]
-    return [_to_place(each, place) for each in (value, low, high)]
-
-
-def _exact(value: float) -> str:
-    """A number without interval; a power of ten only where it is very small or large."""
-    rounded = f"{value:.{digits.EXACT}g}"
-    return digits.to_place(value, 1) if 1e5 <= abs(float(rounded)) < 1e6 else rounded
 
 
 def _with_unit(text: str, shown: str) -> str:
     return text if shown in ("-", "") else f"{text} {shown}"
-
-
-def _to_place(value: float, place: int) -> str:
-    """As text; with a power of ten where it is very small or large."""
-    if place >= -5 and abs(value) < 1e6:
-        return digits.to_place(value, place)
-    count = math.floor(math.log10(abs(value))) - place if value else 0
-    return f"{value:.{max(count, 0)}e}"
 
 
 def result(run: "Result[Any]") -> None:
@@ -284,7 +259,8 @@ def checks(design_checks: "Iterable[Check]") -> None:
 def _margin(check: "Check") -> str:
     """With the digits that the check's value has."""
     factor, shown = units.display(check.unit)
-    return _with_unit(_numbers(check.margin, factor, *(check.margin_bounds or (None, None)))[0], shown)
+    low, high = check.margin_bounds or (None, None)
+    return _with_unit(digits.plain(factor * check.margin, low and factor * low, high and factor * high)[0], shown)
 
 
 def optimised(search: "Optimised") -> None:

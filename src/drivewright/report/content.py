@@ -300,9 +300,10 @@ def _table(table: Table) -> Content:
 
 
 def provenance(result: Result[Any]) -> list[tuple[str, str]]:
-    """Rows (what, text) of where the numbers came from; lists and mappings on one line."""
+    """Rows (what, text) of where the numbers came from; lists and mappings on one line, nothing of empty ones."""
     rows = [("outcome", result.outcome), ("digest", result.digest)]
-    return rows + [(key, _flat(value)) for key, value in result.provenance.items() if key != "sources"]
+    rows += [(key, _flat(value)) for key, value in result.provenance.items() if key != "sources"]
+    return [(key, text) for key, text in rows if text]
 
 
 def _flat(value: object) -> str:

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 
 from drivewright import atomic
 from drivewright.digits import EXACT
-from drivewright.errors import MissingExtra
+from drivewright.errors import InputError, MissingExtra
 from drivewright.report.content import Picture, program
 from drivewright.report.folder import refuse_other
 from drivewright.report.html import embedded, page
@@ -60,7 +60,7 @@ def reproduce(
     is not empty and holds something else.  Returns (path of the page, what was computed).
     """
     out = Path(out).resolve()
-    refuse_foreign(out)
+    refuse_foreign(out, paper.name)
     (out / "parts").mkdir(parents=True, exist_ok=True)
     computed = compute_parts(paper, out, solids, progress)
     write_pages(paper, computed, out)
@@ -81,9 +81,12 @@ def write_pages(paper: Paper, computed: Computed, out: Path) -> None:
     atomic.write_text(out / PAGE, page("paper.html.j2", embedded_content(texts)))
 
 
-def refuse_foreign(out: Path) -> None:
-    """InputError where `out` is a file or a folder that holds something else than a page of a paper."""
+def refuse_foreign(out: Path, name: str) -> None:
+    """InputError where `out` is a file or a folder that holds something else than the page of this paper."""
     refuse_other(out, "reproduced paper", lambda folder: (folder / "parts").is_dir(), "folder of its parts")
+    rows = json.loads((out / ROWS_FILE).read_text(encoding="utf-8")) if (out / ROWS_FILE).is_file() else []
+    if others := {row["source"] for row in rows} - {name}:
+        raise InputError(f"{out}: holds the page of {', '.join(sorted(others))}; give {name} another --out. Nothing was written")
 
 
 # -- what the page says --------------------------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from drivewright import registry, units
 from drivewright._typing import Floats
-from drivewright.digits import ROUGH, last_place, over_decades, to_place
+from drivewright.digits import plain
 from drivewright.errors import InputError, SolverError
 from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.execution.outputs import case_outputs
@@ -300,15 +300,9 @@ def _bounds(reached, name):
 
 def _with_interval(reached, name):
     """A number with its interval, in the digits that this supports."""
-    bounds = _bounds(reached, name)
     factor, unit = units.display(reached[name].unit)
-    place = last_place(*(factor * each for each in (reached[name].value, *bounds.values()))) if bounds else None
-    if place is None:
-        return _shown(reached[name].value, reached[name].unit)
-    rough = over_decades(*bounds.values())
-    shown = [factor * each for each in (reached[name].value, *bounds.values())]
-    value, low, high = (f"{each:.{ROUGH}g}" if rough else to_place(each, place) for each in shown)
-    return f"{value} ({low} to {high}) {unit}".removesuffix(" -")
+    value, *ends = plain(*(factor * each for each in (reached[name].value, *_bounds(reached, name).values())))
+    return f"{value} ({ends[0]} to {ends[1]}) {unit}".removesuffix(" -") if ends else _shown(reached[name].value, reached[name].unit)
 
 
 def _shown(value, unit, digits=6):

@@ -122,13 +122,12 @@ class _Problem(NamedTuple):
         block[count:, :count] = self.held[:, at]
         block[count:, count:] = -HELD * np.eye(motions)
         right = np.concatenate([-self.right[at], -self.load])
-        for place in np.flatnonzero(slips):
-            rows = number[along[place]]
-            way = trial[along[place]] / np.linalg.norm(trial[along[place]])
-            turn = share[place] * (np.eye(len(way)) - np.outer(way, way))  # 0 in the plane
-            block[rows], right[rows] = turn @ block[rows], turn @ right[rows]
-            block[np.ix_(rows, rows)] += np.eye(len(way)) - turn
-            block[rows, number[normal[place]]] -= coefficient[place] * way
+        rows, pull = number[along[slips]], trial[along[slips]]
+        way, eye = pull / np.linalg.norm(pull, axis=1, keepdims=True), np.eye(along.shape[1])
+        turn = share[slips, None, None] * (eye - way[:, :, None] * way[:, None, :])  # 0 in the plane
+        block[rows], right[rows] = turn @ block[rows], (turn @ right[rows][..., None])[..., 0]
+        block[rows[:, :, None], rows[:, None, :]] += eye - turn
+        block[rows, number[normal[slips], None]] -= coefficient[slips, None] * way
         answer = scipy.linalg.solve(block, right, check_finite=False)
         x = np.zeros(len(self.right))
         x[at] = answer[:count]
