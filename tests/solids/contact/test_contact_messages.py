@@ -148,12 +148,13 @@ def ball_and_block(files, force=-125.0, **changes):
 
 
 @pytest.mark.slow
-def test_a_ball_from_a_file_presses_a_block_from_a_file(files, monkeypatch):
+def test_a_ball_from_a_file_presses_a_block_from_a_file(tmp_path, monkeypatch):
     """The example of the documentation, as written there."""
-    (example,) = re.findall(r"```python\n(.*?)```", (ROOT / "docs/solids_in_contact.md").read_text(), flags=re.DOTALL)
-    monkeypatch.chdir(files)
+    examples = re.findall(r"```python\n(.*?)```", (ROOT / "docs/solids_in_contact.md").read_text(), flags=re.DOTALL)
+    monkeypatch.chdir(tmp_path)
     told: dict = {}
-    exec(example, told)
+    for example in examples:
+        exec(example, told)
     pressed, points, pressure = told["pressed"], told["points"], told["pressure"]
     half_width = float((3 * 8000 * 10e-3 / (4 * hertz.effective_modulus(E, NU, E, NU))) ** (1 / 3))
     top = 3 * 8000 / (2 * np.pi * half_width**2)
