@@ -13,7 +13,7 @@ import numpy as np
 
 from drivewright import registry
 from drivewright._typing import Floats
-from drivewright.chains.solid.assumptions import borne, over_fits
+from drivewright.chains.solid.assumptions import over_fits, peaks
 from drivewright.chains.solid.history import SolidHistory, skin_life
 from drivewright.chains.solid.joint import Fit
 from drivewright.chains.solid.pitch import PlateAndPins
@@ -102,7 +102,7 @@ def at_rest(name: str, clearance: float, seat: float | None = None, force: float
         (history,) = over_fits(each.solid, [Fit(clearance * MICRO, EDGE, seat)], pull(force))
     except InputError:  # the contact is too narrow for the elements
         return NOWHERE
-    most = borne(history)
+    most = peaks(history)
     plate, *pins = (_life(each.model, history, body, repeated=True) for body in ("plate", "left", "right"))
     return Point(most.plate, most.pin, plate, min(pins))
 
@@ -127,7 +127,7 @@ def _running(each: Design, loads: Loads, clearance: float) -> Point:
         (history,) = over_fits(each.solid, [Fit(clearance * MICRO, EDGE)], loads)
     except InputError:  # the contact is too narrow for the elements
         return NOWHERE
-    most = borne(history)
+    most = peaks(history)
     lives = [_life(each.model, history, body) for body in ("plate", "left", "right")]
     return Point(most.plate, most.pin, lives[0], min(lives[1:]))
 

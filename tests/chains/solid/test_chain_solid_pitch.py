@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from drivewright.chains.solid.assumptions import borne, over_fits, with_fit
+from drivewright.chains.solid.assumptions import over_fits, peaks, with_fit
 from drivewright.chains.solid.history import solid_history
 from drivewright.chains.solid.joint import Fit
 from drivewright.chains.solid.pitch import forces_at
@@ -169,7 +169,7 @@ def test_a_seat_of_a_few_degrees_is_pressed_there_alone():
 
 def test_what_is_borne_is_the_greatest_over_bodies_and_instants():
     tight, loose = over_fits(solid(), [FIT, Fit(4e-6, 50e-6)], straight(0.5 * PULL, 2 * PULL))
-    found, wider = borne(tight), borne(loose)
+    found, wider = peaks(tight), peaks(loose)
     assert found.plate == pytest.approx(tight.greatest("plate").max())
     assert found.pin == pytest.approx(max(tight.greatest(side).max() for side in ("left", "right")))
     assert found.pressure == pytest.approx(max(part.max() for part in tight.states[1].pressure))

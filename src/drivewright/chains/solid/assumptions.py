@@ -16,7 +16,7 @@ from drivewright.chains.stress.plate import SIDES, Loads
 from drivewright.errors import InputError
 
 
-class Borne(NamedTuple):
+class Peaks(NamedTuple):
     """What an assumption leaves: greatest von Mises stress [Pa] of the plate and of the pins; greatest pressure [Pa] on a seat."""
 
     plate: float
@@ -43,9 +43,9 @@ def with_fit(solid: PlateAndPins, fit: Fit) -> list[Floats]:
     ]
 
 
-def borne(history: SolidHistory) -> Borne:
+def peaks(history: SolidHistory) -> Peaks:
     """The greatest that a history holds."""
-    return Borne(history.worst("plate")[0], max(history.worst(side)[0] for side in SIDES), float(history.seat_pressure.max()))
+    return Peaks(history.worst("plate")[0], max(history.worst(side)[0] for side in SIDES), float(history.seat_pressure.max()))
 
 
 def over_fits(solid: PlateAndPins, fits: Sequence[Fit], loads: Loads) -> list[SolidHistory]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from drivewright._typing import Floats, Ints
 from drivewright.chains.solid import tables
-from drivewright.chains.solid.assumptions import borne
+from drivewright.chains.solid.assumptions import peaks
 from drivewright.chains.solid.fields import solid_fields
 from drivewright.chains.solid.history import SkinLife, SolidHistory, skin_life, solid_history
 from drivewright.chains.solid.joint import Fit, Material, RollingPins, rolling_pins, stack_of
@@ -118,7 +118,7 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
 
 def _stresses(rolling: RollingPins, histories: list[SolidHistory], pressure: float) -> dict[str, Value]:
     """Stresses and pressures; `pressure` [Pa]: the greatest between the pins."""
-    first, most = histories[0], [borne(each) for each in histories]
+    first, most = histories[0], [peaks(each) for each in histories]
     x, y, z = first.skins["plate"].points[first.worst("plate")[2]]
     return {
         "solid.plate.max_stress": _mean(
