@@ -30,10 +30,11 @@ Row: TypeAlias = tuple[str, float, float, str, float, str]  # of `verify`: name,
 
 
 class LeftOut(NamedTuple):
-    """A comparison that `verify` cannot make: what it is, and why."""
+    """A comparison that `verify` cannot make: what it is, why, and the extra to install where only that is missing."""
 
     name: str
     reason: str
+    extra: str = ""
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,6 @@ def test_verify_without_its_extra_says_what_is_left_out_and_why(capsys, monkeypa
     monkeypatch.delitem(sys.modules, "drivewright.oracles.seedling_pusher.exudyn_model", raising=False)
     monkeypatch.delattr("drivewright.oracles.seedling_pusher.exudyn_model", raising=False)
     code, out, err = run(capsys, "verify", PRESET)
-    assert code == 0 and "Traceback" not in err
+    assert code == 2 and "Traceback" not in err
     assert "tip.track_height" in out
     assert "left out: motion of the rod in Exudyn: the multibody run of the cam pair in Exudyn needs the extra 'peers'" in out

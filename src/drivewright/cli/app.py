@@ -275,7 +275,8 @@ def optimise(
 
 @app.command()
 def verify(spec: SpecFile, set_: SetOption = None) -> None:
-    """Compute the case again on an independent route and print the differences."""
+    """Compute the case again on an independent route and print the differences; exit 1 where they are too large, 2 where an extra is
+    missing."""
     from drivewright.studies.verification import verify as compare
 
     with show.located(spec):
@@ -283,6 +284,8 @@ def verify(spec: SpecFile, set_: SetOption = None) -> None:
     show.comparison(comparison)
     if not all(row.ok for row in comparison):
         raise typer.Exit(1)
+    if any(row.extra for row in comparison):
+        raise typer.Exit(2)
 
 
 @app.command()

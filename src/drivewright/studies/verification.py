@@ -12,7 +12,7 @@ from drivewright.spec import MechanismSpec
 class Comparison(NamedTuple):
     """One number by both routes [SI]; they agree when they differ by no more than `allowed`.
 
-    left_out: why there are no numbers, where the route is not to be had.
+    left_out: why there are no numbers, where the route is not to be had; extra: what to install where only that is missing.
     """
 
     name: str
@@ -22,6 +22,7 @@ class Comparison(NamedTuple):
     allowed: float
     route: str
     left_out: str = ""
+    extra: str = ""
 
     @property
     def ok(self) -> bool:
@@ -56,5 +57,5 @@ def verify(spec: MechanismSpec) -> tuple[Comparison, ...]:
 
 def _comparison(row: registry.Row | registry.LeftOut) -> Comparison:
     if isinstance(row, registry.LeftOut):
-        return Comparison(row.name, nan, nan, "-", nan, "", row.reason)
+        return Comparison(row.name, nan, nan, "-", nan, "", row.reason, row.extra)
     return Comparison(*row)

@@ -121,4 +121,4 @@ def test_without_exudyn_its_rows_are_left_out_and_the_extra_is_named(monkeypatch
     monkeypatch.delattr(linkage, "exudyn_model", raising=False)
     *others, left = independent_check.verify(model("four_bar"), None)
     assert differing(others) == [] and len(others) > 4
-    assert left.name == "the linkage in Exudyn" and "needs the extra 'peers'" in left.reason
+    assert left.name == "the linkage in Exudyn" and "needs the extra 'peers'" in left.reason and left.extra == "peers"

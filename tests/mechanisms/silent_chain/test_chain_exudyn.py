@@ -239,7 +239,7 @@ def test_without_exudyn_its_rows_are_left_out_and_the_extra_is_named(monkeypatch
     monkeypatch.delitem(sys.modules, "drivewright.oracles.silent_chain.exudyn_model", raising=False)
     monkeypatch.delattr(silent_chain, "exudyn_model", raising=False)
     (left,) = exudyn_rows.rows(MECHANISM.build(spec()))
-    assert left.name == "the running chain in Exudyn" and "needs the extra 'peers'" in left.reason
+    assert left.name == "the running chain in Exudyn" and "needs the extra 'peers'" in left.reason and left.extra == "peers"
 
 
 @pytest.mark.slow

@@ -132,7 +132,7 @@ def _exudyn_rows(model):
     try:
         yield from _exudyn(model)
     except MissingExtra as error:
-        yield LeftOut(IN_EXUDYN, str(error))
+        yield LeftOut(IN_EXUDYN, str(error), error.extra)
 
 
 def _missing_in_exudyn(model):

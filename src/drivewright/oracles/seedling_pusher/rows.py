@@ -29,7 +29,7 @@ def verify(model: PusherModel, result: Result[Any]) -> Iterator[Row | LeftOut]:
     try:
         made = multibody_run(model)
     except MissingExtra as error:
-        yield LeftOut("motion of the rod in Exudyn", str(error))
+        yield LeftOut("motion of the rod in Exudyn", str(error), error.extra)
         return
     yield from motion(model, result, made)
 

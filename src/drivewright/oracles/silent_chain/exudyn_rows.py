@@ -53,7 +53,7 @@ def rows(model: ChainModel) -> Iterator[Row | LeftOut]:
     try:
         twin = route()
     except MissingExtra as error:
-        yield LeftOut(RUNNING, str(error))
+        yield LeftOut(RUNNING, str(error), error.extra)
         return
     yield from exudyn_rows(twin, model)
 
