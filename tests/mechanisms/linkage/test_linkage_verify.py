@@ -108,7 +108,7 @@ def test_what_exudyn_does_not_know_is_left_out_with_the_reason(change, missing):
     assert independent_check._missing_in_exudyn(model("slider_crank_clearance")) == ""
     assert independent_check._missing_in_exudyn(model("slider_crank_clearance", change)) == missing
     (left,) = independent_check._exudyn_rows(model("slider_crank_clearance", change))
-    assert left == ("the linkage in Exudyn", f"its model in Exudyn does not know {missing}")
+    assert left == ("the linkage in Exudyn", f"its model in Exudyn does not know {missing}", "")
 
 
 def test_without_exudyn_its_rows_are_left_out_and_the_extra_is_named(monkeypatch):

@@ -176,3 +176,4 @@ def test_without_exudyn_its_rows_are_left_out_and_the_extra_is_named(case, monke
     assert len(others) > 10 and all(Comparison(*row).ok for row in others)
     assert left.name == "motion of the rod in Exudyn"
     assert "in Exudyn needs the extra 'peers'" in left.reason and "pip install 'drivewright[peers]'" in left.reason
+    assert left.extra == "peers"

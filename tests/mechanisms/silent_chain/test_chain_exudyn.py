@@ -223,7 +223,7 @@ def spec(preset="default", *changes):
 def test_a_chain_that_exudyn_does_not_run_is_left_out_with_the_reason():
     assert exudyn_rows.missing_in_exudyn(chain_drive(MECHANISM.build(spec("default")))) == ""
     (left,) = exudyn_rows.rows(MECHANISM.build(spec("default", 'drive.ramp="10 ms"')))
-    assert left == ("the running chain in Exudyn", "its model in Exudyn does not know a driver that changes its speed or slides")
+    assert left == ("the running chain in Exudyn", "its model in Exudyn does not know a driver that changes its speed or slides", "")
 
 
 def test_more_than_two_sprockets_are_left_out_with_the_reason():
