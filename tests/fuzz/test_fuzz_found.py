@@ -76,6 +76,14 @@ def test_an_arc_keeps_its_tolerance_where_that_is_not_finer_than_rounding():
     assert 1e-9 < 0.05 - np.hypot(*middles.T).min() <= 1e-8 * (1 + 1e-6)
 
 
+def test_an_eccentricity_smaller_than_an_atom_takes_no_memory_to_trim():
+    spec = load(EXAMPLES / "pin_indexer_two_way.toml", ["eccentricity=9.946e-25 mm"])
+    with np.errstate(all="ignore"):
+        result = runner.run(spec, "profile")
+    assert result.outcome == "partial"
+    assert "pairs of pieces of a curve that lie upon each other are more than" in result.failures["profile"]
+
+
 def test_a_gear_smaller_than_an_atom_takes_no_memory_to_draw():
     from drivewright.report.content import views
 

@@ -15,6 +15,8 @@ _TOLERANCE = 1e-12  # two branches meet when they are this close, relative to th
 _TAIL, _JOINT_TAIL = 0.5, 5e-3  # a tail shorter than this [samples], on one piece or across a joint, is one branch meeting itself
 _NEAR, _SMALL = 1e-4, 2e-3  # relative to the size of the curve, sine
 _MOST = 20_000  # places that are looked at one by one
+_MOST_PAIRS = 5_000_000  # of chords whose boxes meet
+_BEYOND = "its size and its details differ by more than numbers can hold"
 _SAME = 1e-3  # crossings nearer than this [samples] on both branches are one
 
 
@@ -31,7 +33,7 @@ def self_crossings(chain: Chain) -> tuple[Crossing, ...]:
     seeds = np.concatenate([_from_chords(chain), _from_joints(chain)])
     if not len(seeds):
         return ()
-    counted(len(seeds), _MOST, "places at which a curve may cross itself", "its size and its details differ by more than numbers can hold")
+    counted(len(seeds), _MOST, "places at which a curve may cross itself", _BEYOND)
     places, steps, points = _refined(chain, seeds)
     kept, at = [], np.empty_like(steps)
     for k in np.lexsort((places[:, 1], places[:, 0])):
@@ -68,6 +70,7 @@ def _overlapping(a, b):
     """Numbers i < j of the chords from a to b (n,) whose upright boxes meet.
 
     A binary tree of boxes over the chords in their order is compared with itself, level by level: about n log n comparisons.
+    InputError where rounding lays most of them upon each other.
     """
     ends = np.stack([[a.real, b.real], [a.imag, b.imag]])
     low, high = np.min(ends, axis=1), np.max(ends, axis=1)
@@ -82,6 +85,7 @@ def _overlapping(a, b):
         i, j = np.concatenate([2 * i, 2 * i, 2 * i + 1, 2 * i + 1]), np.concatenate([2 * j, 2 * j + 1, 2 * j, 2 * j + 1])
         meet = (i <= j) & (low[0, i] <= high[0, j]) & (low[0, j] <= high[0, i]) & (low[1, i] <= high[1, j]) & (low[1, j] <= high[1, i])
         i, j = i[meet], j[meet]
+        counted(len(i), _MOST_PAIRS, "pairs of pieces of a curve that lie upon each other", _BEYOND)
     return i[i < j], j[i < j]
 
 
