@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright.errors import DrivewrightError
+from drivewright.errors import DrivewrightError, InputError
+from drivewright.mechanisms.silent_chain import solid
+from drivewright.solids.contact.model import CoarseContact
 from drivewright.spec import from_document
 from drivewright.spec.parsing import change_key
 from drivewright.view.panels import drawable, known_plots
@@ -146,11 +148,27 @@ def test_findings_say_how_fine_and_what_is_assumed():
         ("joints whose two pins roll", ('roller.diameter="6 mm"', 'joint.kind="revolute"', "joint.rolling_radius=")),
         ("write [drive]", ("drive=",)),
         ("shorter than a revolution of the chain; give dynamics.duration more", ('dynamics.duration="10 ms"',)),
-        pytest.param("give elements of", ('solid.clearance="80 um"',), marks=pytest.mark.slow),
+        (
+            "0.08 mm is too much for small displacements around a pin of 1.2 mm in radius; give solid.clearance 0.06 mm or less",
+            ('solid.clearance="80 um"',),
+        ),
     ],
 )
 def test_left_out_with_the_reason(words, changes):
     assert words in left_out(*changes)
+
+
+@pytest.mark.parametrize(
+    ("width", "words"),
+    [
+        (0.08, "on 0.08 mm, narrower than two elements of 0.1 mm; with a clearance of 40 um .* solid.fineness 2.5 or more, or a smaller"),
+        (0.05, "Give a smaller solid.clearance"),
+        (0.0, "a pin presses its seat on less than an element, .* Give a smaller solid.clearance"),
+    ],
+)
+def test_a_contact_too_narrow_for_its_elements_is_told_with_the_keys_that_help(width, words):
+    with pytest.raises(InputError, match=words), solid._fine_enough(spec('solid.clearance="40 um"', "solid.fineness=1").solid):
+        raise CoarseContact("contact: the elements are large", 0.1, width)
 
 
 # -- what the spec refuses

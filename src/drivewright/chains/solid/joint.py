@@ -85,15 +85,15 @@ def rolling_pins(plate: Plate, stack: Stack, fit: Fit, material: Material, force
     if not plate.link.radius > 0:
         raise InputError("stress of solids: a joint with one round pin has no rolling pins")
     pitch, (left, right) = plate.link.pitch, plate.own_pins
+    pairs = [
+        seat_pair(plate, "own plate", "right", "own pin", fit, stack.own, 0.0),
+        seat_pair(plate, "other plate", "left", "other pin", fit, stack.other, pitch),
+    ]
     own = FreeBody(plate_mesh(plate, *stack.own, sizes, half=1), *material, dirichletx="cut", dirichletz="low")
     last: Any = {"dirichletz": "high"} if stack.endless else {}
     other = FreeBody(plate_mesh(plate, *stack.other, sizes, half=-1, shift=pitch), *material, **last)
     pins = {"own pin": pin_body(right, stack, material, sizes, 0.0), "other pin": pin_body(left, stack, material, sizes, pitch)}
     bodies = {"own plate": own, **pins, "other plate": other}
-    pairs = [
-        seat_pair(plate, "own plate", "right", "own pin", fit, stack.own, 0.0),
-        seat_pair(plate, "other plate", "left", "other pin", fit, stack.other, pitch),
-    ]
     contact = complex(pitch / 2)
     half_width = hertz.line_contact(
         force, stack.end, hertz.effective_radius(plate.link.radius, plate.link.radius), hertz.effective_modulus(*material, *material)
