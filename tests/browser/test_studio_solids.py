@@ -64,6 +64,7 @@ def kept(folder):
     keep_result(place, replace(result, fields={"solid_stress": found}, provenance=done))
 
 
+@pytest.mark.slow
 def test_fields_on_the_deformed_solids(studio, browser):
     address, folder = studio
     page = browser.new_page(viewport={"width": 1440, "height": 900})

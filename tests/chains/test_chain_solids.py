@@ -61,6 +61,7 @@ def test_step_file_of_a_plate_has_its_area_times_its_thickness(tmp_path):
     assert volume == pytest.approx(PLATE.moments.area * PLATE.thickness, rel=2e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.needs_fe
 def test_triangles_of_a_sprocket_enclose_its_area_times_its_width():
     from drivewright.solids import cad

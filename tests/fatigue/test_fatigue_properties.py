@@ -37,7 +37,7 @@ def rotations(count, seed=0):
         yield q * np.sign(np.linalg.det(q))
 
 
-@pytest.mark.parametrize("plane", PLANES)
+@pytest.mark.parametrize("plane", [PLANES[0], pytest.param(PLANES[1], marks=pytest.mark.slow)])
 def test_turning_the_axes_changes_nothing(plane):
     stress = blocks(1)
     plain = lives(stress, plane)

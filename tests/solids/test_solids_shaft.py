@@ -69,6 +69,7 @@ def test_the_papers_pressure_roller_shaft():
 
 
 @needs_fe
+@pytest.mark.slow
 def test_the_papers_rubber_roller_shaft():
     seats = ((0.135, 0.002, 3e7), (0.461, 0.002, 3e7))
     found = solid(((0.49, 0.02, 0.02, 0.0),), seats, (0.053, 0.2015)).flexibility
@@ -98,6 +99,7 @@ def test_reactions_are_those_of_statics_and_rigid_bearings_are_the_limit_of_stif
     ],
     ids=["cone", "hollow cones", "tube"],
 )
+@pytest.mark.slow
 def test_cones_and_bores_agree_with_the_beam(sections, near):
     found, wanted = solid(sections).flexibility, beam(sections, SEATS, PLACES)
     assert np.abs(gap(found, wanted)).max() < near
@@ -115,6 +117,7 @@ def test_a_shoulder_is_softer_than_the_beam_says():
 
 
 @needs_fe
+@pytest.mark.slow
 def test_a_band_across_a_step_holds_both_diameters():
     # the beam with the step in the middle of the bearing; the shoulder itself is not part of the seat
     sections = ((0.0565, 0.019, 0.019, 0.0), (0.2835, 0.02, 0.02, 0.0))
@@ -131,6 +134,7 @@ def test_three_bearings_and_a_station_within_a_band():
 
 
 @needs_fe
+@pytest.mark.slow
 def test_units_do_not_matter():
     sections, seats = [(0.05, 0.02, 0.02, 0.0)], [(0.01, 0.004, 1e8), (0.04, 0.004, 2e8)]
     one = solid_flexibility(sections, E, NU, seats, [0.025]).flexibility

@@ -1,5 +1,6 @@
 """`verify` and `validate` at the terminal: tables on stdout, messages on stderr, exit codes."""
 
+import math
 import sys
 
 import pytest
@@ -66,6 +67,18 @@ def test_verify_fails_when_the_routes_part(capsys, monkeypatch, other, code):
     assert "tip.track_height" in out and f"{1e3 * other:.6g} mm" in out and "1 mm" in out and "by hand" in out
 
 
+def test_verify_ends_with_2_where_an_extra_is_missing_and_with_0_where_a_route_does_not_fit(capsys, monkeypatch):
+    agreeing = study.Comparison("tip.track_height", 0.18, 0.18, "m", 1e-3, "by hand")
+    for extra, wanted in (("peers", 2), ("", 0)):
+        left = study.Comparison("the rod in Exudyn", math.nan, math.nan, "-", math.nan, "", "not to be had", extra)
+        monkeypatch.setattr(study, "verify", lambda spec, left=left: (agreeing, left))
+        code, out, _ = run(capsys, "verify", PRESET)
+        assert code == wanted
+        assert "left out: the rod in Exudyn: not to be had" in out
+        assert "tip.track_height" in out
+
+
+@pytest.mark.slow
 def test_verify_without_its_extra_says_what_is_left_out_and_why(capsys, monkeypatch):
     monkeypatch.setitem(sys.modules, "exudyn", None)
     monkeypatch.delitem(sys.modules, "drivewright.oracles.seedling_pusher.exudyn_model", raising=False)

@@ -40,6 +40,7 @@ def test_hats_stand_for_the_whole_length():
     assert widths[0] == widths[-1] == pytest.approx(widths[1] / 2)
 
 
+@pytest.mark.slow
 def test_the_rolling_contact_has_the_compliance_that_the_strips_leave_out():
     """That of both pins over the length of a hat, with the half width of the mean line load."""
     found, end = rolling((1, 2)), 3e-3
@@ -62,7 +63,7 @@ def test_a_lacing_of_one_and_two_ends_and_a_wider_one_goes_on():
 # -- the joint
 
 
-@pytest.mark.parametrize("lacing", [(1, 2), (2, 3)])
+@pytest.mark.parametrize("lacing", [(1, 2), pytest.param((2, 3), marks=pytest.mark.slow)])
 def test_forces_of_a_joint_are_in_balance(lacing):
     found = rolling(lacing)
     assert found.line_load @ hat_widths(found.height[-1]) == pytest.approx(PULL / 2, rel=1e-6)
@@ -72,6 +73,7 @@ def test_forces_of_a_joint_are_in_balance(lacing):
     assert found.state.force(1)[0] == pytest.approx(-PULL / 2, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_line_load_is_greatest_in_the_middle_and_evener_in_an_endless_stack():
     """Pins that cross two outer plates bend and leave each other at their ends; a cell of an endless stack has no end."""
     ended, endless = rolling((1, 2)), rolling((2, 3))

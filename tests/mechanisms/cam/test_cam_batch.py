@@ -165,7 +165,7 @@ def test_a_search_by_the_batch_finds_the_cam_that_a_search_by_runs_finds(monkeyp
     assert by_batch.feasible and by_runs.feasible
 
 
-@pytest.mark.parametrize("name", RANGES)
+@pytest.mark.parametrize("name", [name if name == "default" else pytest.param(name, marks=pytest.mark.slow) for name in RANGES])
 def test_who_else_is_in_the_batch_changes_no_bit(name):
     spec, designs = preset(name), designs_of(RANGES[name], 40)
     names = tuple(outputs_of(spec, (), ()))
@@ -190,7 +190,7 @@ def test_forces_spring_and_pressure_of_many_loads():
     assert 0 < np.sum(found["spring.jump_speed"] == 0) < 40
 
 
-@pytest.mark.parametrize("name", ["groove", "conjugate"])
+@pytest.mark.parametrize("name", ["groove", pytest.param("conjugate", marks=pytest.mark.slow)])
 def test_forces_that_change_the_surface(name):
     assert_same(preset(name), {"load.mass": (0.1, 2.0), "load.force": (-40.0, 40.0), "drive.speed": (5.0, 60.0)})
 
