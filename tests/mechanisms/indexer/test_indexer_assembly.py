@@ -11,6 +11,7 @@ from drivewright.errors import SpecError
 from drivewright.indexing import solid
 from drivewright.indexing.solid import tables
 from drivewright.mechanisms.indexer import assembly
+from drivewright.mechanisms.indexer.build import IndexerModel
 from drivewright.runner import build
 
 pytestmark = pytest.mark.interface
@@ -59,7 +60,7 @@ def test_bodies_are_rigid_unless_told_otherwise():
 def rigid_assembly():
     """The assembly of the preset, every body as in the lumped model: no finite elements."""
     patch = pytest.MonkeyPatch()
-    patch.setattr(assembly, "solid_parts", lambda model: solid.Solids())
+    patch.setattr(IndexerModel, "solids", solid.Solids())
     try:
         return build(spec()), assembly.load(build(spec())), assembly.assembly(build(spec()), {})
     finally:
@@ -102,7 +103,7 @@ def test_tables_and_findings():
 
 def test_one_input_angle():
     patch = pytest.MonkeyPatch()
-    patch.setattr(assembly, "solid_parts", lambda model: solid.Solids())
+    patch.setattr(IndexerModel, "solids", solid.Solids())
     free = assembly.assembly(build(spec('load.angle="10 deg"')), {})
     held = assembly.assembly(build(spec('load.angle="100 deg"', 'contact.model="bonded"')), {})
     patch.undo()

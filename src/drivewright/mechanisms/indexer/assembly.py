@@ -13,7 +13,6 @@ from drivewright.indexing.solid import SolidStiffness, tables
 from drivewright.indexing.stiffness import TorsionalStiffness
 from drivewright.indexing.stiffness.loading import REACH, solve_at_contacts
 from drivewright.indexing.stiffness.tables import pin_force_table
-from drivewright.mechanisms.indexer.bodies import solid_parts
 from drivewright.mechanisms.indexer.build import IndexerModel
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.mechanisms.indexer.stiffness import no_stiffness
@@ -58,7 +57,7 @@ def assembly(model: IndexerModel, done: Answers) -> Answer:
 def load(model: IndexerModel, fineness: float = 1.0, positions: int = POSITIONS) -> LoadedAssembly:
     """The `LoadedAssembly` at `positions` over the index period, or at the one input angle asked for."""
     angles = model.angles if len(model.angles) == 1 else np.linspace(0.0, model.wheel.motion.motion_angle, positions)
-    contacts, bodies = contacts_at(model.wheel, angles, REACH), solid_parts(model)
+    contacts, bodies = contacts_at(model.wheel, angles, REACH), model.solids
     rigid, wheel = model.rigid_wheel.train, model.loaded_wheel
     train = rigid._replace(shaft=solid.seated(rigid.shaft, bodies.shaft))
     condensed = solid.condense_assembly(model.wheel, train, bodies, angles, contacts, cams=model.spec.cams, fineness=fineness)

@@ -1,21 +1,22 @@
 """The bodies of an indexer that its spec tells the size of, as solids."""
 
-from typing import TYPE_CHECKING
-
-from drivewright.indexing import solid
-
-if TYPE_CHECKING:
-    from drivewright.mechanisms.indexer.build import IndexerModel
+from drivewright.bearings import Entry
+from drivewright.indexing import drivetrain, solid
+from drivewright.indexing.pin_wheel import PinWheel
+from drivewright.mechanisms.indexer.spec import IndexerSpec
 
 
-def solid_parts(model: "IndexerModel") -> solid.Solids:
-    """The bodies that the spec tells the size of; what it does not is as in the reduced model."""
-    spec, entry = model.spec, model.crank_bearing
+def solid_parts(
+    spec: IndexerSpec, crank: Entry | None, support: Entry | None, wheel: PinWheel, train: drivetrain.Drivetrain | None
+) -> solid.Solids:
+    """The bodies that the spec tells the size of, with the catalogue entries of crank and support bearings.
+
+    What it does not tell is as in the reduced model.
+    """
     cam = shaft = None
-    if entry and entry.outer_diameter:
-        cam = solid.CamBody(spec.cam_width, entry.outer_diameter)
-    if entry and entry.bore and spec.shafts:
-        seat = model.support_bearing.width if model.support_bearing and model.support_bearing.width else 0.4 * min(spec.shafts.diameters)
-        shaft = solid.ShaftBody(entry.bore, spec.cam_width, seat, 0.7 * spec.shafts.diameters[0])
-    wheel = solid.usual_wheel(model.wheel, model.train, spec.cam_width) if cam and model.train and model.train.shaft else None
-    return solid.Solids(cam, shaft, wheel)
+    if crank and crank.outer_diameter:
+        cam = solid.CamBody(spec.cam_width, crank.outer_diameter)
+    if crank and crank.bore and spec.shafts:
+        seat = support.width if support and support.width else 0.4 * min(spec.shafts.diameters)
+        shaft = solid.ShaftBody(crank.bore, spec.cam_width, seat, 0.7 * spec.shafts.diameters[0])
+    return solid.Solids(cam, shaft, solid.usual_wheel(wheel, train, spec.cam_width) if cam and train and train.shaft else None)

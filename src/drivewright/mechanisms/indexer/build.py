@@ -17,6 +17,7 @@ from drivewright.indexing.parallel import ParallelIndexer
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.plane import index_angles
 from drivewright.indexing.roller_gear.design import RollerGear, barrel, globoidal
+from drivewright.indexing.solid import Solids
 from drivewright.indexing.stiffness.loading import LoadedWheel
 from drivewright.mechanisms.indexer.bodies import solid_parts
 from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, required, unused
@@ -101,6 +102,11 @@ class IndexerModel:
         return _entry(self.spec, self.spec.support_bearings)
 
     @property
+    def solids(self) -> Solids:
+        """The bodies that the spec tells the size of."""
+        return solid_parts(self.spec, self.crank_bearing, self.support_bearing, self.wheel, self.train)
+
+    @property
     def pin_measures(self) -> tuple[float, float, float]:
         """Radius of a pin and width of a cam [m], effective modulus [Pa]."""
         return self.spec.pin_radius, self.spec.cam_width, self.modulus
@@ -130,7 +136,7 @@ def _elastic_train(model: IndexerModel) -> drivetrain.Drivetrain:
     """The drive train whose contacts and shafts yield as its bodies do; of an analysis, since it takes long."""
     from drivewright.indexing.solid.correction import elastic_train
 
-    return elastic_train(model.wheel, _of_kind(model.train, drivetrain.Drivetrain), solid_parts(model), cams=model.spec.cams)
+    return elastic_train(model.wheel, _of_kind(model.train, drivetrain.Drivetrain), model.solids, cams=model.spec.cams)
 
 
 def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT:

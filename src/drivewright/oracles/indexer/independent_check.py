@@ -15,7 +15,6 @@ from drivewright.indexing.plane import PlaneDrive, find_contacts, pitch_point
 from drivewright.indexing.roller_gear import RollerGear
 from drivewright.indexing.roller_gear.envelope import rotate_about_y
 from drivewright.indexing.stiffness.loading import solve_loaded
-from drivewright.mechanisms.indexer.bodies import solid_parts
 from drivewright.mechanisms.indexer.build import IndexerModel
 from drivewright.registry import Row
 from drivewright.result import Result
@@ -94,7 +93,7 @@ def _flanks(cam: RollerGear, count: int = 200) -> Iterator[Row]:
 
 def _solids(model: IndexerModel) -> Iterator[Row]:
     """Torsional stiffness at three angles, the contact state and the forces of the bearings those of the solids."""
-    parts, train = solid_parts(model), model.train
+    parts, train = model.solids, model.train
     if train is None or not any(parts):
         return
     angles = model.angles if len(model.angles) == 1 else model.wheel.motion.motion_angle * np.array(ANGLES)
