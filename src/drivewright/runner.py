@@ -42,8 +42,8 @@ def run(
     selected = select_analyses(mechanism.analyses, only, everything)
     model = mechanism.build(spec) if model is None else model
     answers = run_analyses(spec, model, selected, progress)
-    left_out = {name: answer.findings[-1] for name, answer in answers.items() if answer.outcome == "left out"}
-    unanswered = [left_out[name] for name in only if name in left_out]
+    left_out = {name: "".join(answer.findings[-1:]) for name, answer in answers.items() if answer.outcome == "left out"}
+    unanswered = [left_out[name] for name in only if left_out.get(name)]
     warnings = tuple(dict.fromkeys([*(warning for answer in answers.values() for warning in answer.warnings), *unanswered]))
     findings = [*warnings, *getattr(model, "findings", ()), *(each for each in _findings(answers) if each not in unanswered)]
     findings += [*stop_findings(answers), *_missing_numbers(answers)]

@@ -226,6 +226,8 @@ def test_an_interrupt_exits_with_130_and_leaves_no_rubbish(drivewright, toy, mon
     code, out, err = drivewright("run", "toy.toml", "--no-figures")
     assert code == 130 and out == "" and "interrupted; what was not written yet is lost" in err and snapshot(toy) == before
     assert "Traceback" not in err
+    Path("toy.toml").rename("sweep")  # a file may be called like a command
+    assert "what was not written yet is lost" in drivewright("run", "sweep", "--no-figures")[2]
 
 
 # -- the other commands --------------------------------------------------------------------------------------------------------

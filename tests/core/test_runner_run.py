@@ -142,6 +142,13 @@ def test_an_analysis_asked_for_by_name_that_is_left_out_is_a_warning_and_what_it
     assert runner.run(SPEC).warnings == () != runner.run(SPEC).left_out
 
 
+def test_an_analysis_may_leave_itself_out_without_a_word(kind):
+    kind(Analysis("a", lambda model, done: Answer(outcome="left out"), "silent"))
+    result = runner.run(SPEC, only="a")
+    assert result.left_out == {"a": ""}
+    assert result.warnings == ()
+
+
 def test_warnings_of_all_analyses_come_first_among_the_findings(kind):
     kind(
         Analysis("a", lambda model, done: Answer(findings=("all is told",), warnings=("pins slip",)), "first"),

@@ -77,7 +77,7 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
 
 def _kept(arguments: list[str]) -> str:
     """What is left of an interrupted command."""
-    if RESUMABLE.intersection(arguments):
+    if next((each for each in arguments if not each.startswith("-")), "") in RESUMABLE:
         return "what was finished before is kept, and the same command goes on"
     return "what was not written yet is lost, and the same command begins it anew"
 

@@ -149,7 +149,7 @@ def test_findings_say_how_fine_and_what_is_assumed():
         ("write [drive]", ("drive=",)),
         ("shorter than a revolution of the chain; give dynamics.duration more", ('dynamics.duration="10 ms"',)),
         (
-            "0.08 mm is too much for small displacements around a pin of 1.2 mm in radius; give solid.clearance 0.06 mm or less",
+            "0.08 mm is too much for small displacements around a pin of 1.2 mm in radius; give a clearance of 0.06 mm or less",
             ('solid.clearance="80 um"',),
         ),
     ],

@@ -48,7 +48,7 @@ class Pair(NamedTuple):
 class CoarseContact(InputError):
     """A contact narrower than two of its elements; size and width [mm]: of the elements there, and of the contact, 0 where unknown."""
 
-    def __init__(self, message: str, size: float = 0.0, width: float = 0.0) -> None:
+    def __init__(self, message: str, size: float, width: float) -> None:
         super().__init__(message)
         self.size, self.width = size, width
 
