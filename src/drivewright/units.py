@@ -32,6 +32,7 @@ __all__ = [
     "Force",
     "Frequency",
     "Inertia",
+    "KinematicViscosity",
     "Length",
     "LineForce",
     "Mass",
@@ -42,8 +43,10 @@ __all__ = [
     "Slowness",
     "Speed",
     "Stiffness",
+    "Temperature",
     "Time",
     "Torque",
+    "Unbalance",
     "Velocity",
     "Viscosity",
     "WearCoefficient",
@@ -70,13 +73,17 @@ metre = [length] = m = meter
 kilogram = [mass] = kg
 second = [time] = s
 radian = [angle] = rad
-kelvin = [temperature] = K
+kelvin = [temperature] = K = degC = degreeC
+rankine = 5 / 9 * kelvin = degR = degF = degreeF  # pint reads ° as "degree"
 gram = 1e-3 * kilogram = g
 tonne = 1e3 * kilogram = t
 inch = 0.0254 * metre = in
+mil = 0.001 * inch = thou
 foot = 0.3048 * metre = ft
+yard = 0.9144 * metre = yd
 micron = 1e-6 * metre
-pound = 0.45359237 * kilogram = lb
+pound = 0.45359237 * kilogram = lb = lbm
+ounce = pound / 16 = oz
 minute = 60 * second = min
 hour = 3600 * second = h
 day = 86400 * second = d
@@ -90,13 +97,20 @@ hertz = 1 / second = Hz
 newton = kilogram * metre / second ** 2 = N
 kilogram_force = 9.80665 * newton = kgf
 pound_force = 4.4482216152605 * newton = lbf
+ounce_force = pound_force / 16 = ozf
+kip = 1000 * pound_force
+slug = pound_force * second ** 2 / foot
 pascal = newton / metre ** 2 = Pa
 bar = 1e5 * pascal
 psi = pound_force / inch ** 2
+ksi = 1000 * psi
+poise = 0.1 * pascal * second = P
+stokes = 1e-4 * metre ** 2 / second = St
 joule = newton * metre = J
 newton_metre = newton * metre = Nm
 watt = joule / second = W
-horsepower = 735.49875 * watt = PS
+metric_horsepower = 735.49875 * watt = PS
+horsepower = 550 * foot * pound_force / second = hp
 litre = 1e-3 * metre ** 3 = l = L
 """
 
@@ -107,6 +121,14 @@ PATTERN = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$"
 EXPRESSION = re.compile(rf"(?:{WORD}(?:\^[+-]?[0-9](?:\.[0-9])?)?|1(?![0-9.])|[\s*/()])+")
 SMALLEST, LARGEST = 1e-40, 1e40  # magnitude in SI of what a key may say: no drive has more, and products of a few are still numbers
 FACTORS = Path(__file__).parent / "unit_factors.toml"  # {text: [factor, {base: exponent}]}, written by scripts/unit_factors.py
+# Units of temperature and where their scales begin [K]: their factors are those of a difference.
+SCALES = {
+    "K": Fraction(0),
+    "degC": Fraction("273.15"),
+    "°C": Fraction("273.15"),
+    "degF": Fraction("459.67") * 5 / 9,
+    "°F": Fraction("459.67") * 5 / 9,
+}
 LONGEST = 100  # characters of a quantity; nobody writes more, and a parser needs an end
 
 
@@ -215,14 +237,36 @@ class Dimension:
         return _read(self, value)
 
     def factor(self, unit: str) -> float:
-        """Factor from `unit` to SI; UnitError where it belongs to another kind of quantity."""
+        """Factor from `unit` to SI, of a temperature that of a difference; UnitError where it belongs to another kind of quantity."""
         return float(self._exact(unit, unit))
 
     def _exact(self, unit: str, whole: object) -> Fraction:
+        self._refuse_other_scales(unit, whole)
         factor, dimensionality = _unit(unit)
         if dimensionality != _unit(self.unit)[1]:
             raise UnitError(f"wants {self.described}, got {brief(whole)}{_other_name(dimensionality)}{self._remedy(dimensionality)}")
         return factor
+
+    def _exact_si(self, number: Fraction, unit: str, whole: object) -> Fraction:
+        """SI number of so many of a unit; a temperature counts from where its scale begins."""
+        exact = number * self._exact(unit, whole) + self._begin(unit)
+        if self.name == "temperature" and exact < 0:
+            raise UnitError(f"{brief(whole)} is below absolute zero, 0 K or -273.15 degC")
+        return exact
+
+    def _begin(self, unit: str) -> Fraction:
+        """Where the scale of a temperature begins [K]."""
+        return SCALES[unit] if self.name == "temperature" else Fraction(0)
+
+    def _counted(self, exact: Fraction, unit: str) -> Fraction:
+        """An SI number in a unit; what a scale's beginning leaves of a float's rounding is none of it."""
+        begin = self._begin(unit)
+        return round((exact - begin) / _unit(unit)[0], 10) if begin else exact / _unit(unit)[0]
+
+    def _refuse_other_scales(self, unit, whole):
+        """A temperature is read in the units of `SCALES` alone: "C" is none, and what "mK" or "degC" times something begins at is open."""
+        if self.name == "temperature" and unit not in SCALES and (unit in ("C", "F") or _unit(unit)[1] == _unit(self.unit)[1]):
+            raise UnitError(f"wants {self.described}, got {brief(whole)}{REMEDIES[self.name]}")
 
     def text(self, value: float) -> str:
         """A text that parses back to exactly `value`, in the unit people read or another that makes it shorter."""
@@ -234,10 +278,11 @@ class Dimension:
             (16, [self.display_unit]),
         ):
             for unit in units:
-                text = f"{decimal_text(exact / _unit(unit)[0], digits)} {unit}"
+                text = f"{decimal_text(self._counted(exact, unit), digits)} {unit}"
                 if _reads_as(text, value, self):
                     return text
-        return f"{decimal_text(exact / _unit(self.display_unit)[0], 17)} {self.display_unit}"  # 17 digits always do
+        last = self.unit if self._begin(self.display_unit) else self.display_unit  # 17 digits always do, but for the beginning of a scale
+        return f"{decimal_text(exact / _unit(last)[0], 17)} {last}"
 
     @property
     def described(self) -> str:
@@ -281,7 +326,7 @@ def _read(dimension: Dimension, text: str) -> float:
     number, unit = split(text)
     if not unit:
         raise UnitError(f'a bare number; {dimension.described} wants its unit, e.g. "{text.strip()} {dimension.display_unit}"')
-    return _rounded(number * dimension._exact(unit, text), text)
+    return _rounded(dimension._exact_si(number, unit, text), text)
 
 
 def split(text: str) -> tuple[Fraction, str]:
@@ -307,7 +352,7 @@ def any_quantity(text: str) -> tuple[float, tuple[tuple[str, float], ...]]:
     """(SI float, dimensionality) of a quantity of any kind; UnitError where the text is none."""
     number, unit = split(text)
     factor, dimensionality = _unit(unit)
-    return _rounded(number * factor, text), tuple(sorted(dimensionality))
+    return _rounded(number * factor + SCALES.get(unit, 0), text), tuple(sorted(dimensionality))
 
 
 def _reads_as(text, value, dimension):
@@ -355,6 +400,9 @@ DIMENSIONS = (
     Dimension("volume", "m^3", "mm^3"),
     Dimension("rotational damping", "N m s/rad", "N m s/rad"),
     Dimension("viscosity", "Pa s", "Pa s"),
+    Dimension("kinematic viscosity", "m^2/s", "mm^2/s", ("cSt",)),
+    Dimension("temperature", "K", "degC", ("K", "degF")),
+    Dimension("unbalance", "kg m", "g mm", ("kg mm", "oz in")),
     Dimension("wear coefficient", "m^2/N", "mm^3/(N m)"),
     Dimension("slowness", "s/m", "s/m"),
     Dimension("flexibility", "m/N", "um/kN"),
@@ -363,6 +411,9 @@ DIMENSIONS = (
 REMEDIES = {
     "rotational damping": "; write N m s/rad, a torque per angular speed",
     "viscosity": "; write Pa s, the dynamic viscosity",
+    "kinematic viscosity": "; write mm^2/s or cSt",
+    "temperature": '; write e.g. "70 degC", "343.15 K" or "158 degF"',
+    "unbalance": "; write g mm, kg mm or oz in",
     "wear coefficient": "; write mm^3/(N m), volume per force and sliding distance",
     "slowness": "; write s/m",
 }
@@ -401,6 +452,9 @@ Damping: TypeAlias = Annotated[float, BY_NAME["damping"]]
 Pressure: TypeAlias = Annotated[float, BY_NAME["pressure"]]
 RotationalDamping: TypeAlias = Annotated[float, BY_NAME["rotational damping"]]
 Viscosity: TypeAlias = Annotated[float, BY_NAME["viscosity"]]
+KinematicViscosity: TypeAlias = Annotated[float, BY_NAME["kinematic viscosity"]]
+Temperature: TypeAlias = Annotated[float, BY_NAME["temperature"]]
+Unbalance: TypeAlias = Annotated[float, BY_NAME["unbalance"]]
 WearCoefficient: TypeAlias = Annotated[float, BY_NAME["wear coefficient"]]
 Slowness: TypeAlias = Annotated[float, BY_NAME["slowness"]]
 Density: TypeAlias = Annotated[float, BY_NAME["density"]]
