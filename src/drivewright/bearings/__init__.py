@@ -2,9 +2,10 @@
 
 `response` energy, force and stiffness of any elastic support; `newton` the compiled equilibrium of one bearing; `solving` the same with
 names, checks and what each element carries; `ball` and `roller` the two kinds, each with its law, static rating and reference life
-(ISO/TS 16281); `life` basic life of ISO 281; `dynamic_rating` that of balls; `stiffness_curve` displacement and stiffness over load;
-`approximate_stiffness` formulas from catalogue numbers alone; `catalogue` bearings by name; `drawing` a bearing in section, `tables` and
-`values` answers as tables and values of a result.
+(ISO/TS 16281); `life` basic life of ISO 281, `equivalent_loads` its X and Y, `modified_life` and `lubricant` its a_ISO, `lives` all lives
+of a bearing, `load_spectrum` those of a duty cycle and of several bearings; `dynamic_rating` that of balls; `stiffness_curve`
+displacement and stiffness over load; `approximate_stiffness` formulas from catalogue numbers alone; `catalogue` bearings by name;
+`drawing` a bearing in section, `tables` and `values` answers as tables and values of a result.
 """
 
 from importlib import import_module
@@ -30,6 +31,25 @@ _WHERE = {
     "ball": ("BallBearing", "BallLaw"),
     "dynamic_rating": ("basic_dynamic_rating",),
     "life": ("basic_life", "equivalent_radial_load", "life_duration", "life_exponent", "static_rating"),
+    "equivalent_loads": (
+        "EquivalentLoad",
+        "LoadFactors",
+        "ball_load_factors",
+        "equivalent_load",
+        "equivalent_static_load",
+        "load_factors",
+    ),
+    "modified_life": ("fatigue_limit_load", "life_modification_factor", "reference_load", "reference_viscosity", "reliability_factor"),
+    "lubricant": (
+        "Lubrication",
+        "contamination_factor",
+        "grade_viscosity",
+        "lubrication_findings",
+        "operating_viscosity",
+        "walther_viscosity",
+    ),
+    "lives": ("RatingLives", "life_load_ratio", "rating_lives"),
+    "load_spectrum": ("mean_load", "mean_speed", "spectrum_life", "system_life"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
     "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names", "replace_catalogue_values"),
     "approximate_stiffness": (

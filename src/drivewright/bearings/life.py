@@ -1,4 +1,7 @@
-"""Basic life and equivalent load of rolling bearings by ISO 281, recalled; the reference life stands with each kind of bearing."""
+"""Basic life of rolling bearings by ISO 281; `equivalent_loads` has the load that it takes, `modified_life` lubricant and reliability.
+
+The reference life stands with each kind of bearing.
+"""
 
 from collections.abc import Sequence
 
@@ -25,8 +28,7 @@ def life_exponent(bearing: RollingBearing) -> float:
 def basic_life(bearing: RollingBearing, load: float) -> float | None:
     """L10 [revolutions] of ISO 281: 1e6 (C/P)^p, p = 3 of balls and 10/3 of rollers; None without a dynamic rating.
 
-    P [N] is the load itself where it is radial.  The factors X and Y for a combined load are not stated here: those recalled differ
-    from the reference life of this geometry by up to 30 % of the load.  Take `BearingEquilibrium.reference_life` there.
+    P [N] is the radial load, or of a combined one its `equivalent_load`.
     """
     if not load > 0:
         raise InputError(f"bearing: the life wants a load above 0 N, got {load:g}.")
@@ -46,5 +48,5 @@ def equivalent_radial_load(force: Sequence[float] | Floats, contact_angle: float
 
 
 def life_duration(revolutions: float, speed: float) -> float:
-    """Time [s] of so many revolutions at a speed [rad/s]."""
-    return float(revolutions) * 2 * np.pi / speed
+    """Time [s] of so many revolutions at a speed [rad/s], whichever way it turns."""
+    return float(revolutions) * 2 * np.pi / abs(speed)
