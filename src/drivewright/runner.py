@@ -45,7 +45,8 @@ def run(
     left_out = {name: "".join(answer.findings[-1:]) for name, answer in answers.items() if answer.outcome == "left out"}
     unanswered = [left_out[name] for name in only if left_out.get(name)]
     warnings = tuple(dict.fromkeys([*(warning for answer in answers.values() for warning in answer.warnings), *unanswered]))
-    findings = [*warnings, *getattr(model, "findings", ()), *(each for each in _findings(answers) if each not in unanswered)]
+    findings = [*warnings, *getattr(spec, "readings", {}).values(), *getattr(model, "findings", ())]
+    findings += [each for each in _findings(answers) if each not in unanswered]
     findings += [*stop_findings(answers), *_missing_numbers(answers)]
     findings += [
         f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"

@@ -1,8 +1,11 @@
 """Units at the door: text with a unit -> SI float, once.
 
-A registry of our own, in which **angle is a base dimension**: `rev` and `rpm` exist, "8 Hz" is no angular speed, and
-`N m` (torque) is not `N m/rad` (rotational stiffness).  The registry is built for the first unit that is not among the usual ones of
-`unit_factors.toml`.
+A registry of our own, in which **angle is a base dimension**: `rev` and `rpm` exist, "8 1/s" is no angular speed, and
+`N m` (torque) is not `N m/rad` (rotational stiffness).  The registry is built for the first unit that is not among the usual
+ones of `unit_factors.toml`.
+
+"8 Hz" of an angular speed has one usual reading, 8 rev/s, and so have the other units of `READ_AS`: they are taken, and
+`Dimension.reading` says as what.
 
 Factors are exact fractions and a quantity is rounded once, at the end: "1.27 cm", "12.7 mm" and "0.0127 m" are the same float.
 """
@@ -16,7 +19,7 @@ from fractions import Fraction
 from functools import cache, lru_cache
 from numbers import Real
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal, TypeAlias
 
 from drivewright.errors import UnitError, brief, nearest
 
@@ -119,6 +122,12 @@ WORD = "[A-Za-z\u00b5\u03bc\u00b0]+"  # letters, both micro signs, degree sign
 PATTERN = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$"  # the same for editors: a number and a unit
 # What may reach pint's parser: units, one-digit powers of units, products, quotients, and 1 as in 1/min.
 EXPRESSION = re.compile(rf"(?:{WORD}(?:\^[+-]?[0-9](?:\.[0-9])?)?|1(?![0-9.])|[\s*/()])+")
+# {kind that is wanted: {unit of another kind: the unit that it is read as}}: usual in drawings, and of one reading there.
+READ_AS = {
+    "angular speed": dict.fromkeys(("Hz", "hertz"), "rev/s") | dict.fromkeys(("1/min", "/min", "min^-1", "min-1", "r/min"), "rev/min"),
+    "torque": {"oz in": "ozf in", "in oz": "ozf in", "oz ft": "ozf ft", "ft oz": "ozf ft"},
+}
+FORCES = {"lb": "lbf", "lbm": "lbf", "oz": "ozf"}  # {unit of mass: the force of that name}
 SMALLEST, LARGEST = 1e-40, 1e40  # magnitude in SI of what a key may say: no drive has more, and products of a few are still numbers
 FACTORS = Path(__file__).parent / "unit_factors.toml"  # {text: [factor, {base: exponent}]}, written by scripts/unit_factors.py
 # Units of temperature and where their scales begin [K]: their factors are those of a difference.
@@ -129,6 +138,7 @@ SCALES = {
     "degF": Fraction("459.67") * 5 / 9,
     "°F": Fraction("459.67") * 5 / 9,
 }
+System: TypeAlias = Literal["mm", "si", "inch"]  # what results are shown in
 LONGEST = 100  # characters of a quantity; nobody writes more, and a parser needs an end
 
 
@@ -157,12 +167,18 @@ def _factors() -> dict[str, tuple[Fraction, frozenset[tuple[str, float]]]]:
 
 @lru_cache(maxsize=4096)
 def _unit(text: str) -> tuple[Fraction, frozenset[tuple[str, float]]]:
-    return _factors().get(text) or parsed_unit(text)
+    return _factors().get(text) or _factors().get(_tidy(text)) or parsed_unit(text)
+
+
+def _tidy(unit: str) -> str:
+    """A unit in one spelling: "lbf-in", "lbf  in" and "lbf·in" are "lbf in", "m²" is "m^2"; a hyphen between letters is a product."""
+    text = re.sub("(⁻?)([¹²³])", lambda power: f"^{'-' * len(power[1])}{'¹²³'.index(power[2]) + 1}", unit.strip().replace("**", "^"))
+    return re.sub(r"\s*[\u00b7\u22c5*]\s*|(?<=[A-Za-z])-(?=[A-Za-z])|\s+", " ", text)
 
 
 def parsed_unit(text: str) -> tuple[Fraction, frozenset[tuple[str, float]]]:
     """(exact factor to SI, dimensionality as a frozenset of (base, exponent)) of a unit text; UnitError where it is none."""
-    expression = re.sub(r"\s*[\u00b7\u22c5*]\s*", "*", text.strip().replace("**", "^").replace("\u00b2", "^2").replace("\u00b3", "^3"))
+    expression = _tidy(text)
     if not EXPRESSION.fullmatch(expression):
         raise UnitError(f"{brief(text)} is no unit known here")
     # A blank between two units is a product; pint reads "N m" so, but not "N  m" or "mm s^2".
@@ -244,12 +260,21 @@ class Dimension:
         self._refuse_other_scales(unit, whole)
         factor, dimensionality = _unit(unit)
         if dimensionality != _unit(self.unit)[1]:
-            raise UnitError(f"wants {self.described}, got {brief(whole)}{_other_name(dimensionality)}{self._remedy(dimensionality)}")
+            raise UnitError(f"wants {self.described}, got {brief(whole)}{_other_name(dimensionality)}{self._remedy(unit, dimensionality)}")
         return factor
+
+    def _read_as(self, unit: str) -> str:
+        return READ_AS.get(self.name, {}).get(_tidy(unit), unit)
+
+    def reading(self, text: str) -> str:
+        """What a text is read as where its unit is one of another kind, "25 rev/s" for "25 Hz"; "" where it says what it is."""
+        number = NUMBER.match(text)
+        unit = self._read_as(number[2]) if number else ""
+        return f"{number[1]} {unit}" if number and unit != number[2] else ""
 
     def _exact_si(self, number: Fraction, unit: str, whole: object) -> Fraction:
         """SI number of so many of a unit; a temperature counts from where its scale begins."""
-        exact = number * self._exact(unit, whole) + self._begin(unit)
+        exact = number * self._exact(self._read_as(unit), whole) + self._begin(unit)
         if self.name == "temperature" and exact < 0:
             raise UnitError(f"{brief(whole)} is below absolute zero, 0 K or -273.15 degC")
         return exact
@@ -289,8 +314,12 @@ class Dimension:
         """The name with its article: "a length", "an angle"."""
         return f"{'an' if self.name[0] in 'aeiou' else 'a'} {self.name}"
 
-    def _remedy(self, dimensionality):
+    def _remedy(self, unit, dimensionality):
         """How to get from the unit that was given to one that fits, where the mix-up is a classic."""
+        masses = re.findall(rf"\b(?:{'|'.join(FORCES)})\b", unit)
+        force = re.sub(rf"\b({'|'.join(FORCES)})\b", lambda mass: FORCES[mass[0]], _tidy(unit))
+        if masses and _unit(force)[1] == _unit(self.unit)[1]:
+            return f"; {masses[0]} is a mass: write {force}"
         mixups = {
             ("angular speed", "frequency"): "; a frequency counts events: write rev/s, rpm or rad/s",
             ("frequency", "angular speed"): "; write Hz or 1/s",
@@ -327,6 +356,13 @@ def _read(dimension: Dimension, text: str) -> float:
     if not unit:
         raise UnitError(f'a bare number; {dimension.described} wants its unit, e.g. "{text.strip()} {dimension.display_unit}"')
     return _rounded(dimension._exact_si(number, unit, text), text)
+
+
+@lru_cache(maxsize=4096)
+def has_two_readings(text: str) -> bool:
+    """Whether some kind of quantity reads the unit of a text as another one."""
+    number = NUMBER.match(text) if len(text) <= LONGEST else None
+    return number is not None and any(_tidy(number[2]) in units for units in READ_AS.values())
 
 
 def split(text: str) -> tuple[Fraction, str]:

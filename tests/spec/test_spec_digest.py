@@ -33,7 +33,13 @@ def reversed_keys(value):
 
 
 def test_units_key_order_title_and_spelled_out_defaults_do_not_matter(tables):
-    same = reversed_keys(tables) | {"length": "4 cm", "tilt": "-0.5235987755982989 rad", "title": "another", "weights": [3]}
+    same = reversed_keys(tables) | {
+        "length": "4 cm",
+        "tilt": "-0.5235987755982989 rad",
+        "title": "another",
+        "units": "inch",
+        "weights": [3],
+    }
     same["drive"] = {"sense": "backward", "speed": "120 rpm"}
     same["optimise"]["unknowns"][0] |= {"lower": "0.01 mm", "upper": "100 um"}
     same["optimise"]["requirements"][0]["at_least"] = "1800 arcmin"
@@ -65,7 +71,7 @@ def changed(value):
 
 def test_every_key_but_the_title_changes_it(tables):
     full = document(from_document(tables))
-    names = [(path, value) for path, value in leaves(full) if path not in (("title",), ("format",), ("mechanism",), ("table",))]
+    names = [(path, value) for path, value in leaves(full) if path not in (("title",), ("units",), ("format",), ("mechanism",), ("table",))]
     found = {digest(full)}
     for path, value in names:
         other = copy.deepcopy(full)

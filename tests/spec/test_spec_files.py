@@ -200,7 +200,11 @@ BASE = 'mechanism = "toy"\nlength = "40 mm"\n'
 @pytest.mark.parametrize(
     ("text", "key", "wanted"),
     [
-        ("lenth = 1", "lenth", "unknown key (did you mean 'length'?); known here: format, mechanism, title, optimise, study, length,"),
+        (
+            "lenth = 1",
+            "lenth",
+            "unknown key (did you mean 'length'?); known here: format, mechanism, title, units, optimise, study, length,",
+        ),
         ("DRIVE = {}", "DRIVE", "unknown key (did you mean 'drive'?)"),
         ("zzz = 1", "zzz", "unknown key; known here: format,"),
         ('"" = 1', '""', "unknown key; known here: format,"),
@@ -223,9 +227,9 @@ BASE = 'mechanism = "toy"\nlength = "40 mm"\n'
         ("tilt = {a = 1}", "tilt", "wants an angle, got {'a': 1}"),
         ("drive.speed = '0 rpm'", "drive.speed", "must be greater than 0 rpm, got 0 rpm"),
         (
-            "drive.speed = '8 Hz'",
+            "drive.speed = '8 1/s'",
             "drive.speed",
-            "wants an angular speed, got '8 Hz' (frequency); a frequency counts events: write rev/s, rpm or rad/s",
+            "wants an angular speed, got '8 1/s' (frequency); a frequency counts events: write rev/s, rpm or rad/s",
         ),
         ("drive.sense = 'foreward'", "drive.sense", "must be one of \"forward\", \"backward\", got 'foreward' (did you mean 'forward'?)"),
         ("drive.sense = 1", "drive.sense", 'must be one of "forward", "backward", got 1'),

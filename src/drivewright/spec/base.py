@@ -35,7 +35,7 @@ class _SpecMeta(type(BaseModel)):
 
     def __call__(cls, **data: Any) -> Any:
         try:
-            return super().__call__(**data)
+            return super().__call__(**data)._made_from(data)
         except ValidationError as error:
             raise spec_error_of(error, cls) from None
 
@@ -60,6 +60,10 @@ class Spec(_Table):
         field_title_generator=lambda name, field: label_of_key(name, field.title),
     )
 
+    def _made_from(self, tables: Mapping[str, Any]) -> Self:
+        """The spec itself, after validation of raw tables; what it keeps of them besides its fields is up to its kind."""
+        return self
+
     def replace(self, changes: Mapping[str, Any] | None = None, /, **keys: Any) -> Self:
         """A copy with keys of this table changed, validated like the original: `replace(radius="8 mm")`.
 
@@ -75,6 +79,6 @@ class Spec(_Table):
 def validate_tables(model: type[SpecT], tables: Mapping[str, Any], folder: str | Path = ".") -> SpecT:
     """A spec of a class from raw tables; paths are relative to `folder`.  SpecError names the key."""
     try:
-        return model.model_validate(tables, context={"folder": str(folder)})
+        return model.model_validate(tables, context={"folder": str(folder)})._made_from(tables)
     except ValidationError as error:
         raise spec_error_of(error, model) from None

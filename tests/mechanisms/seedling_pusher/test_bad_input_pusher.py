@@ -136,7 +136,7 @@ def test_a_bare_number_is_refused_so_that_degrees_and_radians_cannot_mix(key, va
     [
         ("train.bend=89 mm", "wants an angle, got '89 mm' (length)"),
         ("push.stroke=18 deg", "wants a length, got '18 deg' (angle)"),
-        ("drive.speed=200 Hz", "a frequency counts events"),
+        ("drive.speed=200 1/s", "a frequency counts events"),
         ("contact.stiffness=2e7 N m/rad", "wants a stiffness"),
         ("load.mass=2 N", "wants a mass, got '2 N' (force)"),
     ],
