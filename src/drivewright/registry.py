@@ -66,6 +66,8 @@ class Mechanism(Generic[SpecT, ModelT]):
     `verify(model, result)` re-computes it on independent routes, with a `LeftOut` in place of the rows of one that is not to be had;
     `batch(spec, keys, names)` gives a fast evaluation of many designs (n, keys) in SI -> {name: (n,)} for values, and checks as
     `check.NAME` (their margins), or None where it does not cover them; a design that it cannot speak for is nan in every name.
+    `supplied(spec)` gives {key: value in SI} of keys that the spec leaves out and that come from a catalogue, a card or a default of
+    the drive, list elements by name, so that a study can vary about them.
     `folder` holds `presets/*.toml`, `theory.md` and, for screens in other languages, `zh.toml`.
     """
 
@@ -81,6 +83,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     parts: "Callable[[ModelT], tuple[Part, ...]] | None" = None
     verify: "Callable[[ModelT, Result[Any]], Iterable[Row | LeftOut]] | None" = None
     batch: Callable[..., Any] | None = None
+    supplied: Callable[[SpecT], Mapping[str, float]] | None = None
     sources: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
     compile_ahead: Callable[[SpecT], Sequence[Callable[[], object]]] | None = None  # what compiles the kernels that a run comes to last

@@ -118,7 +118,7 @@ def test_the_page_says_what_varied_what_became_of_it_and_how_to_do_it_again(tmp_
         "[[study.vary]]",
     ):
         assert part in text, part
-    assert f"{NASTY}: the teeth miss by 0.000 mm (and the like with other numbers)" in page.text
+    assert f"the teeth miss by 0.000 … 0.571 mm (the first: {NASTY}: the teeth miss by 0.000 mm)" in page.text
     assert not [a for tag, a in page.tags if "onerror" in a]
 
 
@@ -192,7 +192,7 @@ def test_reasons_that_differ_in_numbers_only_are_one_and_the_commonest_comes_fir
     place = study.table.column_names.index("message")
     table = study.table.set_column(place, study.table.schema.field(place), pa.array(messages + [""] * 22))
     assert [(row["count"], row["text"]) for row in reasons(replace(study, table=table))] == [
-        (3, "gap 1.5 mm at -3e-2 (and the like with other numbers)"),
+        (3, "gap 1.5 … 3 mm at -3e-2 … 1e+5 (the first: gap 1.5 mm at -3e-2)"),
         (1, "no oil"),
         (1, "no reason given"),
     ]

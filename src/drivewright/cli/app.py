@@ -32,8 +32,9 @@ AllOption = Annotated[bool, typer.Option("--all", help="every analysis")]
 OutOption = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
 VARY_HELP = (
     "repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=FROM:TO or uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
-    "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE; KEY+KEY=... for keys "
-    "with the same value; instead of what the spec's [study] varies"
+    "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE; FROM and TO also as -5 % and +5 % of the spec's own value, SIGMA and "
+    "TOLERANCE as 5 %; KEY+KEY=... for keys with the same value, KEY + -KEY=... with the negative one; "
+    "KEY=-2 * OTHER + 3 mm for one that follows another; instead of what the spec's [study] varies"
 )
 METHOD_HELP = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
 StrictOption = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]

@@ -1,19 +1,19 @@
 """The report of a study beside its cases: what varied, what became of the cases, what the answers are, how to do it again."""
 
-import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from drivewright.atomic import replacing, write_text
+from drivewright.execution.case_reasons import reason_groups
+from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.folder import file_name, record_text
 from drivewright.report.html import embedded, page
 from drivewright.report.records import AnswersRecord, StudyRecord, VariableRecord
 from drivewright.view.text import SOLID, display_unit, number, quantity, sentence, uncertain, unit_text, with_unit
 
-STATUS, MESSAGE = "status", "message"  # columns of a study's table
 STATES = {"complete": "good", "partial": "warn", "failed": "bad"}
 MOST_REASONS = 8
 MOST_TILES = 12
@@ -100,23 +100,8 @@ def cases(study: StudyRecord) -> list[dict[str, Any]]:
 
 def reasons(study: StudyRecord) -> list[dict[str, Any]]:
     """The commonest reasons {status, count, text} of what is not complete: those that differ in their numbers only are one."""
-    import pyarrow.compute as pc
-
-    rows = study.table.select([STATUS, MESSAGE]).filter(pc.field(STATUS) != "complete")
-    kinds = {}
-    for row in rows.group_by([STATUS, MESSAGE], use_threads=False).aggregate([([], "count_all")]).to_pylist():
-        kind = (row[STATUS], re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", row[MESSAGE] or ""))
-        kinds.setdefault(kind, []).append((row["count_all"], row[MESSAGE] or "no reason given"))
-    counted = sorted(
-        ({"status": status, "count": sum(count for count, _ in rows), "text": _example(rows)} for (status, _), rows in kinds.items()),
-        key=lambda each: (-each["count"], each["status"], each["text"]),
-    )
-    return counted[:MOST_REASONS]
-
-
-def _example(messages):
-    """The first of some (count, message) of one kind, which says when the others differ."""
-    return messages[0][1] + (" (and the like with other numbers)" if len(messages) > 1 else "")
+    groups = reason_groups(study.table[STATUS].to_pylist(), study.table[MESSAGE].to_pylist())
+    return [{"status": group.status, "count": group.cases, "text": group.text()} for group in groups[:MOST_REASONS]]
 
 
 def _headlines(answers):

@@ -4,6 +4,7 @@ from typing import Any
 
 from drivewright.errors import SpecError, brief, nearest
 from drivewright.spec.document_limits import refuse_long_key
+from drivewright.spec.fields import value_at
 
 
 def set_key(tables: dict[str, Any], key: str, value: Any) -> dict[str, Any]:
@@ -36,6 +37,16 @@ def remove_key(tables: dict[str, Any], key: str) -> dict[str, Any]:
     else:
         raise SpecError(f"is not there, so it cannot be removed; for an empty text write --set {key}='\"\"'", key=key)
     return tables
+
+
+def key_by_name(spec: Any, key: str) -> str:
+    """The same key of a spec with elements of lists by their `name` where they have one, so that two ways to say one key are one text."""
+    steps = key.split(".")
+    for n in range(1, len(steps)):
+        holder = value_at(spec, ".".join(steps[:n]))
+        if isinstance(holder, tuple):
+            steps[n] = getattr(value_at(spec, ".".join(steps[: n + 1])), "name", None) or steps[n]
+    return ".".join(steps)
 
 
 def _descend(place: Any, step: str, key: str) -> Any:

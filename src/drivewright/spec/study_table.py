@@ -1,30 +1,51 @@
 """The [study] table: what varies from case to case, how it is sampled, what is kept.  The same for every kind of drive."""
 
-from typing import Literal
+import re
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import WrapValidator
 
 from drivewright.spec.base import Spec
 from drivewright.spec.fields import Bound, DataFile, Field, Flag, Integer, PlainValue, Text
 
+PERCENT = re.compile(r"\s*([+-]?)\s*([0-9]{1,9}(?:\.[0-9]{0,15})?|\.[0-9]{1,15})\s*%\s*")
+
 METHODS = Literal["latin-hypercube", "sobol", "random", "corners", "one-at-a-time", "tolerance", "sobol-indices"]
+
+
+def percentage(value: object) -> tuple[str, float] | None:
+    """(sign, share) of a text in percent: ("-", -0.05) of "-5 %", ("", 0.05) of "5 %"; None of anything else."""
+    match = PERCENT.fullmatch(value) if isinstance(value, str) else None
+    return (match[1], float(f"{match[1]}{match[2]}") / 100) if match else None
+
+
+RelativeBound: TypeAlias = Annotated[Bound, WrapValidator(lambda value, read: value if percentage(value) else read(value))]
 
 
 class Vary(Spec):
     """A key of this spec that varies: over levels (`values`, or `lower`, `upper` and `steps`), or as a random number."""
 
     key: Text = Field(description="dotted key of this spec")
-    also: tuple[Text, ...] = Field((), description="further keys that always have the same value")
+    also: tuple[Text, ...] = Field((), description="further keys that always have the same value; -KEY for one with the negative value")
+    link: Text | None = Field(
+        None, description='instead of all below: follows another key, "-2 * KEY" or "0.5 * KEY + 3 mm"', examples=["-2 * loads.0.force"]
+    )
     values: tuple[PlainValue, ...] = Field((), description="its levels, one by one")
-    lower: Bound | None = Field(None, description="least level, or where the distribution ends")
-    upper: Bound | None = Field(None, description="greatest level, or where the distribution ends")
+    lower: RelativeBound | None = Field(None, description='least level, or where the distribution ends; "-5 %" from the own value')
+    upper: RelativeBound | None = Field(None, description='greatest level, or where the distribution ends; "+5 %" from the own value')
     steps: Integer | None = Field(None, ge=1, le=100_000_000, description="number of levels from lower to upper")
     spacing: Literal["linear", "logarithmic"] = Field("linear", description="of the levels")
     distribution: Literal["normal", "uniform", "triangular"] | None = Field(
         None, description="normal where sigma or tolerance is given, else uniform from lower to upper, unless said"
     )
     mean: Bound | None = Field(None, description="of a normal distribution; the spec's own value unless given")
-    sigma: Bound | None = Field(None, description="standard deviation of a normal distribution; a third of the tolerance unless given")
+    sigma: RelativeBound | None = Field(
+        None, description='standard deviation of a normal distribution, or "2 %" of its middle; a third of the tolerance unless given'
+    )
     mode: Bound | None = Field(None, description="peak of a triangular distribution; the spec's own value unless given")
-    tolerance: Bound | None = Field(None, description="half the width about the spec's own value, instead of lower and upper")
+    tolerance: RelativeBound | None = Field(
+        None, description='half the width about the spec\'s own value, or "5 %" of that, instead of lower and upper'
+    )
 
 
 class Study(Spec):

@@ -2,15 +2,18 @@
 
 `sweep` computes the cases, `open_study` reads those of a folder, `analyse_study` says what came out; `optimise` searches the best design;
 `verify` computes a case once more on an independent route.  What varies is said with `linspace`, `geomspace`, `uniform`, `normal`,
-`triangular` and `tolerance`.
+`triangular`, `tolerance` and `linked`.
 
 answers           what a study says: `analyse_study(study)` gives a `Result` and its plots
 ledger            the ledger of a study: which parts there are, each with size and checksum
+links             keys that follow other keys, joined to what they follow
+nominal           the value that a key has where nothing varies
 optimisation      optimisation of any drive
 parts             the parts of a study: Parquet files that prove what they are
 pareto            designs that no other design beats in every objective
 plan              the plan of a study: every case, known before the first one runs
 points            cases from a file
+relations         a key that follows another one: its text, read by hand
 search            a search for the best design
 sensitivity       which of the varying keys causes how much of a number's spread
 spec_differences  what makes a study another one than that in a folder, key by key
@@ -32,7 +35,7 @@ from drivewright.studies.statistics import Sampled, Summary, summary
 from drivewright.studies.study import Study
 from drivewright.studies.sweeps import open_study, sweep
 from drivewright.studies.variables import Variable
-from drivewright.studies.variation import geomspace, linspace, normal, tolerance, triangular, uniform, with_variation
+from drivewright.studies.variation import geomspace, linked, linspace, normal, tolerance, triangular, uniform, with_variation
 from drivewright.studies.verification import Comparison, verify
 
 __all__ = [
@@ -47,6 +50,7 @@ __all__ = [
     "Variable",
     "analyse_study",
     "geomspace",
+    "linked",
     "linspace",
     "make_plan",
     "normal",

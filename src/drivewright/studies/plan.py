@@ -17,7 +17,10 @@ from numpy.typing import NDArray
 from drivewright._typing import Floats
 from drivewright.errors import SpecError
 from drivewright.spec import MechanismSpec
+from drivewright.spec.keys import key_by_name
+from drivewright.studies.links import contradictions, with_links
 from drivewright.studies.points import read_points
+from drivewright.studies.relations import Link
 from drivewright.studies.variables import Variable, variable
 
 LARGEST = 100_000_000  # cases
@@ -57,6 +60,11 @@ class Plan:
         return tuple(key for each in self.variables for key in each.keys)
 
     @property
+    def relations(self) -> tuple[Link, ...]:
+        """Keys that have another value than the one that they follow."""
+        return tuple(link for each in self.variables for link in each.links if link.text)
+
+    @property
     def shape(self) -> tuple[int, ...]:
         """How many levels each key of the grid has."""
         return tuple(len(variable.grid_levels) for variable in self.grid)
@@ -81,7 +89,8 @@ class Plan:
         columns = [column[inner] for column in self.listed.values()]
         columns += [each.grid_levels[place] for each, place in zip(self.grid, places, strict=True)]
         columns += [self.points[inner, n] for n in range(len(self.random))]
-        return {key: column for each, column in zip(self.variables, columns, strict=True) for key in each.keys}
+        pairs = zip(self.variables, columns, strict=True)
+        return {key: values for each, column in pairs for key, values in each.columns(column).items()}
 
     def block(self, name: str) -> Block | None:
         """The `Block` of a name, or None."""
@@ -95,6 +104,7 @@ class Plan:
     @cached_property
     def _digest(self) -> str:
         digest = hashlib.sha256(repr((self.keys, self.shape, self.blocks)).encode())
+        digest.update("".join(repr((link.key, link.factor, link.offset)) for link in self.relations).encode())
         for column in (*self.listed.values(), *(each.grid_levels for each in self.grid), self.points):
             digest.update(repr(column.tolist()).encode() if column.dtype == object else np.ascontiguousarray(column).tobytes())
         return digest.hexdigest()
@@ -110,21 +120,23 @@ def make_plan(spec: MechanismSpec) -> Plan:
             "study.vary",
         )
     _refuse_many(study)
-    variables = [variable(spec, vary, number) for number, vary in enumerate(study.vary)]
-    listed = read_points(spec, study.points) if study.points else {}
-    _refuse_twice([key for each in (*listed, *variables) for key in each.keys])
+    own = [variable(spec, vary, number) for number, vary in enumerate(study.vary) if vary.link is None]
+    listed, variables = with_links(spec, study.vary, read_points(spec, study.points) if study.points else {}, own)
+    _refuse_twice(spec, [key for each in (*listed, *variables) for key in each.keys])
     random = tuple(each for each in variables if each.distribution is not None)
     grid = tuple(each for each in variables if each.levels is not None)
     if listed and random:
         raise SpecError("a file of points is not crossed with random keys; put their values into the file", "study.points")
     points, blocks, remarks = _points(study, random)
+    remarks = (*remarks, *contradictions(spec, (*listed, *variables)))
     return Plan(grid, random, points, blocks, listed, study.seed, remarks)
 
 
 def _refuse_many(study):
     """SpecError for more cases than can be held, before any of them is made."""
-    levels = [vary.steps or len(vary.values) for vary in study.vary if vary.steps or vary.values]
-    d = len(study.vary) - len(levels)
+    entries = [vary for vary in study.vary if vary.link is None]
+    levels = [vary.steps or len(vary.values) for vary in entries if vary.steps or vary.values]
+    d = len(entries) - len(levels)
     rows = (
         {
             "corners": 2**d,
@@ -140,10 +152,11 @@ def _refuse_many(study):
         raise SpecError(f"{count:.3g} cases are more than {LARGEST:.0g}; take fewer levels or samples", "study.vary")
 
 
-def _refuse_twice(keys):
-    for number, key in enumerate(keys):
-        if key in keys[:number]:
-            raise SpecError(f"{key} varies twice; give it once", "study.vary")
+def _refuse_twice(spec, keys):
+    names = [key_by_name(spec, key) for key in keys]
+    for number, name in enumerate(names):
+        if name in names[:number]:
+            raise SpecError(f"{keys[number]} varies twice; give it once", "study.vary")
 
 
 # -- points of the random keys -------------------------------------------------------------------------------------------------

@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 from drivewright._typing import Floats
 from drivewright.errors import SpecError, brief
 from drivewright.execution.keys import READABLE, KeyKind, key_kind
-from drivewright.spec import MechanismSpec, Vary, value_at
+from drivewright.spec import MechanismSpec, Vary
+from drivewright.spec.study_table import percentage
+from drivewright.studies.nominal import nominal_value
+from drivewright.studies.relations import Link, equal_link
 
 Level: TypeAlias = float | int | bool | str
 Distribution: TypeAlias = Any  # a frozen one of scipy.stats, or None
@@ -26,13 +29,22 @@ class Variable:
     nominal: Level | None = None
     levels: NDArray[Any] | None = None
     distribution: Distribution = None
-    also: tuple[str, ...] = ()  # keys that have the same value
+    links: tuple[Link, ...] = ()  # keys that follow it
     bounds: tuple[float, float] = (-np.inf, np.inf)  # that its distribution keeps, also after rounding
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """Every key that has its value."""
-        return (self.key, *self.also)
+        """Its key and those that follow it."""
+        return (self.key, *(link.key for link in self.links))
+
+    @property
+    def also(self) -> tuple[str, ...]:
+        """Keys that follow it, with their relation where they have another value."""
+        return tuple(map(str, self.links))
+
+    def columns(self, column: NDArray[Any]) -> dict[str, NDArray[Any]]:
+        """{key: values (n,)} of all its keys where its own has the values of a column (n,)."""
+        return {self.key: column} | {link.key: link.at(column) for link in self.links}
 
     @property
     def grid_levels(self) -> NDArray[Any]:
@@ -56,13 +68,14 @@ class Variable:
 def variable(spec: MechanismSpec, vary: Vary, number: int) -> Variable:
     """The `Variable` of an entry of [[study.vary]]."""
     place = f"study.vary.{number}"
-    kind, nominal = key_kind(spec, vary.key, f"{place}.key", vary.values), value_at(spec, vary.key)
-    for n, key in enumerate(vary.also):
-        if key_kind(spec, key, f"{place}.also.{n}", vary.values) != kind:
-            raise SpecError(f"{key} cannot have the same value as {vary.key}: they take different kinds of values", f"{place}.also.{n}")
+    kind, nominal = key_kind(spec, vary.key, f"{place}.key", vary.values), nominal_value(spec, vary.key)
+    links = tuple(equal_link(spec, text, vary.key, kind, f"{place}.also.{n}", vary.values) for n, text in enumerate(vary.also))
     if vary.values or vary.steps is not None:
-        _refuse_beside(vary, "levels", ("values",) if vary.values else ("lower", "upper", "steps"), place)
-        return Variable(vary.key, kind, nominal, _levels(kind, vary, place), also=vary.also)
+        refuse_beside(vary, "levels", ("values",) if vary.values else ("lower", "upper", "steps"), place)
+        levels = _levels(kind, vary, nominal, place)
+        for n, link in enumerate(links):
+            link.check(levels, f"{place}.also.{n}")
+        return Variable(vary.key, kind, nominal, levels, links=links)
     if not kind.numeric or kind.name == "integer":
         raise SpecError(
             f"{vary.key} takes {READABLE.get(kind.name)}, so it varies over values only; give values, or lower, upper and steps", place
@@ -70,14 +83,14 @@ def variable(spec: MechanismSpec, vary: Vary, number: int) -> Variable:
     nominal = nominal if isinstance(nominal, (int, float)) else None
     distribution, bounds = _distribution(kind, vary, nominal, place)
     _refuse_idle(vary, place)
-    return Variable(vary.key, kind, nominal, distribution=distribution, also=vary.also, bounds=bounds)
+    return Variable(vary.key, kind, nominal, distribution=distribution, links=links, bounds=bounds)
 
 
 _Given: TypeAlias = Mapping[str, Any]  # numbers of a [[study.vary]] entry in SI, None where one is not given
 VARY_KEYS = ("values", "lower", "upper", "steps", "distribution", "mean", "sigma", "mode", "tolerance")
 
 
-def _refuse_beside(vary: Vary, what: str, wanted: Sequence[str], place: str) -> None:
+def refuse_beside(vary: Vary, what: str, wanted: Sequence[str], place: str) -> None:
     """SpecError for a key that says nothing beside those that are wanted."""
     for name in VARY_KEYS:
         if name not in wanted and getattr(vary, name) not in (None, ()):
@@ -92,7 +105,7 @@ def _refuse_idle(vary: Vary, place: str) -> None:
     form = _form(vary)
     ends = ("tolerance",) if vary.tolerance is not None else ("lower", "upper")
     own = {"normal": ("mean", "sigma"), "triangular": ("mode",), "uniform": ()}[form]
-    _refuse_beside(vary, f"a {form} distribution", ("distribution", *own, *ends), place)
+    refuse_beside(vary, f"a {form} distribution", ("distribution", *own, *ends), place)
 
 
 def _form(vary: Vary) -> str:
@@ -100,10 +113,10 @@ def _form(vary: Vary) -> str:
     return vary.distribution or ("normal" if vary.sigma is not None or vary.tolerance is not None else "uniform")
 
 
-def _levels(kind: KeyKind, vary: Vary, place: str) -> NDArray[Any]:
+def _levels(kind: KeyKind, vary: Vary, nominal: Any, place: str) -> NDArray[Any]:
     if vary.values:
         return column([kind.read(value, f"{place}.values.{n}") for n, value in enumerate(vary.values)], kind)
-    low, high = (_bound(kind, vary, side, place, needed=True) for side in ("lower", "upper"))
+    low, high = (_bound(kind, vary, side, place, nominal, needed=True) for side in ("lower", "upper"))
     if not kind.numeric:
         raise SpecError(f"{vary.key} takes {READABLE[kind.name]} and has no range; give values", place)
     if vary.steps == 1 and low != high:
@@ -133,19 +146,38 @@ def column(levels: Sequence[Any], kind: KeyKind) -> NDArray[Any]:
     return np.array(levels, dtype={"integer": np.int64, "flag": bool, "text": object}.get(kind.name, float))
 
 
-def _bound(kind: KeyKind, vary: Vary, name: str, place: str, needed: bool = False) -> Any:
+def _bound(kind: KeyKind, vary: Vary, name: str, place: str, middle: Any = None, needed: bool = False) -> Any:
+    """A number of the entry in SI, one in percent of or from the `middle`; None where it is not given."""
     value = getattr(vary, name)
     if value is None and needed:
         raise SpecError(f"a range of steps needs lower and upper; {name} is missing", f"{place}.{name}")
+    if percentage(value):
+        return _part_of(middle, vary, name, place)
     number = None if value is None else kind.read(value, f"{place}.{name}")
     if kind.name == "quantity" and number is not None and (isinstance(number, str) or not np.isfinite(number)):
         raise SpecError(f"wants a number with a unit here, got {brief(value)}; list a word among values", f"{place}.{name}")
     return number
 
 
+def _part_of(middle: Any, vary: Vary, name: str, place: str) -> float:
+    """A percentage in SI: as a width so much of the magnitude of the middle, as an end so much above or below it."""
+    value = getattr(vary, name)
+    sign, share = percentage(value) or ("", 0.0)
+    if not isinstance(middle, (int, float)) or isinstance(middle, bool) or not 0 < abs(middle) < np.inf:
+        state = "has no value in this spec" if middle is None else "is 0" if middle == 0 else f"is {brief(middle)}"
+        raise SpecError(f"{vary.key} {state}, so {value} of it says nothing; give {name} as a number with its unit", f"{place}.{name}")
+    if name in ("sigma", "tolerance"):
+        return share * abs(middle)
+    if not sign and share:
+        raise SpecError(f'write "+{value}" or "-{value}": so much above or below the value in this spec', f"{place}.{name}")
+    return middle + share * abs(middle)
+
+
 def _distribution(kind: KeyKind, vary: Vary, nominal: float | None, place: str) -> tuple[Any, tuple[float, float]]:
     """(frozen distribution of scipy.stats, its bounds)."""
-    given = {name: _bound(kind, vary, name, place) for name in ("lower", "upper", "mean", "sigma", "mode", "tolerance")}
+    given = {name: _bound(kind, vary, name, place) for name in ("mean", "mode")}
+    middle = next((number for number in (*given.values(), nominal) if number is not None), None)
+    given |= {name: _bound(kind, vary, name, place, middle) for name in ("lower", "upper", "sigma", "tolerance")}
     for name in ("sigma", "tolerance"):
         if given[name] is not None and not given[name] > 0:
             raise SpecError(f"must be greater than 0, got {brief(getattr(vary, name))}", f"{place}.{name}")
@@ -161,7 +193,9 @@ def _distribution(kind: KeyKind, vary: Vary, nominal: float | None, place: str) 
 def _middle(given: _Given, nominal: float | None, key: str, place: str) -> float:
     middle = given["mean"] if given["mean"] is not None else given["mode"] if given["mode"] is not None else nominal
     if middle is None:
-        raise SpecError(f"{key} has no value in this spec to vary about; give mean, or lower and upper", place)
+        raise SpecError(
+            f"{key} has no value in this spec to vary about; give mean, or lower and upper, or a value for it in the spec", place
+        )
     return middle
 
 

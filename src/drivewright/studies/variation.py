@@ -8,7 +8,9 @@ from typing import Any, TypeAlias, TypeVar
 import numpy as np
 
 from drivewright.errors import SpecError, brief
-from drivewright.spec import MechanismSpec, Study, Vary, document, read_value
+from drivewright.spec import MechanismSpec, Study, Vary, dimension_at, document, read_value
+from drivewright.spec.fields import field_at, type_of
+from drivewright.studies.relations import relation
 
 SpecT = TypeVar("SpecT", bound=MechanismSpec)
 Bound: TypeAlias = str | float  # a quantity with its unit, or a number of a key that has none
@@ -17,7 +19,7 @@ FORMS = {"normal": ("mean", "sigma", "lower", "upper"), "uniform": ("lower", "up
 LEAST = {"normal": 2, "uniform": 2, "triangular": 3}
 HOW = (
     "KEY=FROM:TO:STEPS (add :log for equal ratios), KEY=V1,V2,... , KEY=FROM:TO or KEY=uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
-    "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE"
+    "KEY=triangular(FROM, PEAK, TO), KEY=NUMBER * OTHER + QUANTITY, KEY=+-TOLERANCE"
 )
 
 
@@ -48,14 +50,19 @@ def triangular(lower: Bound, mode: Bound, upper: Bound) -> Variation:
 
 
 def tolerance(half_width: Bound, distribution: str = "normal") -> Variation:
-    """Within `half_width` of the spec's own value; normal: three standard deviations."""
+    """Within `half_width` of the spec's own value, or "5 %" of it; normal: three standard deviations."""
     return {"distribution": distribution, "tolerance": half_width}
+
+
+def linked(formula: str) -> Variation:
+    """Follows another key: "-2 * gears.pinion.torque", "0.5 * segments.0.length + 3 mm"."""
+    return {"link": formula}
 
 
 def with_variation(spec: SpecT, vary: Mapping[str, Any], **settings: Any) -> SpecT:
     """A spec whose [study] varies {key: what}: a list of levels, or what the functions above give; `settings` are further keys of it.
 
-    "key + other" are keys that always have the same value.
+    "key + other" are keys that always have the same value, "key + -other" one that has the negative value.
     """
     entries = tuple(_entry(key, what if isinstance(what, dict) else {"values": _plain(what)}) for key, what in vary.items())
     kept = document(spec.study) if spec.study else {}
@@ -76,19 +83,28 @@ def with_options(spec: SpecT, texts: Iterable[str] = (), points: str | Path | No
     if points is not None:
         given["points"] = str(points)
     vary = {}
-    for key, what in map(parse_variation, texts):
+    for key, what in (_as_relation(spec, *parse_variation(text)) for text in texts):
         if key in vary:
             raise SpecError(f"--vary {key} is given twice; give its levels in one list")
         vary[key] = what
     changed = with_variation(spec, vary, **given) if vary or given else spec
     entries = changed.study.vary if changed.study else ()
     for name, option in (("samples", "--sample"), ("method", "--method"), ("seed", "--seed")):
-        if settings.get(name) is not None and not any(each.steps is None and not each.values for each in entries):
+        if settings.get(name) is not None and not any(each.steps is None and not each.values and each.link is None for each in entries):
             raise SpecError(
                 f"{option} {settings[name]}: nothing has a distribution to sample from; give --vary KEY=FROM:TO or "
                 "KEY=normal(MEAN, SIGMA) or KEY=+-TOLERANCE"
             )
     return changed
+
+
+def _as_relation(spec: MechanismSpec, key: str, what: Any) -> tuple[str, Any]:
+    """(key, what), one level that is the key of a spec read as what a key of numbers follows: "size = offset"."""
+    model, level = type(spec), what[0] if isinstance(what, list) and len(what) == 1 else None
+    is_key = isinstance(level, str) and dimension_at(model, level)[0]
+    field = field_at(model, key.split(".")) if is_key else None
+    is_number = field is not None and (dimension_at(model, key)[1] is not None or type_of(field.annotation) in (float, int))
+    return (key, linked(level)) if isinstance(level, str) and is_number else (key, what)
 
 
 def _plain(levels: Any) -> tuple[Any, ...]:
@@ -103,6 +119,8 @@ def parse_variation(text: str) -> tuple[str, Any]:
     key, equals, given = (part.strip() for part in text.partition("="))
     if not equals or not key or not given:
         raise SpecError(f"--vary wants {HOW}; got {brief(text)}")
+    if _is_relation(given):
+        return key, linked(given)
     if form := re.fullmatch(r"(\w+)\s*\((.*)\)", given):
         return key, _distribution(form[1], [_bound(part) for part in form[2].split(",")], text)
     if sign := re.fullmatch(r"(?:\+-|\+/-|±)\s*(.+)", given):
@@ -115,6 +133,12 @@ def parse_variation(text: str) -> tuple[str, Any]:
     if len(parts) > 1:
         raise SpecError(f"--vary wants {HOW}; got {brief(text)}")
     return key, [read_value(part) for part in given.split(",") if part.strip()]
+
+
+def _is_relation(text: str) -> bool:
+    """Whether a text names a key with a factor, a sign or an offset; a word alone is a level."""
+    found = relation(text)
+    return found is not None and text != found.source
 
 
 def _range(parts: Sequence[str], text: str) -> Variation:

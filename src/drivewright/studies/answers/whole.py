@@ -1,26 +1,24 @@
 """What a study says: a `Result` with values, tables and findings, and how to look at it.  What can be said depends on the plan."""
 
-import re
-from collections import Counter
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright import registry
-from drivewright.execution.case_table import MESSAGE
+from drivewright.execution.case_reasons import reason_groups
+from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.execution.outputs import CHECK
 from drivewright.result import Plot, Result, Value
 from drivewright.runner import versions
 from drivewright.studies.answers import causes, maps, spread
 from drivewright.studies.answers.fronts import fronts
-from drivewright.studies.answers.parts import STATUSES, Arranged, Part, join_names, status_codes, together
+from drivewright.studies.answers.parts import STATUSES, Arranged, Part, join_names, together
 from drivewright.studies.statistics import LEVEL, finite, varies
 from drivewright.studies.study import Study
 
 MOST = 6  # values that get plots
 REASONS = 3  # that are quoted
-WORDS = 6  # by which reasons are told apart
 ROUNDING = 1e-15  # of the largest value of the same unit
 LONGEST = 200  # characters of a quoted reason
 
@@ -150,32 +148,17 @@ def _cases(study):
 
 def _reasons(study, counts):
     """A finding for the failed and one for the partial cases, with the commonest reasons."""
-    codes, messages = status_codes(study), study[MESSAGE]
+    groups = reason_groups(study[STATUS], study[MESSAGE])
     for name in ("failed", "partial"):
         if counts[name]:
-            reasons = [message or "no reason given" for message in messages[codes == STATUSES.index(name)]]
-            yield f"{counts[name]} of {len(study)} cases are {name}; {_commonest(reasons)}"
+            yield f"{counts[name]} of {len(study)} cases are {name}; {_commonest([group for group in groups if group.status == name])}"
 
 
-def _commonest(reasons):
-    """The commonest kinds of reasons, each with its number and the first of its kind in full."""
-    kinds = [_kind(reason) for reason in reasons]
-    counted = Counter(kinds)
-    quoted = [
-        f"{f'{number} times, such as' if number > 1 else 'once'}: {_quoted(reasons[kinds.index(kind)])}"
-        for kind, number in counted.most_common(REASONS)
-    ]
-    rest = len(counted) - len(quoted)
+def _commonest(groups):
+    """The largest groups of reasons, each with its number of cases and its first message in full."""
+    quoted = [f"{f'{each.cases} times' if each.cases > 1 else 'once'}: {each.text(LONGEST)}" for each in groups[:REASONS]]
+    rest = len(groups) - len(quoted)
     return "; ".join(quoted) + (f"; and {rest} other reasons" if rest else "")
-
-
-def _kind(reason):
-    """The first words of a reason, without its numbers."""
-    return " ".join(re.sub(r"[-+]?\d[\d.]*(e[-+]?\d+)?", "#", reason).split()[:WORDS])
-
-
-def _quoted(reason):
-    return reason if len(reason) <= LONGEST else f"{reason[:LONGEST].rstrip()} ..."
 
 
 # -- result --------------------------------------------------------------------------------------------------------------------
