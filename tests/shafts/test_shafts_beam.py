@@ -200,7 +200,7 @@ def test_a_straight_table_is_a_spring_and_a_curved_one_meets_its_rows():
 
 def test_a_tangent_with_all_its_couplings_is_the_matrix_it_holds():
     matrix = np.diag([2e7, 3e7, 1e7, 2e3, 3e3]) + 1e3 * (np.eye(5, k=1) + np.eye(5, k=-1))
-    one = shaft([shafts.Support("A", 0.1, law=shafts.TangentSupport(matrix)), support("B", 0.3, 4e7)])
+    one = shaft([shafts.Support("A", 0.1, law=shafts.LinearSupport(matrix)), support("B", 0.3, 4e7)])
     found = shafts.apply_loads(one, shafts.ShaftLoads((shafts.ShaftLoad(0.0, (100.0, -400.0, 0)),))).equilibrium
     assert -found.reactions[0] == pytest.approx(matrix @ found.relative[0], rel=1e-9, abs=1e-9)
 

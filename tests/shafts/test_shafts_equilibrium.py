@@ -63,7 +63,7 @@ def mirrored_and_plain():
                 shafts.Support(
                     "B",
                     0.1,
-                    law=shafts.TangentSupport(turn[:, None] * k * turn),
+                    law=shafts.LinearSupport(turn[:, None] * k * turn),
                     mirrored=turn[2] < 0,
                     offset=tuple(turn * offset),
                     seat=seat,
@@ -94,7 +94,7 @@ def test_springs_of_a_mirrored_support_beside_its_law():
     k, springs = full_tangent(), (2e7, 3e7, 1e7, 4e3, 5e3)
     load, found = shafts.ShaftLoad(0.22, (200.0, -500.0, 80.0), (3.0, -2.0, 0.0)), []
     for turn in (np.ones(5), T):
-        held = shafts.Support("B", 0.1, springs, law=shafts.TangentSupport(turn[:, None] * k * turn), mirrored=turn[2] < 0)
+        held = shafts.Support("B", 0.1, springs, law=shafts.LinearSupport(turn[:, None] * k * turn), mirrored=turn[2] < 0)
         found.append(loaded(shaft([support("A", 0.3, 4e7), held], [shafts.Station("q", 0.22)]), load).equilibrium)
     plain, turned = found
     assert turned.reactions == pytest.approx(plain.reactions, rel=1e-8) and np.abs(plain.reactions[1]).min() > 1
@@ -128,7 +128,7 @@ def test_unit_reactions_are_what_one_newton_more_changes():
     way, one = (
         np.array([0.6, -0.8]),
         shaft(
-            [support("A", 0.05), shafts.Support("B", 0.2, law=shafts.TangentSupport(full_tangent())), support("C", 0.38, tilt=3e3)],
+            [support("A", 0.05), shafts.Support("B", 0.2, law=shafts.LinearSupport(full_tangent())), support("C", 0.38, tilt=3e3)],
             [shafts.Station("p", 0.12)],
         ),
     )
@@ -144,7 +144,7 @@ def moved_by(equilibrium, position, freedom):
 
 def test_a_shaft_stretched_by_coupled_bearings_has_a_share_of_tension():
     one = shaft(
-        [shafts.Support(n, z, law=shafts.TangentSupport(full_tangent(seed))) for n, z, seed in (("A", 0.1, 3), ("B", 0.3, 4))],
+        [shafts.Support(n, z, law=shafts.LinearSupport(full_tangent(seed))) for n, z, seed in (("A", 0.1, 3), ("B", 0.3, 4))],
         [shafts.Station("p", 0.0)],
     )
     found = shafts.flexibility(loaded(one).equilibrium, [0.0], (0.0, -1.0))
@@ -339,7 +339,7 @@ def test_bending_of_a_cone_under_its_weight_is_exact_between_the_nodes():
 LAWS = {
     "play": shafts.with_play(3e7, 8e-6),
     "table": shafts.tabulated([0.0, 1e-5, 3e-5, 4e-5], [0.0, 200.0, 1000.0, 1700.0]),
-    "tangent": shafts.TangentSupport(full_tangent()),
+    "tangent": shafts.LinearSupport(full_tangent()),
 }
 
 
@@ -395,7 +395,7 @@ def on_matrix(turn, matrix):
     c, s = np.cos(turn), np.sin(turn)
     round_axis = np.eye(5)
     round_axis[:2, :2] = round_axis[3:, 3:] = [[c, -s], [s, c]]
-    law = shafts.TangentSupport(round_axis @ matrix @ round_axis.T)
+    law = shafts.LinearSupport(round_axis @ matrix @ round_axis.T)
     return shaft([support("A", 0.05, axial=RIGID), shafts.Support("B", 0.3, law=law)], [shafts.Station("d", L, 3.0, 0.01, 0.006)])
 
 

@@ -7,7 +7,9 @@ Statics: `assembly` beam and supports as one system; `equilibrium` Newton's meth
 `audit` whether forces balance; `buckling` under axial forces; `linearised` the shaft about its equilibrium.
 Flexibility: `influence` flexibility, stiffness and their parts; `unit_loads` rigid bearings and stress under unit forces; `strength` what
 fails first; `sensitivity` how the flexibility follows every parameter, `piece_slopes` and a piece of shaft its dimensions.
-Vibration: `vibration` modes and critical speeds; `mode_shapes` what they are compared with.
+Vibration: `vibration` modes and critical speeds; `mode_shapes` what they are compared with; `rotor` the turning shaft in few
+coordinates; `whirl` its frequencies at speed, stability; `unbalance` response and balance grades; `rotor_results` all that as values,
+tables and plots.
 Many at once: `batch` checks the arguments, `batch_kernels` computes.
 To look at: `drawing` shapes of a shaft, `scenes` the shaft on screen as it bends; `tables`, `plots` and `values` answers as those of a
 result; `solid_check` the shaft as a solid beside the beam.
@@ -16,7 +18,7 @@ result; `solid_check` the shaft as a solid beside the beam.
 from importlib import import_module
 from typing import Any
 
-from drivewright.shafts.model import COWPER, EULER_BERNOULLI, LineLoad, Section, Shaft, ShaftLoad, Station, Support
+from drivewright.shafts.model import COWPER, EULER_BERNOULLI, Damping, LineLoad, Section, Shaft, ShaftLoad, Station, Support
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
@@ -30,17 +32,20 @@ _WHERE = {
     "strength": ("LimitLoad", "limit_loads"),
     "supports": ("SupportStiffness", "bearing_displacement", "is_idle", "rolling_support", "spring_support", "support_stiffness"),
     "vibration": ("CriticalSpeeds", "Modes", "critical_speeds", "lowest_excited", "modes", "torsional_modes"),
+    "rotor": ("Rotor", "is_round", "reduced_rotor"),
+    "whirl": ("Campbell", "CriticalSpeed", "WhirlModes", "campbell", "damped_critical_speeds", "stability_threshold", "whirl_modes"),
+    "unbalance": ("Orbits", "Unbalance", "balance_quality", "permissible_unbalances", "shaft_mass", "unbalance_response"),
     "buckling": ("buckling_factor", "buckling_factor_under"),
     "linearised": ("refined_equilibrium", "tangent_shaft"),
     "sensitivity": ("flexibility_slopes", "relative_flexibility_slopes"),
     "unit_loads": ("flexibility_on_rigid_bearings", "peak_unit_stress", "unit_deflection"),
     "solid_check": ("SolidFlexibility", "bearing_bands", "beam_on_bands", "solid_and_beam", "solid_flexibility"),
-    "curves": ("TangentSupport", "tabulated", "with_play"),
+    "curves": ("LinearSupport", "tabulated", "with_play"),
     "batch": ("DesignTables", "design_tables", "flexibilities", "flexibility_function", "is_batchable"),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 
-__all__ = ["COWPER", "EULER_BERNOULLI", "LineLoad", "Section", "Shaft", "ShaftLoad", "Station", "Support", *sorted(_MODULE)]
+__all__ = ["COWPER", "EULER_BERNOULLI", "Damping", "LineLoad", "Section", "Shaft", "ShaftLoad", "Station", "Support", *sorted(_MODULE)]
 
 
 def __getattr__(name: str) -> Any:

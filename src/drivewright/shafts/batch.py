@@ -120,8 +120,8 @@ class DesignTables(NamedTuple):
 
 
 def is_batchable(shaft: Shaft) -> bool:
-    """Whether `flexibilities` covers a shaft: all supports are radial springs at points."""
-    return all(s.law is None and not s.width and not any(s.stiffness[3:]) and s.stiffness[0] > 0 for s in shaft.supports)
+    """Whether `flexibilities` covers a shaft: all supports are radial springs at points, the same all round."""
+    return all(s.law is None and not s.width and not any(s.stiffness[3:]) and s.stiffness[0] == s.stiffness[1] > 0 for s in shaft.supports)
 
 
 def design_tables(shaft: Shaft, count: int) -> DesignTables:

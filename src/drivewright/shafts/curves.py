@@ -67,15 +67,15 @@ def tabulated(displacement: ArrayLike, force: ArrayLike) -> RadialCurve:
     return RadialCurve(r, np.ascontiguousarray(np.vstack([pieces, last])), energy)
 
 
-class TangentSupport(NamedTuple):
-    """A linear support with all its couplings: K (5, 5), symmetric  [N/m, N/rad, N m/rad]."""
+class LinearSupport(NamedTuple):
+    """A linear support with all its couplings: K (5, 5)  [N/m, N/rad, N m/rad]; one that is not symmetric has no energy."""
 
     k: Floats
 
 
-@implements(response, TangentSupport)
+@implements(response, LinearSupport)
 def _(law, displacement, force, stiffness):
-    """V = 1/2 u'K u."""
+    """F = K u,  V = 1/2 u'K u of the symmetric part."""
     energy = 0.0
     for i in range(5):
         force[i] = 0.0
@@ -90,4 +90,4 @@ def _(law, displacement, force, stiffness):
 def warm_supports() -> None:
     """Compile for `doctor --warm`."""
     evaluate_response(with_play(1.0, 1.0), np.zeros(5))
-    evaluate_response(TangentSupport(np.eye(5)), np.zeros(5))
+    evaluate_response(LinearSupport(np.eye(5)), np.zeros(5))

@@ -58,7 +58,8 @@ def flexibility(equilibrium: ShaftEquilibrium, positions: Sequence[float], direc
     answer = _solve_unit_loads(equilibrium, small, unit)
     v = answer[: model.size]
     delta = unit.T @ v
-    delta = 0.5 * (delta + delta.T)
+    if np.array_equal(equilibrium.hessian, equilibrium.hessian.T):  # not on cross-coupled supports
+        delta = 0.5 * (delta + delta.T)
     size = np.abs(delta).max(initial=0)
     with np.errstate(invalid="ignore"):
         carried = np.sum(v * (small @ v), axis=0)

@@ -4,7 +4,7 @@ z runs along the axis from the left end, y is up, x completes the right-handed f
 rotations about x, y, z; all lengths in metres.
 """
 
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from drivewright._typing import Floats
 
 COWPER, EULER_BERNOULLI = 0.0, -1.0  # special values of the shear coefficient
 RIGID = (np.inf,) * 5
+Damping: TypeAlias = tuple[tuple[float, float], tuple[float, float]]  # ((cxx, cxy), (cyx, cyy)) [N s/m]
+UNDAMPED: Damping = ((0.0, 0.0), (0.0, 0.0))
 
 
 class Section(NamedTuple):
@@ -29,7 +31,8 @@ class Support(NamedTuple):
     Five stiffnesses (x, y, z, tilt_x, tilt_y; inf is rigid, 0 is free) and beside them a `law`, a NamedTuple with a formula under
     `bearings.response`.  `mirrored`: the law's own axis points to the left.  `offset` (5,): where the seat stands, of a law in the
     law's own axes.  `seat` (5,): stiffness of the seat under the law, in series (inf is none, 0 slides freely), with the forces
-    `push` (5,) on the ring that sits there.  The reaction is spread evenly over `width`.
+    `push` (5,) on the ring that sits there.  The reaction is spread evenly over `width`.  `damping` acts beside springs
+    and law, between the shaft and the ring.
     """
 
     name: str
@@ -41,6 +44,7 @@ class Support(NamedTuple):
     seat: tuple[float, ...] = RIGID
     push: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
     width: float = 0.0
+    damping: Damping = UNDAMPED
 
 
 class Station(NamedTuple):
@@ -71,7 +75,9 @@ class LineLoad(NamedTuple):
 
 
 class Shaft(NamedTuple):
-    """Sections from left to right, one material, supports and stations in any order.  `shear`: kappa, COWPER or EULER_BERNOULLI."""
+    """Sections from left to right, one material, supports and stations in any order.  `shear`: kappa, COWPER or EULER_BERNOULLI;
+    `rotary_inertia`: whether the sections resist being turned (None: where they also shear, Timoshenko's beam; without shear Rayleigh's).
+    """
 
     sections: tuple[Section, ...]
     modulus: float
@@ -80,11 +86,17 @@ class Shaft(NamedTuple):
     supports: tuple[Support, ...]
     stations: tuple[Station, ...] = ()
     shear: float = COWPER
+    rotary_inertia: bool | None = None
 
     @property
     def length(self) -> float:
         """Length [m]."""
         return float(sum(section.length for section in self.sections))
+
+    @property
+    def has_rotary_inertia(self) -> bool:
+        """Whether the sections of the shaft resist being turned."""
+        return self.shear != EULER_BERNOULLI if self.rotary_inertia is None else self.rotary_inertia
 
     @property
     def ends(self) -> Floats:

@@ -8,9 +8,9 @@ import numpy as np
 from drivewright import bearings
 from drivewright._typing import Floats
 from drivewright.bearings.solving import RollingBearing
-from drivewright.shafts.curves import RadialCurve
+from drivewright.shafts.curves import LinearSupport, RadialCurve
 from drivewright.shafts.equilibrium import ShaftEquilibrium
-from drivewright.shafts.model import Support
+from drivewright.shafts.model import UNDAMPED, Damping, Support
 
 CENTRED = (0.0,) * 5
 RIGID_HOUSING = (np.inf, np.inf)
@@ -25,23 +25,40 @@ def series_stiffness(one: float, two: float) -> float:
 def spring_support(
     name: str,
     position: float,
-    radial: float | RadialCurve,
+    radial: float | tuple[float, float] | RadialCurve,
     axial: float = 0.0,
     tilt: float = 0.0,
     *,
+    cross: tuple[float, float] = (0.0, 0.0),
+    damping: Damping = UNDAMPED,
     housing: tuple[float, float] = RIGID_HOUSING,
     offset: tuple[float, ...] = CENTRED,
     width: float = 0.0,
 ) -> Support:
-    """A `Support` of springs: radial and axial [N/m], tilt [N m/rad], 0 is free and inf rigid; `radial` may be a `RadialCurve`.
+    """A `Support` of springs: radial and axial [N/m], tilt [N m/rad], 0 is free and inf rigid; `radial` may be a pair along x and y, or a
+    `RadialCurve`.
 
-    housing: its radial and axial stiffness [N/m], in series; offset (5,): place of the seat [m, rad]; width [m] of the seat.
+    cross: force along x over a displacement along y, and along y over one along x [N/m], of the bearing without its housing;
+    damping ((cxx, cxy), (cyx, cyy)) [N s/m] likewise; housing: its radial and axial stiffness [N/m], in series; offset (5,): place of the
+    seat [m, rad]; width [m] of the seat.
     """
     if isinstance(radial, RadialCurve):
         seat = (housing[0], housing[0], housing[1], np.inf, np.inf)
-        return Support(name, position, (0.0, 0.0, axial, tilt, tilt), radial, seat=seat, offset=offset, width=width)
-    radial, axial = series_stiffness(radial, housing[0]), series_stiffness(axial, housing[1])
-    return Support(name, position, (radial, radial, axial, tilt, tilt), offset=offset, width=width)
+        return Support(name, position, (0.0, 0.0, axial, tilt, tilt), radial, seat=seat, offset=offset, width=width, damping=damping)
+    x, y = radial if isinstance(radial, tuple) else (radial, radial)
+    if any(cross) or damping != UNDAMPED:  # they act on the bearing alone, which so is kept apart from its housing
+        seat = (housing[0], housing[0], housing[1], np.inf, np.inf)
+        law = LinearSupport(_cross_coupled(cross)) if any(cross) else None
+        return Support(name, position, (x, y, axial, tilt, tilt), law, seat=seat, offset=offset, width=width, damping=damping)
+    x, y, axial = (series_stiffness(own, seat) for own, seat in zip((x, y, axial), (housing[0], *housing), strict=True))
+    return Support(name, position, (x, y, axial, tilt, tilt), offset=offset, width=width)
+
+
+def _cross_coupled(cross):
+    """(5, 5): nothing but the two entries between x and y."""
+    stiffness = np.zeros((5, 5))
+    stiffness[0, 1], stiffness[1, 0] = cross
+    return stiffness
 
 
 def rolling_support(
@@ -55,6 +72,7 @@ def rolling_support(
     housing: tuple[float, float] = RIGID_HOUSING,
     offset: tuple[float, ...] = CENTRED,
     width: float = 0.0,
+    damping: Damping = UNDAMPED,
 ) -> Support:
     """A `Support` with the law of a rolling bearing; InputError where a preload is given and it takes no axial force.
 
@@ -74,7 +92,8 @@ def rolling_support(
     x, y, _, tilt_x, tilt_y = offset
     turn = -1.0 if mirrored else 1.0
     own = (x, y, -place, turn * tilt_x, turn * tilt_y)
-    return Support(name, position, law=law, mirrored=mirrored, offset=own, seat=tuple(seat), push=tuple(push), width=width)
+    seat, push = tuple(seat), tuple(push)
+    return Support(name, position, law=law, mirrored=mirrored, offset=own, seat=seat, push=push, width=width, damping=damping)
 
 
 # -- at rest ---------------------------------------------------------------------------------------------------------------------

@@ -12,7 +12,6 @@ from drivewright.shafts.assembly import AXIAL, REGULARISATION, TWIST, regularisa
 from drivewright.shafts.beam import FREEDOMS, PLANES, Beam
 from drivewright.shafts.equilibrium import ShaftEquilibrium, equilibration, solve_saddle_point
 from drivewright.shafts.influence import MAX_REGULARISED_SHARE, REGULARISATION_FACTOR
-from drivewright.shafts.model import EULER_BERNOULLI
 from drivewright.shafts.sections import area, second_moment
 
 UNHELD = (
@@ -102,11 +101,12 @@ def _add_stations(beam, whole, gyroscopic):
 
 
 def is_isotropic(equilibrium: ShaftEquilibrium) -> bool:
-    """Whether the supports are the same in both planes, which then do not feel each other.
+    """Whether the supports are the same in both planes, which then do not feel each other: by the symmetric part of their stiffness.
 
     Each stiffness is held against its own kind: one that is stiff along the axis, or against tilting, hides no other.
     """
-    for mount, tangent in zip(equilibrium.model.mounts, equilibrium.tangent, strict=True):
+    for mount, whole in zip(equilibrium.model.mounts, equilibrium.tangent, strict=True):
+        tangent = symmetric_part(whole)
         size = np.sqrt(np.maximum(np.diag(tangent), np.diag(REGULARISATION)))
         cross = np.abs(np.where(np.eye(5, dtype=bool), 0.0, tangent))
         if mount.ring_freedoms or np.any(cross > ROUND * np.outer(size, size)):
@@ -114,6 +114,11 @@ def is_isotropic(equilibrium: ShaftEquilibrium) -> bool:
         if not np.allclose(size[[0, 3]] ** 2, size[[1, 4]] ** 2, rtol=ROUND, atol=0.0):
             return False
     return True
+
+
+def symmetric_part(matrix: Floats) -> Floats:
+    """(A + A')/2: of a stiffness the part that has an energy; the other, of a cross-coupled support, feeds a whirl or takes from it."""
+    return 0.5 * (matrix + matrix.T)
 
 
 def plane_freedoms(beam: Beam, plane: int = 1) -> Ints:
@@ -153,7 +158,7 @@ def modes(equilibrium: ShaftEquilibrium, count: int) -> tuple[Modes, Modes]:
     Bending in one plane where the supports are round: every mode comes twice then.  A shaft that nothing holds along its axis has no
     axial modes.
     """
-    stiff, inertia, _, chosen = _lateral(equilibrium)
+    stiff, inertia, _, chosen = lateral_system(equilibrium)
     candidates = _modes(equilibrium, stiff, inertia, chosen, 2 * count + 2)
     if is_isotropic(equilibrium):
         along = FREEDOMS * np.arange(len(equilibrium.model.beam.z)) + AXIAL
@@ -181,18 +186,18 @@ def _axial_share(shapes, inertia):
     return np.sum(shapes[along] * moved[along], axis=0) / np.sum(shapes * moved, axis=0)
 
 
-def _lateral(equilibrium):
-    """(K, M, G, numbers of the freedoms) of the vibration across the shaft; rings have no mass of their own."""
+def lateral_system(equilibrium):
+    """(K, M, G, numbers of the freedoms) of the vibration across the shaft, K the symmetric part; rings have no mass of their own."""
     model = equilibrium.model
     beam = model.beam
-    small, gyro = mass_matrices(beam, beam.shaft.shear != EULER_BERNOULLI)
+    small, gyro = mass_matrices(beam, beam.shaft.has_rotary_inertia)
     inertia, gyroscopic = np.zeros((model.size,) * 2), np.zeros((model.size,) * 2)
     inertia[: beam.size, : beam.size], gyroscopic[: beam.size, : beam.size] = small, gyro
     inertia, gyroscopic = (model.basis.T @ whole @ model.basis for whole in (inertia, gyroscopic))
     twist = FREEDOMS * np.arange(len(beam.z)) + TWIST
     left_out = np.concatenate([twist, FREEDOMS * np.arange(len(beam.z)) + AXIAL]) if AXIAL in model.pinned else twist
     chosen = plane_freedoms(beam) if is_isotropic(equilibrium) else np.setdiff1d(np.arange(model.size), left_out)
-    return equilibrium.hessian, inertia, gyroscopic, chosen
+    return symmetric_part(equilibrium.hessian), inertia, gyroscopic, chosen
 
 
 def _lowest(stiff, inertia, equilibrium, chosen, count):
@@ -238,9 +243,9 @@ def critical_speeds(equilibrium: ShaftEquilibrium, count: int) -> CriticalSpeeds
     Round supports: K z = s^2 (M -+ P) z for z = x + iy, P the polar moments of inertia.  Others: q = phi e^(i s t) in space,
     K phi = s^2 (M - i G) phi; a whirl that is a line counts as one with the shaft.
     """
-    stiff, inertia, gyroscopic, chosen = _lateral(equilibrium)
+    stiff, inertia, gyroscopic, chosen = lateral_system(equilibrium)
     if is_isotropic(equilibrium):
-        polar = _polar_moments(equilibrium, gyroscopic)
+        polar = polar_moments(equilibrium, gyroscopic)
         x = plane_freedoms(equilibrium.model.beam, 0)
         return CriticalSpeeds(*(np.sqrt(_lowest(stiff, inertia - way * polar, equilibrium, x, count)[0]) for way in (1, -1)))
     squares, vectors = _lowest(stiff, inertia - 1j * gyroscopic, equilibrium, chosen, 4 * count)
@@ -262,7 +267,7 @@ def lowest_excited(equilibrium: ShaftEquilibrium, critical: CriticalSpeeds) -> f
     return float(speeds.min()) if len(speeds) else None
 
 
-def _polar_moments(equilibrium, gyroscopic):
+def polar_moments(equilibrium, gyroscopic):
     """P of z = x + iy among the freedoms of the plane of x: the gyroscopic moments couple it with that of y."""
     x, y = (plane_freedoms(equilibrium.model.beam, plane) for plane in (0, 1))
     polar = np.zeros_like(gyroscopic)

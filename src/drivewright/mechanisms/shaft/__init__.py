@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.shaft import frequencies, influence, rolling, sensitivity, solid, statics
+from drivewright.mechanisms.shaft import frequencies, influence, rolling, rotation, sensitivity, solid, statics
 from drivewright.mechanisms.shaft.build import build
 from drivewright.mechanisms.shaft.claims import claims
 from drivewright.mechanisms.shaft.designs import batch
@@ -25,6 +25,14 @@ ANALYSES = (
     ),
     Analysis("failure", influence.failure, "what fails first", needs=("statics", "flexibility"), missing=influence.no_strength),
     Analysis("modes", frequencies.frequencies, "natural frequencies and critical speeds", needs=("statics",), missing=frequencies.no_modes),
+    Analysis("whirl", rotation.whirl, "whirl at speed, Campbell diagram, stability", needs=("statics", "modes"), missing=rotation.no_whirl),
+    Analysis(
+        "unbalance",
+        rotation.unbalance,
+        "unbalance response of the stations",
+        needs=("statics", "modes", "whirl"),
+        missing=rotation.no_unbalance,
+    ),
     Analysis(
         "sensitivities",
         sensitivity.sensitivities,
@@ -48,6 +56,9 @@ HEADLINE = (
     "stiffness.*",
     "modes.*.frequency",
     "critical_speeds.lowest",
+    "whirl.*.1",
+    "stability.*",
+    "unbalance.*.amplitude",
     "shaft.max_deflection",
     "shaft.max_stress",
     "stations.*.allowed_load",

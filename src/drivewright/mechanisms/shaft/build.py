@@ -9,9 +9,10 @@ from drivewright import bearings, materials, shafts
 from drivewright._typing import Floats
 from drivewright.bearings import BallBearing, RollerBearing
 from drivewright.errors import InputError, SpecError
+from drivewright.mechanisms.shaft.bearing_table import Bearing
 from drivewright.mechanisms.shaft.refusals import is_rolling, refuse_contradictions
 from drivewright.mechanisms.shaft.spec import ShaftSpec
-from drivewright.mechanisms.shaft.tables import Analysis, Bearing, Gear
+from drivewright.mechanisms.shaft.tables import Analysis, Gear
 from drivewright.spec.csv_columns import read_columns
 
 DOWN = np.array([0.0, -1.0])
@@ -65,6 +66,7 @@ def build(spec: ShaftSpec) -> ShaftModel:
         tuple(_support(b, rolling.get(b.name), b.name in mirrored) for b in spec.bearings),
         tuple(shafts.Station(s.name, s.position, s.mass, s.polar_inertia, s.diametral_inertia) for s in spec.stations),
         _shear_coefficient(spec.analysis),
+        spec.analysis.theory != "euler-bernoulli",
     )
     loads = shafts.ShaftLoads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
     shafts.refuse_mechanism(shaft)
@@ -72,7 +74,7 @@ def build(spec: ShaftSpec) -> ShaftModel:
 
 
 def _shear_coefficient(analysis: Analysis) -> float:
-    if analysis.theory == "euler-bernoulli":
+    if analysis.theory != "timoshenko":
         return shafts.EULER_BERNOULLI
     return shafts.COWPER if analysis.shear_coefficient == "cowper" else float(analysis.shear_coefficient)
 
@@ -96,8 +98,8 @@ def _mirrored(spec: ShaftSpec, rolling: Mapping[str, BallBearing | RollerBearing
 
 def _support(bearing: Bearing, rolling: BallBearing | RollerBearing | None, mirrored: bool) -> shafts.Support:
     """The `Support` of a bearing."""
-    housing = (bearing.housing_stiffness, bearing.housing_axial_stiffness)
-    seat = {"housing": housing, "offset": (*bearing.seat_offset, 0.0, *bearing.seat_tilt), "width": bearing.width}
+    housing, offset = (bearing.housing_stiffness, bearing.housing_axial_stiffness), (*bearing.seat_offset, 0.0, *bearing.seat_tilt)
+    seat = {"housing": housing, "offset": offset, "width": bearing.width, "damping": _damping(bearing)}
     if rolling is not None:
         try:
             return shafts.rolling_support(
@@ -106,14 +108,22 @@ def _support(bearing: Bearing, rolling: BallBearing | RollerBearing | None, mirr
         except InputError as error:  # of the preload alone: the shaft is not loaded yet
             raise SpecError(f"this bearing takes no axial force: {error}", f"bearings.{bearing.name}.preload") from None
     radial = bearing.radial_stiffness or 0.0
+    if bearing.stiffness_xx is not None:
+        radial = (bearing.stiffness_xx, bearing.stiffness_yy or 0.0)
     if bearing.table is not None:
         rows = read_columns(bearing.table, {"displacement": "length"}, {"force": "force"})
         radial = shafts.tabulated(rows.x, rows.y)
     elif bearing.radial_clearance:
         radial = shafts.with_play(radial, bearing.radial_clearance / 2)
+    cross = (bearing.stiffness_xy, bearing.stiffness_yx)
     return shafts.spring_support(
-        bearing.name, bearing.position, radial, bearing.axial_stiffness or 0.0, bearing.tilt_stiffness or 0.0, **seat
+        bearing.name, bearing.position, radial, bearing.axial_stiffness or 0.0, bearing.tilt_stiffness or 0.0, cross=cross, **seat
     )
+
+
+def _damping(bearing: Bearing) -> shafts.Damping:
+    xx, yy = (bearing.radial_damping if own is None else own for own in (bearing.damping_xx, bearing.damping_yy))
+    return (xx, bearing.damping_xy), (bearing.damping_yx, yy)
 
 
 def rolling_bearing(spec: ShaftSpec, bearing: Bearing) -> BallBearing | RollerBearing:

@@ -1,6 +1,7 @@
 """Natural frequencies and critical speeds."""
 
 from collections.abc import Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,13 +17,21 @@ from drivewright.shafts.values import frequency_values, massless_findings, massl
 ELEMENTS, MAX_ELEMENTS = 40, 1000  # along the shaft: unless a length is given, and at most
 
 
+class Vibration(NamedTuple):
+    """The equilibrium on the mesh of the modes, and the lowest critical speed [rad/s] that an unbalance excites."""
+
+    equilibrium: shafts.ShaftEquilibrium
+    lowest: float | None
+
+
 def no_modes(spec: ShaftSpec) -> str | None:
     """Why no frequencies are computed."""
     return None if spec.analysis.modes else "no modes are asked for (analysis.modes = 0)"
 
 
 def frequencies(model: ShaftModel, done: Answers) -> Answer:
-    """Modes and critical speeds about the equilibrium of the loads, and what a massless shaft would make of them."""
+    """Modes and critical speeds about the equilibrium of the loads, and what a massless shaft would make of them; `data` is the
+    `Vibration`."""
     count, fine = model.spec.analysis.modes, _refined(model, done["statics"].data.equilibrium)
     try:
         (bending, axial), critical = shafts.modes(fine, count), shafts.critical_speeds(fine, count)
@@ -39,7 +48,7 @@ def frequencies(model: ShaftModel, done: Answers) -> Answer:
     if len(massless) and len(bending.frequencies):
         values |= massless_values(massless)
         findings = tuple(massless_findings(massless, bending, model.shaft.stations, model.direction))
-    return Answer(values, (mode_table(fine, bending),), tuple(_speed_check(model, lowest)), findings)
+    return Answer(values, (mode_table(fine, bending),), tuple(_speed_check(model, lowest)), findings, data=Vibration(fine, lowest))
 
 
 def _refined(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> shafts.ShaftEquilibrium:

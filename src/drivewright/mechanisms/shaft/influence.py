@@ -2,11 +2,11 @@
 
 from drivewright import bearings, shafts
 from drivewright.errors import InputError
+from drivewright.mechanisms.shaft.bearing_table import Bearing
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.mechanisms.shaft.statics import BALANCED
-from drivewright.mechanisms.shaft.tables import Bearing
 from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts.tables import limit_table, share_table, unit_load_table
 from drivewright.shafts.values import flexibility_arrays, limit_values, pair_values, station_array

@@ -1,11 +1,14 @@
 """What has no meaning, refused by name; what can be computed is left to the checks."""
 
 from drivewright.errors import SpecError, nearest
-from drivewright.mechanisms.shaft.tables import Bearing, ShaftTables
+from drivewright.mechanisms.shaft.bearing_table import Bearing
+from drivewright.mechanisms.shaft.tables import ShaftTables
 
 NEAR = 1e-9  # of the shaft's length: the same place
 TAKEN = {"bearings": ("bending", "shear", "tension", "total", "entry"), "stations": ("z",)}  # columns of our own
-SPRINGS = ("radial_stiffness", "table", "bearing", "geometry", "roller_geometry")
+SPRINGS = ("radial_stiffness", "stiffness_xx", "table", "bearing", "geometry", "roller_geometry")
+PLANES = ("stiffness_xx", "stiffness_yy")
+CROSS = ("stiffness_xy", "stiffness_yx")
 ROLLING = ("bearing", "geometry", "roller_geometry")
 
 
@@ -85,6 +88,7 @@ def _bearings(spec):
         if len(given) != 1 and not (not given and (bearing.axial_stiffness or bearing.tilt_stiffness)):
             told = f"has {' and '.join(given)}" if given else "has no stiffness"
             raise SpecError(f"{told}; give one of {', '.join(SPRINGS)}", where)
+        _refuse_half_matrix(bearing, where)
         if is_rolling(bearing):
             for key in ("axial_stiffness", "tilt_stiffness"):
                 if getattr(bearing, key) is not None:
@@ -99,6 +103,17 @@ def _bearings(spec):
             raise SpecError(
                 "a clearance above 0 goes with a rolling bearing or with a radial_stiffness that is not rigid", f"{where}.radial_clearance"
             )
+
+
+def _refuse_half_matrix(bearing, where):
+    """One of two planes without the other; cross-coupling beside what is no spring across the shaft."""
+    lacking = [key for key in PLANES if getattr(bearing, key) is None]
+    if len(lacking) == 1:
+        raise SpecError(f"is missing beside {next(key for key in PLANES if key not in lacking)}; give both", f"{where}.{lacking[0]}")
+    springs = [getattr(bearing, key) for key in PLANES] if not lacking else [bearing.radial_stiffness]
+    for key in CROSS:
+        if getattr(bearing, key) and not all(spring and spring < float("inf") for spring in springs):
+            raise SpecError("goes with a radial_stiffness, or stiffness_xx and stiffness_yy, that is not rigid", f"{where}.{key}")
 
 
 def _places_of_loads(spec):

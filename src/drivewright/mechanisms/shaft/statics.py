@@ -5,9 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from drivewright import shafts
+from drivewright.mechanisms.shaft.bearing_table import Bearing
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.refusals import is_rolling
-from drivewright.mechanisms.shaft.tables import Bearing
 from drivewright.result import Answer, Answers, Check, Value
 from drivewright.shafts.tables import diagram_table, reaction_table
 from drivewright.shafts.values import extreme_values, station_values, support_values

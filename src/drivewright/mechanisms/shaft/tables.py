@@ -1,59 +1,25 @@
 """What the user says of a shaft: material, segments, bearings, stations, loads, limits."""
 
-import math
-from typing import Annotated, Literal
+from typing import Literal
 
-from drivewright.bearings.ball import BallBearing
-from drivewright.bearings.catalogue import Designation
-from drivewright.bearings.roller import RollerBearing
-from drivewright.errors import UnitError
+from drivewright.mechanisms.shaft.bearing_table import Bearing
 from drivewright.spec import DataFile, Integer, MechanismSpec, Name, Number, Spec, Text
 from drivewright.spec.fields import Field
 from drivewright.units import (
-    BY_NAME,
     Acceleration,
     Angle,
     Density,
-    Dimension,
     Force,
     Inertia,
     Length,
     LineForce,
     Mass,
     Pressure,
-    RotationalStiffness,
     Speed,
     Time,
     Torque,
+    Unbalance,
 )
-
-RIGID = "rigid"
-
-
-class _StiffnessOrRigid(Dimension):
-    """A stiffness [N/m] above 0, or "rigid": infinity."""
-
-    plain = True
-
-    def parse(self, value):
-        """As `Dimension.parse`, of the wider kind."""
-        if value == RIGID:
-            return math.inf
-        found = BY_NAME["stiffness"].parse(value)
-        if not found > 0:
-            raise UnitError(
-                f'must be above 0, got {value}; a bearing that does not hold here is left out, one that does not yield is "{RIGID}"'
-            )
-        return found
-
-    def text(self, value):
-        return RIGID if value == math.inf else BY_NAME["stiffness"].text(value)
-
-    def __get_pydantic_json_schema__(self, schema, handler):
-        return {"type": "string", "examples": ["3e7 N/m", RIGID], "x-dimension": "stiffness", "x-unit": "N/m", "x-si-unit": "N/m"}
-
-
-StiffnessOrRigid = Annotated[float, _StiffnessOrRigid('stiffness, or "rigid"', "N/m", "N/m", largest=math.inf)]
 
 
 class Material(Spec):
@@ -81,59 +47,6 @@ class Segment(Spec):
     bore: Length = Field("0 mm", ge=0, description="diameter of the hole through it")
 
 
-class Bearing(Spec):
-    """What carries the shaft at a place: springs, a table, or a rolling bearing with its inner geometry."""
-
-    name: Name = Field(description="name", examples=["A"])
-    position: Length = Field(description="distance from the left end of the shaft", examples=["56.5 mm"])
-    radial_stiffness: StiffnessOrRigid | None = Field(
-        None, description='across the shaft, all round; "rigid" does not yield', examples=["3e7 N/m"]
-    )
-    axial_stiffness: StiffnessOrRigid | None = Field(
-        None, description="along the shaft, beside radial_stiffness or a table", examples=["1e7 N/m"]
-    )
-    tilt_stiffness: RotationalStiffness | None = Field(
-        None, gt=0, description="against tilting, beside radial_stiffness or a table", examples=["2e4 N m/rad"]
-    )
-    table: DataFile | None = Field(
-        None, description="CSV of the radial force over the radial displacement instead: displacement [um],force [N] from 0, 0"
-    )
-    bearing: Designation | None = Field(None, description="designation in the catalogue instead, e.g. 61804", examples=["61804"])
-    geometry: BallBearing | None = Field(None, description="inner geometry of a ball bearing instead")
-    roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing instead")
-    radial_clearance: Length | None = Field(
-        None,
-        description="play across the diameter, counted as for rolling bearings: of a rolling "
-        "bearing instead of its own, of a spring twice the gap",
-        examples=["10 um"],
-    )
-    preload: Force = Field(
-        "0 N",
-        ge=0,
-        description="axial force that a rolling bearing is mounted with, on a shaft that does not yield; "
-        "where it is free to slide, that of the spring behind it",
-    )
-    carries: Literal["right", "left"] | None = Field(
-        None,
-        description="which axial force on the shaft an angular-contact or tapered bearing takes; unless given, such bearings take it "
-        "in turn from the left: right, left, right (a pair stands back to back)",
-    )
-    free: tuple[Literal["axial", "tilt"], ...] = Field(
-        (), description="freedoms that the seat of a rolling bearing leaves to its outer ring"
-    )
-    seat_offset: tuple[Length, Length] = Field(("0 mm", "0 mm"), description="the seat off the common axis, x and y")
-    seat_tilt: tuple[Angle, Angle] = Field(("0 deg", "0 deg"), description="the seat out of the common axis: turned about x and y")
-    housing_stiffness: StiffnessOrRigid = Field(RIGID, description="of the housing across the shaft, in series with the bearing")
-    housing_axial_stiffness: StiffnessOrRigid = Field(RIGID, description="of the housing along the shaft")
-    width: Length = Field("0 mm", ge=0, description="the reaction is spread evenly over it; 0: it acts at a point")
-    dynamic_rating: Force | None = Field(
-        None, gt=0, description="basic dynamic load rating C, instead of the rolling bearing's own", examples=["4.03 kN"]
-    )
-    static_rating: Force | None = Field(
-        None, gt=0, description="basic static load rating C0, instead of the rolling bearing's own", examples=["2.32 kN"]
-    )
-
-
 class Station(Spec):
     """A place of interest, and what sits there."""
 
@@ -142,6 +55,12 @@ class Station(Spec):
     mass: Mass = Field("0 kg", ge=0, description="mass on the shaft")
     polar_inertia: Inertia = Field("0 kg m^2", ge=0, description="its moment of inertia about the shaft's axis")
     diametral_inertia: Inertia = Field("0 kg m^2", ge=0, description="its moment of inertia about a diameter")
+    unbalance: Unbalance | None = Field(
+        None,
+        description="mass times eccentricity that turns with the shaft; drive.balance_grade where no station has one",
+        examples=["50 g mm"],
+    )
+    unbalance_angle: Angle = Field("0 deg", description="place of the unbalance on the shaft, from x towards y")
 
 
 DOWN = "-90 deg"
@@ -184,16 +103,24 @@ class Gear(Spec):
     helix_angle: Angle = Field("0 deg", gt=-1.2, lt=1.2, description="positive: with a positive torque the axial force points to the right")
 
 
+BalanceGrade = Literal["G 0.4", "G 1", "G 2.5", "G 6.3", "G 16", "G 40", "G 100", "G 250", "G 630", "G 1600", "G 4000"]
+
+
 class Drive(Spec):
     """The turning of the shaft."""
 
-    speed: Speed = Field(gt=0, description="speed of the shaft, for the critical speeds and the life in hours", examples=["1500 rpm"])
+    speed: Speed = Field(gt=0, description="speed of the shaft, for whirl, unbalance and the life in hours", examples=["1500 rpm"])
+    balance_grade: BalanceGrade = Field(
+        "G 6.3", description="balance quality grade of ISO 21940-11 behind the unbalance response where no station has an unbalance"
+    )
 
 
 class Analysis(Spec):
     """How it is computed."""
 
-    theory: Literal["timoshenko", "euler-bernoulli"] = Field("timoshenko", description="beam with or without shear and rotary inertia")
+    theory: Literal["timoshenko", "rayleigh", "euler-bernoulli"] = Field(
+        "timoshenko", description="beam with shear and rotary inertia, with rotary inertia alone, or with neither"
+    )
     shear_coefficient: Literal["cowper"] | Number = Field("cowper", description='"cowper", or a number for a section of your own')
     direction: Angle | None = Field(
         None,
@@ -204,6 +131,13 @@ class Analysis(Spec):
     modes: Integer = Field(3, ge=0, le=50, description="natural frequencies to find")
     element_length: Length | None = Field(
         None, gt=0, description="longest element for the modes; a fortieth of the shaft unless given", examples=["10 mm"]
+    )
+    campbell_speed: Speed | None = Field(
+        None,
+        gt=0,
+        description="highest speed of Campbell diagram and unbalance response; that which shows the speed of the shaft and the first "
+        "critical speed unless given",
+        examples=["10000 rpm"],
     )
     solid_band: Length = Field("2 mm", gt=0, description="width of the bearing bands of the solid check; a bearing's own width goes first")
 
@@ -227,6 +161,9 @@ class Limits(Spec):
         0.1, gt=0, description="anywhere along the shaft, over its length: beyond it the linear theory does not hold"
     )
     critical_speed: Number = Field(1.25, gt=0, description="first critical speed over the speed of the shaft")
+    separation_margin: Number = Field(0.15, ge=0, description="distance of the nearest critical speed over the speed of the shaft")
+    log_decrement: Number = Field(0.0, description="least logarithmic decrement of all whirls at speed, where bearings damp")
+    unbalance: Length | None = Field(None, gt=0, description="unbalance amplitude of every station", examples=["20 um"])
     slenderness: Number = Field(1000.0, gt=0, description="length of the shaft over its least diameter; beyond it a unit may have slipped")
     stockiness: Number = Field(0.1, gt=0, description="the same, at least")
 

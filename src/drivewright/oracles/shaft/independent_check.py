@@ -46,7 +46,7 @@ def _flexibility(model, result):
 
 
 def _is_spring(support):
-    return support.law is None and not support.width and not any(support.stiffness[3:])
+    return support.law is None and not support.width and not any(support.stiffness[3:]) and support.stiffness[0] == support.stiffness[1]
 
 
 def _pairs(model):

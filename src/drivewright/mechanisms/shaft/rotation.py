@@ -1,0 +1,129 @@
+"""The turning shaft: whirl at its speed, Campbell diagram, stability, and the response to unbalance."""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from drivewright import shafts
+from drivewright._typing import Floats
+from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.frequencies import no_modes
+from drivewright.mechanisms.shaft.spec import ShaftSpec
+from drivewright.result import Answer, Answers, Check, Value
+from drivewright.shafts import rotor_results as results
+
+SPEEDS, RESPONSE_SPEEDS = 41, 161  # of the Campbell diagram, and of the unbalance response
+FLANKS = np.array([-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0])  # about a peak, in damping ratios
+BEYOND = 1.25  # over the speed of the shaft and the first critical speed: how far both go
+
+
+class Turning(NamedTuple):
+    """The rotor of a shaft, and its critical speeds within the Campbell diagram."""
+
+    rotor: shafts.Rotor
+    critical: Sequence[shafts.CriticalSpeed]
+
+
+def no_whirl(spec: ShaftSpec) -> str | None:
+    """Why no whirl is computed."""
+    return no_modes(spec) or (None if spec.drive else "the spec has no [drive] speed")
+
+
+def whirl(model: ShaftModel, done: Answers) -> Answer:
+    """Whirl at the speed of the shaft and over all speeds to beyond the first critical one; `data` is the `Turning`."""
+    vibration = done["modes"].data
+    if vibration is None or model.spec.drive is None:
+        return Answer(findings=("whirl is absent: the shaft has no natural frequencies",), outcome="left out")
+    speed, count = model.spec.drive.speed, model.spec.analysis.modes
+    rotor = shafts.reduced_rotor(vibration.equilibrium, [station.position for station in model.shaft.stations])
+    modes = shafts.whirl_modes(rotor, speed, count)
+    diagram = shafts.campbell(rotor, np.linspace(0.0, _highest_speed(model, vibration.lowest), SPEEDS), count)
+    damped, critical = not rotor.is_conservative, shafts.damped_critical_speeds(rotor, diagram)
+    values = results.whirl_values(modes, damped) | results.critical_values(critical, damped)
+    tables = [results.campbell_table(diagram), results.whirl_shape_table(modes, rotor.z)]
+    if damped and len(modes.frequency):
+        values |= results.stability_values(modes, shafts.stability_threshold(rotor, diagram))
+    checks = (*_stability_check(model, values), *_separation_check(model, critical, rotor.whirls))
+    return Answer(values, tuple(tables), checks, data=Turning(rotor, critical))
+
+
+def _highest_speed(model: ShaftModel, lowest: float | None) -> float:
+    """The highest speed [rad/s] that is looked at; `lowest` critical speed [rad/s]."""
+    drive, given = model.spec.drive, model.spec.analysis.campbell_speed
+    return given or BEYOND * max(drive.speed if drive else 0.0, lowest or 0.0)
+
+
+def _stability_check(model: ShaftModel, values: dict[str, Value]) -> Iterator[Check]:
+    least = values.get("stability.log_decrement")
+    if least is not None:
+        message = "smallest logarithmic decrement of all whirls at the speed of the shaft; below 0 the whirl grows by itself"
+        yield Check("stability", least.value, model.spec.limits.log_decrement, ">=", "-", message, ("shaft",))
+
+
+def _separation_check(model: ShaftModel, critical: Sequence[shafts.CriticalSpeed], round_: bool) -> Iterator[Check]:
+    """How near the next critical speed is that an unbalance excites; on round supports none of those against the shaft."""
+    drive = model.spec.drive
+    excited = [each.speed for each in critical if each.forward or not round_]
+    if drive is not None and excited:
+        nearest = min(abs(speed / drive.speed - 1) for speed in excited)
+        message = "separation margin: distance of the nearest critical speed that an unbalance excites, over the speed of the shaft"
+        yield Check("separation_margin", nearest, model.spec.limits.separation_margin, ">=", "-", message, ("shaft",))
+
+
+# -- unbalance -----------------------------------------------------------------------------------------------------------------
+
+
+def no_unbalance(spec: ShaftSpec) -> str | None:
+    """Why no unbalance response is computed."""
+    heavy = any(station.mass or station.unbalance for station in spec.stations)
+    return no_whirl(spec) or (None if heavy else "no station has a mass or an unbalance")
+
+
+def unbalance(model: ShaftModel, done: Answers) -> Answer:
+    """Orbits of the stations at the speed of the shaft and over all speeds, by the unbalances that they have, else by the grade."""
+    turning, vibration, drive = done["whirl"].data, done["modes"].data, model.spec.drive
+    if turning is None or drive is None:
+        return Answer(findings=("the unbalance response is absent: there is no whirl",), outcome="left out")
+    given, findings = _unbalances(model), []
+    if not any(station.unbalance for station in model.spec.stations):
+        findings.append(
+            f"no station has an unbalance: that which the balance grade {drive.balance_grade} permits at the speed of the shaft "
+            "(ISO 21940-11) is shared among the stations by their masses, all at one angle"
+        )
+    stiffness = np.array([tangent[:2, :2] for tangent in vibration.equilibrium.tangent])
+    places, names = model.places, [support.name for support in model.shaft.supports]
+
+    def orbits(speeds: Floats) -> shafts.Orbits:
+        return shafts.unbalance_response(turning.rotor, given, speeds, places, stiffness)
+
+    at_speed = orbits(np.array([drive.speed]))
+    over = np.linspace(0.0, _highest_speed(model, vibration.lowest), RESPONSE_SPEEDS)[1:]
+    table = results.orbit_table(orbits(_with_peaks(over, turning.critical)), model.names)
+    quality = Value(shafts.balance_quality(model.shaft, given, drive.speed), "m/s", "balance quality, eccentricity times speed")
+    values = {"unbalance.balance_quality": quality}
+    if at_speed.resonant[0]:
+        return Answer(values, (table,), (), (*findings, results.resonance_finding(at_speed)))
+    values |= results.orbit_values(at_speed, model.names, names)
+    return Answer(values, (table,), tuple(_amplitude_checks(model, values)), tuple(findings))
+
+
+def _unbalances(model: ShaftModel) -> tuple[shafts.Unbalance, ...]:
+    """Those of the stations, else what the balance grade permits."""
+    stations, drive = model.spec.stations, model.spec.drive
+    own = tuple(shafts.Unbalance(s.position, s.unbalance, s.unbalance_angle) for s in stations if s.unbalance)
+    return own if own or drive is None else shafts.permissible_unbalances(model.shaft, drive.balance_grade, drive.speed)
+
+
+def _with_peaks(speeds: Floats, critical: Sequence[shafts.CriticalSpeed]) -> Floats:
+    """Speeds (k,) [rad/s] with those at which a damped resonance has its peak and its flanks."""
+    peaks = [each.speed * (1 + each.damping_ratio * FLANKS) for each in critical if each.damping_ratio > 0]
+    whole = np.unique(np.concatenate([speeds, *peaks]))
+    return whole[(whole > 0) & (whole <= speeds[-1])]
+
+
+def _amplitude_checks(model: ShaftModel, values: dict[str, Value]) -> Iterator[Check]:
+    limit = model.spec.limits.unbalance
+    for name in model.names if limit else ():
+        value = values[f"unbalance.{name}.amplitude"]
+        yield Check.of(value, f"unbalance.{name}", float(limit or 0), "<=", f"unbalance amplitude of station {name!r}", ("shaft",))
