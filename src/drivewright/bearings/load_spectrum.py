@@ -54,13 +54,13 @@ def system_life(lives: Sequence[float], slopes: Sequence[float]) -> float:
     Each survives a time t with the probability S^((t/L)^e), Weibull's slope e; all of them with the product, so that t solves
     sum (t/L_i)^e_i = 1.  With one slope it is (sum L_i^-e)^(-1/e); else ln t by Newton's method on the convex ln of the sum.
     """
-    ends, powers = np.log(np.asarray(lives, dtype=float)), np.asarray(slopes, dtype=float)
-    kept = np.isfinite(ends)
-    if ends.shape != powers.shape or np.isnan(ends).any() or np.isneginf(ends).any():
+    given, powers = np.asarray(lives, dtype=float), np.asarray(slopes, dtype=float)
+    if given.shape != powers.shape or not np.all(given > 0):
         raise InputError("bearing: the life of a system wants a life above 0 and a slope for every bearing.")
-    if not kept.any():
+    fails = np.isfinite(given)
+    if not fails.any():
         return np.inf
-    ends, powers = ends[kept], powers[kept]
+    ends, powers = np.log(given[fails]), powers[fails]
     time = ends.min()
     for _ in range(STEPS):
         shares = np.exp(powers * (time - ends))
