@@ -10,6 +10,8 @@ fails first; `sensitivity` how the flexibility follows every parameter, `piece_s
 Vibration: `vibration` modes and critical speeds; `mode_shapes` what they are compared with; `rotor` the turning shaft in few
 coordinates; `whirl` its frequencies at speed, stability; `unbalance` response and balance grades; `rotor_results` all that as values,
 tables and plots.
+Strength: `notches` and their factors; `fatigue_strength` safety of a section against fatigue and yield; `strength_sections` which sections;
+`haigh` all that as tables, values and a plot.
 Many at once: `batch` checks the arguments, `batch_kernels` computes.
 To look at: `drawing` shapes of a shaft, `scenes` the shaft on screen as it bends; `tables`, `plots` and `values` answers as those of a
 result; `solid_check` the shaft as a solid beside the beam.
@@ -30,6 +32,23 @@ _WHERE = {
     "loads": ("are_coplanar", "tooth_load", "transverse_direction"),
     "mode_shapes": ("PlanarShape", "first_mode_along", "massless_frequencies", "planar_shape"),
     "strength": ("LimitLoad", "limit_loads"),
+    "notches": (
+        "CrossHole",
+        "Keyway",
+        "Notch",
+        "NotchFactors",
+        "PressFit",
+        "RectangularGroove",
+        "RoundGroove",
+        "ShoulderFillet",
+        "SmoothPlace",
+        "Spline",
+        "measured_factors",
+        "stress_concentration",
+    ),
+    "fatigue_strength": ("SectionStrength", "Service", "StrengthSection", "endurance_limit", "notch_sensitivity", "strength_at"),
+    "strength_sections": ("assumed_fillets", "shaft_sections"),
+    "haigh": ("HAIGH", "haigh_table", "strength_table", "strength_values"),
     "supports": ("SupportStiffness", "bearing_displacement", "is_idle", "rolling_support", "spring_support", "support_stiffness"),
     "vibration": ("CriticalSpeeds", "Modes", "critical_speeds", "lowest_excited", "modes", "torsional_modes"),
     "rotor": ("Rotor", "is_round", "reduced_rotor"),
