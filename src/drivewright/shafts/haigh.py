@@ -79,11 +79,12 @@ def _safeties(name: str, where: str, fatigue: float, static: float) -> dict[str,
 
 
 def haigh_table(rows: Sequence[SectionStrength], strength: Strength) -> Table:
-    """Points (mean, amplitude) of the sections, and of the Goodman line of the least endurance limit and the yield line, for `HAIGH`."""
+    """Points (mean, amplitude) of the sections, and of the lower one of the Goodman line of the least endurance limit and the yield line,
+    for `HAIGH`; smooth places share a name."""
     limit = min(row.endurance_limit for row in rows)
-    goodman = np.linspace(0.0, strength.tensile, ON_A_LINE)
-    langer = np.linspace(0.0, strength.yield_strength, ON_A_LINE)
-    names = [*(row.name for row in rows), *["Goodman line"] * ON_A_LINE, *["yield line"] * ON_A_LINE]
+    goodman, langer = _border(limit, strength)
+    names = ["smooth places" if row.kind == "smooth" else row.name for row in rows]
+    names += ["Goodman line"] * len(goodman) + ["yield line"] * len(langer)
     mean = np.concatenate([_numbers(rows, "mean"), goodman, langer])
     amplitude = np.concatenate([_numbers(rows, "amplitude"), limit * (1 - goodman / strength.tensile), strength.yield_strength - langer])
     columns = (
@@ -92,6 +93,13 @@ def haigh_table(rows: Sequence[SectionStrength], strength: Strength) -> Table:
         Column("amplitude", "Pa", "stress amplitude, von Mises", amplitude),
     )
     return Table("haigh", "Haigh diagram of the sections", columns)
+
+
+def _border(limit: float, strength: Strength) -> tuple[Floats, Floats]:
+    """Mean stresses [Pa] along the Goodman line up to where it meets the yield line, and along the yield line from there."""
+    crossing = (strength.yield_strength - limit) / (1 - limit / strength.tensile)
+    crossing = min(max(crossing, 0.0), strength.yield_strength)
+    return np.linspace(0.0, crossing, ON_A_LINE), np.linspace(crossing, strength.yield_strength, ON_A_LINE)
 
 
 def _numbers(rows: Sequence[SectionStrength], name: str) -> Floats:

@@ -13,6 +13,7 @@ from drivewright.errors import InputError, UnknownName
 from drivewright.materials import Strength
 
 MM, MPA = 1e-3, 1e6
+SHALLOWEST, BLUNTEST = 0.01, 0.3  # of a fillet's fit: step and radius over the smaller diameter
 WIDEST_HOLE = 0.4  # of the shaft's diameter: beyond it there are no published factors
 
 TIPTON = (
@@ -142,18 +143,33 @@ def _(notch: SmoothPlace, outer: float, bore: float) -> NotchFactors:
 
 @stress_concentration.register
 def _(notch: ShoulderFillet, outer: float, bore: float) -> NotchFactors:
-    """With q = (D/d)^2 and s = r/d; a bore lowers the factors, so those of the solid shaft are on the safe side.
+    """`_fillet_factors`; of a step below 1 % of the diameter 1 + (those of 1 % - 1) sqrt(step/1 %).
 
-    tension: 0.493 + 0.48 q^-1.215 + s^-0.48 sqrt((3.43 - 3.41 q - 0.0232 q^2)/(1 - 8.85 q - 0.078 q^2)),
-    bending: 0.632 + 0.377 q^-2.2 + s^-0.5 sqrt((-0.14 - 0.363 q + 0.503 q^2)/(1 - 2.39 q + 3.368 q^2)),
-    torsion: 0.78 + 0.2 q^-5 + s^-0.46 sqrt((0.002 - 0.125 q + 0.123 q^2)/(1 - 2.75 q + 2.55 q^2)).
+    A bore makes a shoulder milder: the factors, of the solid shaft, are on the safe side.
     """
     _check_positive(notch, "radius", notch.radius)
-    q, s = (notch.larger / notch.smaller) ** 2, min(notch.radius / notch.smaller, 0.3)
-    tension = 0.493 + 0.48 * q**-1.215 + s**-0.48 * _root(3.43 - 3.41 * q - 0.0232 * q**2, 1 - 8.85 * q - 0.078 * q**2)
-    bending = 0.632 + 0.377 * q**-2.2 + s**-0.5 * _root(-0.14 - 0.363 * q + 0.503 * q**2, 1 - 2.39 * q + 3.368 * q**2)
-    torsion = 0.78 + 0.2 * q**-5 + s**-0.46 * _root(0.002 - 0.125 * q + 0.123 * q**2, 1 - 2.75 * q + 2.55 * q**2)
-    return NotchFactors(max(tension, 1.0), max(bending, 1.0), max(torsion, 1.0), TIPTON)
+    step, slenderness = notch.larger / notch.smaller - 1, min(notch.radius / notch.smaller, BLUNTEST)
+    low = math.sqrt(min(step / SHALLOWEST, 1.0))
+    tension, bending, torsion = (1 + low * (each - 1) for each in _fillet_factors(1 + max(step, SHALLOWEST), slenderness))
+    return NotchFactors(tension, bending, torsion, TIPTON)
+
+
+def _fillet_factors(ratio: float, slenderness: float) -> tuple[float, float, float]:
+    """(tension, bending, torsion) with q = (D/d)^2 and s = r/d:
+
+    0.493 + 0.48 q^-1.215 + s^-0.48 sqrt((3.43 - 3.41 q - 0.0232 q^2)/(1 - 8.85 q - 0.078 q^2)),
+    0.632 + 0.377 q^-2.2 + s^-0.5 sqrt((-0.14 - 0.363 q + 0.503 q^2)/(1 - 2.39 q + 3.368 q^2)),
+    0.78 + 0.2 q^-5 + s^-0.46 sqrt((0.002 - 0.125 q + 0.123 q^2)/(1 - 2.75 q + 2.55 q^2)).
+    """
+    q, s = ratio**2, slenderness
+    tension = math.sqrt((3.43 - 3.41 * q - 0.0232 * q**2) / (1 - 8.85 * q - 0.078 * q**2))
+    bending = math.sqrt((-0.14 - 0.363 * q + 0.503 * q**2) / (1 - 2.39 * q + 3.368 * q**2))
+    torsion = math.sqrt((0.002 - 0.125 * q + 0.123 * q**2) / (1 - 2.75 * q + 2.55 * q**2))
+    return (
+        0.493 + 0.48 * q**-1.215 + s**-0.48 * tension,
+        0.632 + 0.377 * q**-2.2 + s**-0.5 * bending,
+        0.78 + 0.2 * q**-5 + s**-0.46 * torsion,
+    )
 
 
 @stress_concentration.register
@@ -256,10 +272,6 @@ def _size_effect(diameter: float, factor: float) -> float:
 
 def _cubic(x: float, *coefficients: float) -> float:
     return sum(c * x**power for power, c in enumerate(coefficients))
-
-
-def _root(above: float, below: float) -> float:
-    return math.sqrt(max(above / below, 0.0))
 
 
 def _check_positive(notch: Notch, key: str, value: float) -> None:
