@@ -15,6 +15,7 @@ from drivewright.bearings import (
     solve,
     static_rating,
 )
+from drivewright.bearings.tables import duty_table
 from drivewright.bearings.values import DutyCase, bearing_findings, life_values, load_values, spectrum_values, system_values
 from drivewright.labels import faults, label_of
 
@@ -146,6 +147,23 @@ def test_a_duty_cycle_is_the_miner_sum_of_its_cases():
         np.cbrt((30 * heavy["equivalent_load"] ** 3 + 100 * light["equivalent_load"] ** 3) / 130), rel=1e-12
     )
     assert got["basic_life"] == pytest.approx(1e6 * (29100 / got["mean_load"]) ** 3, rel=1e-12)
+
+
+@pytest.mark.property
+def test_the_table_of_a_duty_cycle_shares_the_damage():
+    cases = [DutyCase(0.3, 100.0, COMBINED), DutyCase(0.2, 0.0, COMBINED), DutyCase(0.5, -200.0, LIGHT)]
+    table, values = duty_table(cases, "A"), spectrum_values("A", cases)
+    assert (table.name, list(table["speed"].data), table["share"].data.sum()) == ("duty.A", [100.0, 0.0, -200.0], 1.0)
+    assert table["equivalent_load"].data[2] == pytest.approx(500.0)
+    for kind, life in zip(("basic", "reference", "modified"), LIVES, strict=True):
+        damage = table[f"{kind}_damage"].data
+        single = life_values("A", LIGHT, 200.0)[f"bearings.A.{life}.time"].value
+        assert damage[2] == pytest.approx(0.5 / single * values[f"bearings.A.{life}.time"].value, rel=1e-12)
+        assert damage[1] == 0.0 and damage.sum() == pytest.approx(1.0, rel=1e-12)
+    idle = duty_table([DutyCase(1.0, 0.0, COMBINED)], "A")
+    assert list(idle["basic_damage"].data) == [0.0]
+    bare = solve(BALLS.replace(dynamic_rating=None), force=[2000, 0, 1500, 0, 0])
+    assert np.isnan(duty_table([DutyCase(1.0, 9.0, bare)], "A")["basic_damage"].data).all()
 
 
 @pytest.mark.property

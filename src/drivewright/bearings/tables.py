@@ -1,12 +1,16 @@
 """Rolling bearings as tables of a result, and their plots: the load on every element, and stiffness over load."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.bearings.life import life_duration
+from drivewright.bearings.lives import rating_lives
+from drivewright.bearings.lubricant import Lubrication
 from drivewright.bearings.solving import BearingEquilibrium
 from drivewright.bearings.stiffness_curve import LoadCurve, load_curve
+from drivewright.bearings.values import DutyCase
 from drivewright.errors import InputError, SolverError
 from drivewright.result import Column, Plot, Table
 
@@ -51,6 +55,37 @@ def load_curve_tables(state: BearingEquilibrium, name: str, factors: Floats) -> 
     except (InputError, SolverError):
         return
     yield load_curve_table(curve, name)
+
+
+def duty_table(cases: Sequence[DutyCase], name: str, lubrication: Lubrication | None = None) -> Table:
+    """`duty.NAME` of the bearing of this name: a row for every case of its duty cycle; nan where unknown."""
+    lives = [rating_lives(case.state, case.speed, lubrication) for case in cases]
+    loads = [np.nan if each.equivalent is None else each.equivalent.load for each in lives]
+    times = [_case_times(case, each) for case, each in zip(cases, lives, strict=True)]
+    shares = np.array([case.share for case in cases])
+    columns = (
+        Column("share", "-", "share of the time", shares),
+        Column("speed", "rad/s", "speed", np.array([case.speed for case in cases])),
+        Column("equivalent_load", "N", "equivalent load P", np.array(loads)),
+        *(
+            Column(f"{kind}_damage", "-", f"share of the damage, by the {kind} life", _damage_shares(shares, np.array(column)))
+            for kind, column in zip(("basic", "reference", "modified"), zip(*times, strict=True), strict=True)
+        ),
+    )
+    return Table(f"duty.{name}", f"Duty cycle of bearing {name}", columns)
+
+
+def _case_times(case, lives):
+    """Basic, reference and modified life [s] if the case went on for ever: infinite at rest, nan where unknown."""
+    if not case.speed:
+        return (np.inf,) * 3
+    return [np.nan if life is None else life_duration(life, case.speed) for life in (lives.basic, lives.reference, lives.modified)]
+
+
+def _damage_shares(shares, times):
+    """q/L of each case over the sum of all, Miner; 0 where nothing does damage."""
+    rates = shares / times
+    return rates / total if (total := rates.sum()) else rates
 
 
 def bearing_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
