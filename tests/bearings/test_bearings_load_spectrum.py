@@ -39,6 +39,7 @@ def test_limits_of_a_cycle():
     assert mean_load((0.5, 0.5), (10.0, 70.0), (800.0, 800.0), 3) == pytest.approx(800.0, rel=1e-12)
     assert mean_load((0.5, 0.5), (0.0, 70.0), (9000.0, 800.0), 3) == pytest.approx(800.0, rel=1e-12)
     assert mean_load((0.5, 0.5), (10.0, 70.0), (0.0, 0.0), 3) == 0.0
+    assert mean_load((0.0, 1.0), (9.0, 0.01), (9000.0, 800.0), 3) == pytest.approx(800.0, rel=1e-12)
     assert spectrum_life((0.25, 0.75), (100.0, np.inf)) == pytest.approx(400.0)
     assert spectrum_life((0.25, 0.75), (np.inf, np.inf)) == np.inf
     assert_allclose(mean_load(SHARES, SPEEDS, np.array(LOADS) * 7, 3), 7 * mean_load(SHARES, SPEEDS, LOADS, 3), rtol=1e-12)
