@@ -33,6 +33,8 @@ def with_links(spec: MechanismSpec, entries: Sequence[Vary], listed: dict[Variab
             continue
         place = f"study.vary.{number}"
         refuse_beside(vary, "a relation", ("link",), place)
+        if vary.also:
+            raise SpecError("has no meaning beside link (a relation); give each of these keys a link of its own", f"{place}.also")
         source, link = formula_link(spec, vary.key, vary.link, place)
         _refuse_chain(spec, vary.key, source, entries, f"{place}.link")
         followed = _followed(spec, source, [*listed, *variables])
@@ -84,9 +86,10 @@ def contradictions(spec: MechanismSpec, variables: Iterable[Variable]) -> Iterat
                 continue
             wanted = link.at(np.array([own]))[0]
             if not _is_same(there, wanted):
+                other = f"where {link.text} gives" if link.text else f"and {each.key} is"
                 yield (
-                    f"{link.key} is {_shown(link.kind, there)} in the spec and {_shown(link.kind, wanted)} by "
-                    f"{link.text or each.key}; in this study it follows {each.key}"
+                    f"{link.key} is {_shown(link.kind, there)} in the spec, {other} {_shown(link.kind, wanted)}; in this study it "
+                    f"follows {each.key}"
                 )
 
 

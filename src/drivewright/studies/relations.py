@@ -93,7 +93,9 @@ def formula_link(spec: MechanismSpec, key: str, text: str, place: str) -> tuple[
     kind, source = key_kind(spec, key, f"{place}.key"), _source_kind(spec, found.source, f"{place}.link")
     _refuse_other_kind(key, kind, found.source, source, f"{place}.link")
     if not 0 < abs(found.factor) < LARGEST:
-        raise SpecError(f"the factor must be a number other than 0, got {found.factor:g}; give {key} its value in the spec instead", place)
+        raise SpecError(
+            f"the factor must be a number other than 0, got {found.factor:g}; give {key} its value in the spec instead", f"{place}.link"
+        )
     offset = _offset(kind, found.offset, f"{place}.link")
     return found.source, Link(key, kind, found.factor, offset, " ".join(text.split()))
 
