@@ -18,6 +18,7 @@ from drivewright.errors import UnknownName
 from drivewright.labels import label_of
 from drivewright.stops import Stop
 from drivewright.surface_fields import SurfaceFields
+from drivewright.units import System
 
 if TYPE_CHECKING:
     import pyarrow
@@ -451,6 +452,11 @@ class Result(Generic[SpecT]):
         heading = f"<p><b>{escape(self.title)}</b> ({escape(self.mechanism)}, {self.outcome})</p>"
         numbers = f"<details><summary>values [SI]</summary><table>{values}</table></details>"
         return f"{heading}<table>{checks}</table><ul>{findings}</ul>{numbers}"
+
+    @property
+    def units(self) -> System:
+        """The system of units that its spec wants it shown in."""
+        return getattr(self.spec, "units", "mm")
 
     @property
     def ok(self) -> bool:

@@ -19,7 +19,7 @@ from fractions import Fraction
 from functools import cache, lru_cache
 from numbers import Real
 from pathlib import Path
-from typing import Annotated, Any, ClassVar, Literal, TypeAlias
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, TypeAlias
 
 from drivewright.errors import UnitError, brief, nearest
 
@@ -43,10 +43,13 @@ __all__ = [
     "RotationalDamping",
     "RotationalStiffness",
     "SI",
+    "Scale",
     "Slowness",
     "Speed",
     "Stiffness",
+    "System",
     "Temperature",
+    "TemperatureDifference",
     "Time",
     "Torque",
     "Unbalance",
@@ -55,6 +58,7 @@ __all__ = [
     "WearCoefficient",
     "any_quantity",
     "display",
+    "scale",
     "split",
     "to_si",
     "unit_factor",
@@ -76,7 +80,7 @@ metre = [length] = m = meter
 kilogram = [mass] = kg
 second = [time] = s
 radian = [angle] = rad
-kelvin = [temperature] = K = degC = degreeC
+kelvin = [temperature] = K = degC = degreeC = deltaK
 rankine = 5 / 9 * kelvin = degR = degF = degreeF  # pint reads ° as "degree"
 gram = 1e-3 * kilogram = g
 tonne = 1e3 * kilogram = t
@@ -228,7 +232,8 @@ UNITS_PEOPLE_WRITE = (
 
 @dataclass(frozen=True)
 class Dimension:
-    """A kind of quantity: its SI unit, the unit people read, others they `also` use.  And the pydantic field type of that quantity.
+    """A kind of quantity: its SI unit, the unit people read, others they `also` use, the unit among inches and pounds where it is another.
+    And the pydantic field type of that quantity.
 
     What a spec says is at most `largest`: infinite where ever larger values tend to a limit, as stiff springs do to a rigid one.
     """
@@ -237,6 +242,7 @@ class Dimension:
     unit: str
     display_unit: str
     also: tuple[str, ...] = ()
+    inch: str = ""
     largest: float = LARGEST
     plain: ClassVar[bool] = False  # of a kind whose values are more than a float: what `parse` gives is final
 
@@ -308,6 +314,10 @@ class Dimension:
                     return text
         last = self.unit if self._begin(self.display_unit) else self.display_unit  # 17 digits always do, but for the beginning of a scale
         return f"{decimal_text(exact / _unit(last)[0], 17)} {last}"
+
+    def shown_unit(self, system: System) -> str:
+        """The unit in which a system of units shows it."""
+        return {"mm": self.display_unit, "si": self.unit, "inch": self.inch or self.display_unit}[system]
 
     @property
     def described(self) -> str:
@@ -413,36 +423,36 @@ def decimal_text(exact: Fraction, digits: int) -> str:
 
 
 DIMENSIONS = (
-    Dimension("length", "m", "mm", ("um", "in")),
+    Dimension("length", "m", "mm", ("um", "in"), inch="in"),
     Dimension("angle", "rad", "deg", ("arcmin", "arcsec", "rad")),
     Dimension("angular speed", "rad/s", "rpm", ("rad/s", "rev/h")),
     Dimension("angular acceleration", "rad/s^2", "rad/s^2"),
-    Dimension("velocity", "m/s", "m/s", ("mm/min", "mm/s")),
-    Dimension("acceleration", "m/s^2", "m/s^2"),
+    Dimension("velocity", "m/s", "m/s", ("mm/min", "mm/s"), inch="in/s"),
+    Dimension("acceleration", "m/s^2", "m/s^2", inch="in/s^2"),
     Dimension("time", "s", "s", ("min", "h")),
     Dimension("frequency", "Hz", "Hz"),
-    Dimension("mass", "kg", "kg"),
-    Dimension("moment of inertia", "kg m^2", "kg m^2"),
-    Dimension("force", "N", "N"),
-    Dimension("torque", "N m", "N m"),
-    Dimension("stiffness", "N/m", "N/mm", largest=math.inf),
-    Dimension("rotational stiffness", "N m/rad", "N m/arcmin", ("N m/rad",), largest=math.inf),
-    Dimension("damping", "N s/m", "N s/m"),
-    Dimension("pressure", "Pa", "MPa"),
-    Dimension("area", "m^2", "mm^2"),
-    Dimension("curvature", "1/m", "1/mm"),
-    Dimension("power", "W", "W"),
-    Dimension("density", "kg/m^3", "kg/m^3"),
-    Dimension("volume", "m^3", "mm^3"),
-    Dimension("rotational damping", "N m s/rad", "N m s/rad"),
-    Dimension("viscosity", "Pa s", "Pa s"),
-    Dimension("kinematic viscosity", "m^2/s", "mm^2/s", ("cSt",)),
-    Dimension("temperature", "K", "degC", ("K", "degF")),
-    Dimension("unbalance", "kg m", "g mm", ("kg mm", "oz in")),
-    Dimension("wear coefficient", "m^2/N", "mm^3/(N m)"),
-    Dimension("slowness", "s/m", "s/m"),
-    Dimension("flexibility", "m/N", "um/kN"),
-    Dimension("torsional compliance", "rad/(N m)", "arcmin/(kN m)"),
+    Dimension("mass", "kg", "kg", inch="lb"),
+    Dimension("moment of inertia", "kg m^2", "kg m^2", inch="lb in^2"),
+    Dimension("force", "N", "N", inch="lbf"),
+    Dimension("torque", "N m", "N m", inch="lbf in"),
+    Dimension("stiffness", "N/m", "N/mm", inch="lbf/in", largest=math.inf),
+    Dimension("rotational stiffness", "N m/rad", "N m/arcmin", ("N m/rad",), inch="lbf in/arcmin", largest=math.inf),
+    Dimension("damping", "N s/m", "N s/m", inch="lbf s/in"),
+    Dimension("pressure", "Pa", "MPa", inch="ksi"),
+    Dimension("area", "m^2", "mm^2", inch="in^2"),
+    Dimension("curvature", "1/m", "1/mm", inch="1/in"),
+    Dimension("power", "W", "W", inch="hp"),
+    Dimension("density", "kg/m^3", "kg/m^3", inch="lb/in^3"),
+    Dimension("volume", "m^3", "mm^3", inch="in^3"),
+    Dimension("rotational damping", "N m s/rad", "N m s/rad", inch="lbf in s/rad"),
+    Dimension("viscosity", "Pa s", "Pa s", inch="lbf s/in^2"),
+    Dimension("kinematic viscosity", "m^2/s", "mm^2/s", ("cSt",), inch="cSt"),
+    Dimension("temperature", "K", "degC", ("K", "degF"), inch="degF"),
+    Dimension("unbalance", "kg m", "g mm", ("kg mm", "oz in"), inch="oz in"),
+    Dimension("wear coefficient", "m^2/N", "mm^3/(N m)", inch="in^3/(lbf in)"),
+    Dimension("slowness", "s/m", "s/m", inch="s/in"),
+    Dimension("flexibility", "m/N", "um/kN", inch="mil/kip"),
+    Dimension("torsional compliance", "rad/(N m)", "arcmin/(kN m)", inch="arcmin/(kip in)"),
 )
 REMEDIES = {
     "rotational damping": "; write N m s/rad, a torque per angular speed",
@@ -454,7 +464,9 @@ REMEDIES = {
     "slowness": "; write s/m",
 }
 BY_NAME = {dimension.name: dimension for dimension in DIMENSIONS}
-BY_UNIT = {dimension.unit: dimension for dimension in DIMENSIONS}
+# A result says "K" of a temperature, which is shown on a scale such as that of degC, and "deltaK" of a difference of two.
+TEMPERATURE_DIFFERENCE = Dimension("temperature difference", "deltaK", "K", inch="degF")
+BY_UNIT = {dimension.unit: dimension for dimension in (*DIMENSIONS, TEMPERATURE_DIFFERENCE)}
 
 
 @cache
@@ -490,11 +502,12 @@ RotationalDamping: TypeAlias = Annotated[float, BY_NAME["rotational damping"]]
 Viscosity: TypeAlias = Annotated[float, BY_NAME["viscosity"]]
 KinematicViscosity: TypeAlias = Annotated[float, BY_NAME["kinematic viscosity"]]
 Temperature: TypeAlias = Annotated[float, BY_NAME["temperature"]]
+TemperatureDifference: TypeAlias = Annotated[float, TEMPERATURE_DIFFERENCE]
 Unbalance: TypeAlias = Annotated[float, BY_NAME["unbalance"]]
 WearCoefficient: TypeAlias = Annotated[float, BY_NAME["wear coefficient"]]
 Slowness: TypeAlias = Annotated[float, BY_NAME["slowness"]]
 Density: TypeAlias = Annotated[float, BY_NAME["density"]]
-LineForce: TypeAlias = Annotated[float, Dimension("force per length", "N/m", "N/mm")]  # of the same kind as a stiffness
+LineForce: TypeAlias = Annotated[float, Dimension("force per length", "N/m", "N/mm", inch="lbf/in")]  # of the same kind as a stiffness
 
 
 def refuse_absurd(value: float, given: Any, unit: str = "", smallest: float = SMALLEST, largest: float = LARGEST) -> float:
@@ -517,13 +530,57 @@ def unit_factor(unit: str, dimension: str) -> float:
     return BY_NAME[dimension].factor(unit)
 
 
-def display(si_unit: str, wanted: str = "") -> tuple[float, str]:
-    """(factor, unit) that turn an SI number of `si_unit` into the one people read: 'm' -> (1e3, 'mm'); or into a `wanted` unit."""
+# -- showing -------------------------------------------------------------------------------------------------------------------
+
+IN_INCH = {"m": "in", "kg": "lb", "N": "lbf", "Pa": "psi", "J": "lbf in", "W": "hp"}  # words of a unit that no `Dimension` has
+LONG = {"s": (3600.0, 1 / 3600, "h"), "rev": (1e6, 1e-6, "million rev")}  # {SI unit: (from where on, factor, unit)}
+
+
+class Scale(NamedTuple):
+    """How SI numbers of a unit are shown: in `unit`, `factor` times the number plus `zero`, which is not 0 of temperatures alone.
+
+    Differences, such as a margin, are shown by the factor.
+    """
+
+    factor: float
+    unit: str
+    zero: float = 0.0
+
+    def of(self, number: Any) -> Any:
+        """A number, or an array, as shown."""
+        return self.factor * number + self.zero if self.zero else self.factor * number
+
+
+def scale(si_unit: str, wanted: str = "", system: System = "mm", size: float = 0.0) -> Scale:
+    """The `Scale` of an SI unit in a system of units, for numbers of a size: times in hours and counts of revolutions ("rev") in millions
+    where they are long."""
+    long = LONG.get(si_unit)
+    if long and not wanted and abs(size) >= long[0]:
+        return Scale(long[1], long[2])
+    factor, unit = display(si_unit, wanted, system)
+    return Scale(factor, unit, -float(SCALES[unit] / _unit(unit)[0]) if si_unit == "K" else 0.0)
+
+
+def display(si_unit: str, wanted: str = "", system: System = "mm") -> tuple[float, str]:
+    """(factor, unit) that turn an SI number of `si_unit` into that of a system of units: 'm' -> (1e3, 'mm'); or into a `wanted` unit.
+
+    What is wanted instead of the usual unit gives way to a system that has its own.
+    """
     dimension = BY_UNIT.get(si_unit)
-    if dimension is not None and wanted:
-        return 1 / dimension.factor(wanted), wanted
-    if dimension is None and si_unit.startswith("m/rad"):  # a lift's derivatives by an angle
-        return 1e3, f"m{si_unit}"
     if dimension is None:
+        return _display_composite(si_unit, system)
+    if wanted and (system == "mm" or (system == "inch" and dimension.shown_unit("inch") == dimension.display_unit)):
+        return 1 / dimension.factor(wanted), wanted
+    unit = dimension.shown_unit(system)
+    return float(1 / _unit(unit)[0]), unit
+
+
+def _display_composite(si_unit: str, system: System) -> tuple[float, str]:
+    """The same of a unit that no `Dimension` has: in inches and pounds word by word."""
+    if system == "mm" and si_unit.startswith("m/rad"):  # a lift's derivatives by an angle
+        return 1e3, f"m{si_unit}"
+    unit = re.sub("[A-Za-z]+", lambda word: IN_INCH.get(word[0], word[0]), si_unit) if system == "inch" else si_unit
+    try:
+        return (1.0, si_unit) if unit == si_unit else (float(_unit(si_unit)[0] / _unit(unit)[0]), unit)
+    except UnitError:  # words that only look like units
         return 1.0, si_unit
-    return float(1 / _unit(dimension.display_unit)[0]), dimension.display_unit

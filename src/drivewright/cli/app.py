@@ -29,6 +29,7 @@ SpecFile = Annotated[Path, typer.Argument(help="spec file (TOML)")]
 SetOption = Annotated[list[str] | None, typer.Option("--set", help="key=value, repeatable; replaces a key of the spec, key= removes it")]
 OnlyOption = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
 AllOption = Annotated[bool, typer.Option("--all", help="every analysis")]
+UnitsOption = Annotated[str | None, typer.Option("--units", help="units of the pages: mm, si or inch; as the spec's own key")]
 OutOption = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
 VARY_HELP = (
     "repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=FROM:TO or uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
@@ -40,10 +41,10 @@ METHOD_HELP = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance
 StrictOption = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
 
 
-def _load(path: Path, changes: Iterable[str] | None) -> Any:
+def _load(path: Path, changes: Iterable[str] | None, units: str | None = None) -> Any:
     from drivewright.spec import load
 
-    return load(path, changes or ())
+    return load(path, [*(changes or ()), *([f"units={units}"] if units is not None else [])])
 
 
 def _names(text: str) -> tuple[str, ...]:
@@ -92,6 +93,7 @@ def run(
     set_: SetOption = None,
     only: OnlyOption = "",
     all_: AllOption = False,
+    units: UnitsOption = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="draw the figures")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="print the result as JSON to stdout")] = False,
     strict: StrictOption = False,
@@ -108,7 +110,7 @@ def run(
         raise InputError("two specs have the same file name and would share a run folder; run them one by one with --out")
     results = []
     for path in specs:
-        spec = _load(path, set_)
+        spec = _load(path, set_, units)
         with helping_hand(prepare_drawing, figures) as compute, show.progress(path.name, spec.mechanism) as step, show.located(path):
             with compiling_ahead(spec):
                 model = runner.build(spec)
@@ -127,6 +129,7 @@ def compare(
     out: Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the first spec>-compared")] = None,
     set_: SetOption = None,
     only: OnlyOption = "",
+    units: UnitsOption = None,
     labels: Annotated[str, typer.Option("--labels", help="name of each design, comma separated; the titles unless given")] = "",
 ) -> None:
     """Run designs of one kind and write one page of them."""
@@ -137,7 +140,7 @@ def compare(
     from drivewright.report.comparison_page import refuse_foreign, write_comparison
 
     check_count(len(specs))
-    loaded = [_load(path, set_) for path in specs]
+    loaded = [_load(path, set_, units) for path in specs]
     check_kinds([spec.mechanism for spec in loaded])
     names, kind = compared.labels_of(specs, loaded, labels), loaded[0].mechanism
     folder = out or Path("out") / f"{specs[0].stem}-compared"
@@ -159,13 +162,14 @@ def export(
     to: Annotated[str, typer.Option("--to", help="formats, comma separated: dxf, svg, csv, step, stl, gcode, pdf")],
     out: OutOption = None,
     set_: SetOption = None,
+    units: UnitsOption = None,
     anyway: Annotated[bool, typer.Option("--anyway", help="also with a failed geometry check")] = False,
 ) -> None:
     """Write manufacturing files and the PDF report."""
     from drivewright.report.export import export as write
     from drivewright.report.folder import recover_run_folder
 
-    loaded = _load(spec, set_)
+    loaded = _load(spec, set_, units)
     with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = _folder(spec, out)
         recover_run_folder(folder)
@@ -231,6 +235,7 @@ def sweep(
 def table(
     study: Annotated[Path, typer.Argument(help="folder of a study")],
     to: Annotated[str, typer.Option("--to", help="formats, comma separated: csv, xlsx, parquet")] = "csv",
+    units: UnitsOption = None,
     out: Annotated[Path | None, typer.Option("--out", help="folder to write to; default the study's own")] = None,
 ) -> None:
     """Write a study's cases as one table."""
@@ -242,9 +247,10 @@ def table(
         show.note(f"note: {notice}")
     if not opened.complete:
         show.note(f"note: {len(opened)} of {len(opened.plan)} cases are there; the same sweep again goes on")
+    system = show.system_of(opened.spec.units if units is None else units)
     with show.located(study):
         for form in _names(to):
-            print(write_study_table(opened, (out or study) / f"table.{form}"))
+            print(write_study_table(opened, (out or study) / f"table.{form}", system))
     if opened.damaged:
         raise typer.Exit(4)
 

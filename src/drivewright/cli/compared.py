@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from drivewright.report.content import Views
     from drivewright.result import Result
     from drivewright.spec import MechanismSpec
+    from drivewright.units import System
 
     Design = tuple[Result[Any], Views]
 
@@ -83,7 +84,7 @@ def show_comparison(comparison: "DesignComparison", changed: bool = False) -> No
     rows = [
         (
             name,
-            *(_value(result, name) for result in comparison.results),
+            *(_value(result, name, comparison.system) for result in comparison.results),
             *_difference(comparison, name)[:pair],
             comparison.known(name).meaning,
         )
@@ -106,10 +107,10 @@ def _difference(comparison: "DesignComparison", name: str) -> list[str]:
     from drivewright.report.comparison import difference_text
 
     apart = comparison.differences(name)[1]
-    return [difference_text(apart, comparison.known(name).unit) + ("" if apart is None or apart.certain else " ~")]
+    return [difference_text(apart, comparison.known(name).unit, comparison.system) + ("" if apart is None or apart.certain else " ~")]
 
 
-def _value(result: "Result[Any]", name: str) -> str:
+def _value(result: "Result[Any]", name: str, system: "System") -> str:
     from drivewright.report.comparison import value_text
 
-    return value_text(result.values.get(name))
+    return value_text(result.values.get(name), system)

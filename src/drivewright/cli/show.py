@@ -9,10 +9,10 @@ import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 
 from drivewright import atomic, digits, registry, units
-from drivewright.errors import InputError, MissingExtra, SpecError
+from drivewright.errors import InputError, MissingExtra, SpecError, UnknownName
 
 if TYPE_CHECKING:
     from rich.console import JustifyMethod
@@ -161,11 +161,21 @@ def table(title: str, header: "Header", rows: Iterable[Iterable[object]]) -> Non
     Console(file=sys.stdout, width=None if sys.stdout.isatty() else 140, highlight=False).print(grid)
 
 
-def number(value: float, unit: str, low: float | None = None, high: float | None = None, wanted: str = "") -> str:
+def number(
+    value: float, unit: str, low: float | None = None, high: float | None = None, wanted: str = "", system: units.System = "mm"
+) -> str:
     """A number in the unit people read, or in a `wanted` one, with the unit, and with its interval in the digits that this supports."""
-    factor, shown = units.display(unit, wanted)
-    text, *ends = digits.plain(factor * value, low and factor * low, high and factor * high)
-    return _with_unit(f"{text} ({ends[0]} to {ends[1]})" if ends else text, shown)
+    shown = units.scale(unit, wanted, system, value)
+    text, *ends = digits.plain(shown.of(value), *(None if end is None else shown.of(end) for end in (low, high)))
+    return _with_unit(f"{text} ({ends[0]} to {ends[1]})" if ends else text, shown.unit)
+
+
+def system_of(name: str) -> units.System:
+    """A system of units by name; UnknownName where it is none."""
+    systems: dict[str, units.System] = {each: each for each in get_args(units.System)}
+    if name not in systems:
+        raise UnknownName("system of units", name, systems)
+    return systems[name]
 
 
 def _with_unit(text: str, shown: str) -> str:
@@ -178,11 +188,11 @@ def result(run: "Result[Any]") -> None:
 
     mechanism = registry.mechanism(run.mechanism)
     headline = registry.headlines(mechanism, run.values)
-    rows = [(name, _value(run.values[name]), _meaning(run.values[name])) for name in headline]
+    rows = [(name, _value(run.values[name], run.units), _meaning(run.values[name])) for name in headline]
     table(run.title, (("value", "left"), ("", "right"), ("meaning", "left")), rows)
     if len(run.values) > len(headline):
         note(f"{len(run.values) - len(headline)} more values in result.json")
-    checks(run.checks)
+    checks(run.checks, run.units)
     for finding in run.findings:
         if finding not in run.warnings:
             note(f"note: {finding}")
@@ -201,8 +211,8 @@ def _coloured_note(text: str, state: str) -> None:
     Console(file=sys.stderr, highlight=False).print(Text(text, style=style), soft_wrap=True)
 
 
-def _value(value: "Value") -> str:
-    return number(value.value, value.unit, value.low, value.high)
+def _value(value: "Value", system: units.System = "mm") -> str:
+    return number(value.value, value.unit, value.low, value.high, system=system)
 
 
 def _meaning(value: "Value") -> str:
@@ -228,8 +238,8 @@ def finish_run(results: "Sequence[Result[Any]]", only: "Sequence[str]" = (), as_
         raise typer.Exit(3)
 
 
-def checks(design_checks: "Iterable[Check]") -> None:
-    """Every design check with value, limit and margin."""
+def checks(design_checks: "Iterable[Check]", system: units.System = "mm") -> None:
+    """Every design check with value, limit and margin, in a system of units."""
     from rich.text import Text
 
     from drivewright.result import UNDECIDED
@@ -241,9 +251,9 @@ def checks(design_checks: "Iterable[Check]") -> None:
         (
             verdict(c),
             c.name,
-            number(c.value, c.unit, *(c.bounds or (None, None))),
-            f"{c.sense} {number(c.limit, c.unit)}",
-            _margin(c),
+            number(c.value, c.unit, *(c.bounds or (None, None)), system=system),
+            f"{c.sense} {number(c.limit, c.unit, system=system)}",
+            _margin(c, system),
             f"{c.message} ({UNDECIDED})" if c.undecided else c.message,
         )
         for c in sorted(design_checks, key=lambda c: c.ok)
@@ -256,9 +266,9 @@ def checks(design_checks: "Iterable[Check]") -> None:
         )
 
 
-def _margin(check: "Check") -> str:
+def _margin(check: "Check", system: units.System) -> str:
     """With the digits that the check's value has."""
-    factor, shown = units.display(check.unit)
+    factor, shown = units.display(check.unit, system=system)
     low, high = check.margin_bounds or (None, None)
     return _with_unit(digits.plain(factor * check.margin, low and factor * low, high and factor * high)[0], shown)
 
@@ -299,7 +309,8 @@ def _ends(study: "Study", name: str) -> list[str]:
     import numpy as np
 
     column, bounds = study[name], study.bounds(name) or ()
-    return [number(column[row], study.unit(name), *(end[row] for end in bounds)) for row in (np.nanargmin(column), np.nanargmax(column))]
+    rows = np.nanargmin(column), np.nanargmax(column)
+    return [number(column[row], study.unit(name), *(end[row] for end in bounds), system=study.spec.units) for row in rows]
 
 
 def _headline_columns(study: "Study") -> list[str]:

@@ -12,6 +12,7 @@ from drivewright.errors import InputError
 from drivewright.labels import label_of
 from drivewright.result import Result, Value
 from drivewright.spec.differences import DifferingKey, differing_keys
+from drivewright.units import System
 from drivewright.view import draw_panels
 from drivewright.view.overlays import overlay
 from drivewright.view.text import SOLID, display_unit, number, numbers, uncertain, with_unit
@@ -58,6 +59,11 @@ class DesignComparison:
     def units(self) -> dict[str, str]:
         """{name: SI unit}."""
         return {name: self.known(name).unit for name in self._names()}
+
+    @property
+    def system(self) -> System:
+        """The system of units that all are shown in: that of the first spec."""
+        return self.results[0].units
 
     def known(self, name: str) -> Value:
         """The value of that name of the first design that has it, for its unit, its label and its meaning."""
@@ -120,7 +126,7 @@ class DesignComparison:
         head = "".join(f"<th>{escape(label)}</th>" for label in self.labels)
         rows = "".join(
             f"<tr><td>{escape(label_of(self.known(name).meaning, self.known(name).label))}</td>"
-            + "".join(f"<td>{escape(value_text(result.values.get(name)))}</td>" for result in self.results)
+            + "".join(f"<td>{escape(value_text(result.values.get(name), self.system))}</td>" for result in self.results)
             + f"<td>{escape(name)}</td></tr>"
             for name in self._names()
         )
@@ -205,11 +211,11 @@ def _ends(value: Value) -> tuple[float, float]:
     return low, high
 
 
-def value_text(value: Value | None) -> str:
+def value_text(value: Value | None, system: System = "mm") -> str:
     """A value as people read it, with its interval; a dash where there is none."""
     if value is None or not math.isfinite(value.value):
         return "–"
-    return uncertain(value.value, value.unit, value.low, value.high)
+    return uncertain(value.value, value.unit, value.low, value.high, system=system)
 
 
 def identical_text(labels: Sequence[str]) -> str:
@@ -226,13 +232,13 @@ def entry_text(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def difference_text(apart: Difference | None, unit: str) -> str:
+def difference_text(apart: Difference | None, unit: str, system: System = "mm") -> str:
     """'+1.2 mm (+3.4 %)', '0' where there is no difference, '' where none can be told."""
     if apart is None:
         return ""
     if apart.absolute == 0:
         return "0"
-    factor, text = display_unit(unit)
+    factor, text = display_unit(unit, system)
     low, high = (None if end is None else end * factor for end in (apart.low, apart.high))
     told = with_unit(_signed(numbers(apart.absolute * factor, low, high, DIGITS)[0]), text)
     return f"{told} ({percent_text(apart.relative)})" if apart.relative is not None else told

@@ -28,12 +28,13 @@ from drivewright.report.moving import Place, recover, replacing_folder
 from drivewright.report.pack import pack_scene
 from drivewright.result import Check, Result, Value
 from drivewright.scene import Scene
+from drivewright.units import System
 from drivewright.view import draw_overlaid, draw_panels, draw_scene
 from drivewright.view.axis_names import common_phrase
 from drivewright.view.merged_scenes import merged_scene
 from drivewright.view.overlays import apart, common_plots, is_apart, overlay
 from drivewright.view.palette import SERIES
-from drivewright.view.text import display_unit, number, numbers, sentence, unit_text, with_unit
+from drivewright.view.text import ends_shown, number, numbers, quantity, sentence, shown_scale, unit_text, with_unit
 
 PAGE, RECORD = "index.html", "compare.json"
 OURS = {PAGE, RECORD, "figures"}  # what a comparison writes, and the next one replaces
@@ -92,7 +93,8 @@ def _write_figures(folder: Path, pictures: Sequence[Picture]) -> None:
 
 
 def _page(comparison: DesignComparison, shown: Shown) -> str:
-    player = shown.scene and json.dumps({"scene": pack_scene(shown.scene)}, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
+    scene = shown.scene and {"scene": pack_scene(shown.scene, comparison.system)}
+    player = scene and json.dumps(scene, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
     values = comparison_content(comparison, shown.remarks)
     pictures = [embedded(picture) for picture in shown.pictures]
     return page("comparison.html.j2", values, player=player, pictures=pictures, own_style=template_text("comparison.css"))
@@ -105,7 +107,8 @@ def views_of(comparison: DesignComparison, seen: Sequence[Views], compute: Map =
     """The scene of all designs and every figure; what cannot be drawn is a remark, and costs nothing else."""
     scene, remarks = _scene(seen, comparison.labels)
     plots, told = _plots(comparison)
-    sketches = [*_scene_sketches(scene, seen), *plots, *_drawing_sketches(seen, comparison.labels)]
+    sketches = [*_scene_sketches(scene, seen, comparison.system), *plots]
+    sketches += _drawing_sketches(seen, comparison.labels, comparison.system)
     names = distinct([file_name(sketch.name) for sketch in sketches])
     named = [sketch._replace(name=name) for sketch, name in zip(sketches, names, strict=True)]
     pictures = tuple(compute(partial(draw_sketch, comparison.results[0].spec), named))
@@ -124,11 +127,11 @@ def _own_remarks(seen, labels):
     return tuple(f"{label}: {remark}" for view, label in zip(seen, labels, strict=True) for remark in view.remarks)
 
 
-def _scene_sketches(scene: Scene | None, seen: Sequence[Views]) -> Iterator[Sketch]:
+def _scene_sketches(scene: Scene | None, seen: Sequence[Views], system: System) -> Iterator[Sketch]:
     first = next((view.scene for view in seen if view.scene), scene)
     if scene and first:
         for frame in scene.frames:
-            yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [scene_phase(first)]))
+            yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [scene_phase(first)], (), system))
 
 
 def _plots(comparison: DesignComparison) -> tuple[list[Sketch], list[str]]:
@@ -162,7 +165,7 @@ def _plot_sketch(name, number_, panels):
     return Sketch(f"plot-{name}-{number_ + 1}" if number_ else f"plot-{name}", panels[0].title, draw_panels, (panels,))
 
 
-def _drawing_sketches(seen: Sequence[Views], labels: Sequence[str]) -> Iterator[Sketch]:
+def _drawing_sketches(seen: Sequence[Views], labels: Sequence[str], system: System) -> Iterator[Sketch]:
     found: dict[str, list[Any]] = {}
     for view, label in zip(seen, labels, strict=True):
         for drawing in view.drawings:
@@ -171,7 +174,7 @@ def _drawing_sketches(seen: Sequence[Views], labels: Sequence[str]) -> Iterator[
         if len(parts) > 1:
             drawings, own = zip(*parts, strict=True)
             title = common_phrase([drawing.title for drawing in drawings]) or sentence(name.replace("_", " "))
-            yield Sketch(f"drawing-{name}", title, draw_overlaid, (drawings, own, title))
+            yield Sketch(f"drawing-{name}", title, draw_overlaid, (drawings, own, title, system))
 
 
 # -- what the page says --------------------------------------------------------------------------------------------------------
@@ -181,7 +184,7 @@ def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()
     """What the page says, as plain text in plain dictionaries."""
     results, labels = comparison.results, comparison.labels
     verdicts = [summary(result)["verdict"] for result in results]
-    names = list(comparison.values)
+    names, checks = list(comparison.values), dict.fromkeys(check.name for result in results for check in result.checks)
     headline = headline_names(comparison)
     keys = comparison.differing_keys
     rows = [_value_row(comparison, name) for name in names]
@@ -193,7 +196,10 @@ def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()
         "identical": [identical_text(group) for group in comparison.identical],
         "designs": [_design(*each) for each in zip(results, labels, verdicts, range(len(labels)), strict=True)],
         "headline": [_value_row(comparison, name) for name in headline],
-        "checks": [_check_row(name, results) for name in dict.fromkeys(check.name for result in results for check in result.checks)],
+        "checks": [
+            _check_row(name, results, comparison.system)
+            for name in dict.fromkeys(check.name for result in results for check in result.checks)
+        ],
         "keys": [_key_row(row) for row in keys[:MOST_KEYS]],
         "more_keys": max(len(keys) - MOST_KEYS, 0),
         "values": rows,
@@ -243,8 +249,8 @@ def _value_row(comparison: DesignComparison, name: str) -> Content:
     known, apart_ = comparison.known(name), comparison.differences(name)
     cells = [
         {
-            **_shown_value(result.values.get(name)),
-            "difference": difference_text(step, known.unit) if n else "",
+            **_shown_value(result.values.get(name), comparison.system),
+            "difference": difference_text(step, known.unit, comparison.system) if n else "",
             "certain": step is None or step.certain,
             "same": step is not None and step.absolute == 0,
         }
@@ -254,17 +260,16 @@ def _value_row(comparison: DesignComparison, name: str) -> Content:
     return {"name": name, "meaning": sentence(known.meaning or name), "cells": cells, "differs": differs}
 
 
-def _shown_value(value: Value | None) -> dict[str, str]:
+def _shown_value(value: Value | None, system: System) -> dict[str, str]:
     """{value, interval}: the number with its unit, and the ends of its interval, "" where that says nothing."""
     if value is None or not math.isfinite(value.value):
         return {"value": value_text(None), "interval": ""}
-    factor, unit = display_unit(value.unit)
-    low, high = (None if end is None else end * factor for end in (value.low, value.high))
-    text, low, high = numbers(value.value * factor, low, high)
-    return {"value": with_unit(text, unit), "interval": f"{low} to {high}" if low else ""}
+    shown = shown_scale(value.unit, system=system, size=value.value)
+    text, low, high = numbers(shown.of(value.value), *ends_shown(value.low, value.high, shown))
+    return {"value": with_unit(text, shown.unit), "interval": f"{low} to {high}" if low else ""}
 
 
-def _check_row(name: str, results: Sequence[Result[Any]]) -> Content:
+def _check_row(name: str, results: Sequence[Result[Any]], system: System) -> Content:
     """A check of all designs; the limit stands in the cells where it is not the same for all."""
     found = [next((check for check in result.checks if check.name == name), None) for result in results]
     known = [check for check in found if check]
@@ -273,23 +278,22 @@ def _check_row(name: str, results: Sequence[Result[Any]]) -> Content:
         "name": name,
         "label": check_label(known[0]),
         "message": sentence(known[0].message),
-        "limit": _limit(known[0]) if len(limits) == 1 else "",
-        "cells": [_check_cell(check, len(limits) > 1) for check in found],
+        "limit": _limit(known[0], system) if len(limits) == 1 else "",
+        "cells": [_check_cell(check, len(limits) > 1, system) for check in found],
     }
 
 
-def _limit(check: Check) -> str:
-    factor, unit = display_unit(check.unit)
-    return f"{SIGNS[check.sense]} {with_unit(number(check.limit * factor), unit)}"
+def _limit(check: Check, system: System) -> str:
+    return f"{SIGNS[check.sense]} {quantity(check.limit, check.unit, system=system)}"
 
 
-def _check_cell(check: Check | None, own_limit: bool) -> Content:
+def _check_cell(check: Check | None, own_limit: bool, system: System) -> Content:
     if check is None:
-        return {"state": "none", "mark": "", "word": "not made", **_shown_value(None), "limit": ""}
+        return {"state": "none", "mark": "", "word": "not made", **_shown_value(None, system), "limit": ""}
     state = "bad" if not check.ok else "warn" if check.undecided else "good"
     mark, word = {"bad": ("✕", "fails"), "warn": ("?", "undecided"), "good": ("✓", "passes")}[state]
-    value = _shown_value(Value(check.value, check.unit, "", *(check.bounds or (None, None))))
-    return {"state": state, "mark": mark, "word": word, **value, "limit": _limit(check) if own_limit else ""}
+    value = _shown_value(Value(check.value, check.unit, "", *(check.bounds or (None, None))), system)
+    return {"state": state, "mark": mark, "word": word, **value, "limit": _limit(check, system) if own_limit else ""}
 
 
 def _key_row(row) -> Content:

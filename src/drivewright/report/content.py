@@ -15,11 +15,12 @@ from drivewright.execution.helper import Map
 from drivewright.result import UNDECIDED, Array, Check, Plot, Result, SpecLike, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
+from drivewright.units import Scale, System
 from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.style import new_figure
-from drivewright.view.text import display_unit, interval_hint, number, numbers, sentence, uncertain, unit_text, with_unit
+from drivewright.view.text import ends_shown, interval_hint, number, numbers, sentence, shown_scale, uncertain, unit_text, with_unit
 
 GHOSTS = tuple(n / 5 for n in range(5))
 SIGNS = {"<=": "≤", ">=": "≥"}
@@ -81,16 +82,16 @@ def pictures(result: Result[Any], seen: Views, compute: Map = map) -> tuple[Pict
 
 
 def _sketches(result, seen):
-    scene = seen.scene
+    scene, system = seen.scene, result.units
     for frame in scene.frames if scene else ():
-        yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [scene_phase(scene)], GHOSTS))
+        yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [scene_phase(scene)], GHOSTS, system))
     for plot in drawable(result, seen.plots):
         try:
             yield Sketch(f"plot-{plot.name}", plot.title, draw_panels, (panels(result, plot), _marks(result, plot, scene)))
         except Exception as error:
             yield failing_sketch(f"plot-{plot.name}", plot.title, error)
     for drawing in seen.drawings:
-        yield Sketch(f"drawing-{drawing.name}", sentence(drawing.title), draw_drawing, (drawing,))
+        yield Sketch(f"drawing-{drawing.name}", sentence(drawing.title), draw_drawing, (drawing, system))
 
 
 def failing_sketch(name: str, title: str, error: Exception) -> Sketch:
@@ -143,8 +144,8 @@ def _marks(result: Result[Any], plot: Plot, scene: Scene | None) -> tuple[tuple[
     """The scene's marks in the unit of the x axis, for a plot over the scene's cycle."""
     if scene is None or plot.table != scene.table or plot.x != result.tables[plot.table].columns[0].name:
         return ()
-    factor = display_unit(scene.cycle_unit)[0]
-    return tuple((value * factor, label) for value, label in scene.marks)
+    shown = shown_scale(scene.cycle_unit, system=result.units)
+    return tuple((shown.of(value), label) for value, label in scene.marks)
 
 
 def content(result: Result[Any], remarks: Sequence[str] = (), headlines: Sequence[str] | None = None) -> Content:
@@ -158,7 +159,7 @@ def content(result: Result[Any], remarks: Sequence[str] = (), headlines: Sequenc
         "version": program(),
         "digest": result.digest,
         **summary(result, headlines),
-        "arrays": [_array(name, array) for name, array in result.arrays.items()],
+        "arrays": [_array(name, array, result.units) for name, array in result.arrays.items()],
         "tables": [_table(table) for table in result.tables.values()],
         "findings": [*result.findings, *remarks],
         "warnings": list(result.warnings),
@@ -174,8 +175,8 @@ def summary(result: Result[Any], headlines: Sequence[str] | None = None) -> Cont
     return {
         "verdict": verdict_of(result),
         "headline": headline(result, headlines),
-        "checks": [_check(c) for c in sorted(result.checks, key=lambda c: c.ok)],
-        "values": [_value(name, value) for name, value in result.values.items() if math.isfinite(value.value)],
+        "checks": [_check(c, result.units) for c in sorted(result.checks, key=lambda c: c.ok)],
+        "values": [_value(name, value, result.units) for name, value in result.values.items() if math.isfinite(value.value)],
     }
 
 
@@ -213,20 +214,19 @@ def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Co
     if names is None:
         known = registry.is_known(result.mechanism)
         names = registry.headlines(registry.mechanism(result.mechanism), result.values) if known else list(result.values)[:6]
-    return [_value(name, result.values[name]) for name in names]
+    return [_value(name, result.values[name], result.units) for name in names]
 
 
-def _value(name: str, value: Value) -> Content:
+def _value(name: str, value: Value, system: System) -> Content:
     """`shown` in full; `number`, `unit` and the interval `low` .. `high` apart, "" where it says nothing, with its `hint`."""
-    factor, unit = display_unit(value.unit)
-    low, high = (None if end is None else end * factor for end in (value.low, value.high))
-    text, low, high = numbers(value.value * factor, low, high)
+    shown = shown_scale(value.unit, system=system, size=value.value)
+    text, low, high = numbers(shown.of(value.value), *ends_shown(value.low, value.high, shown))
     return {
         "name": name,
         "meaning": sentence(value.meaning or name),
-        "shown": uncertain(value.value, value.unit, value.low, value.high),
+        "shown": uncertain(value.value, value.unit, value.low, value.high, system=system),
         "number": text,
-        "unit": unit,
+        "unit": shown.unit,
         "low": low,
         "high": high,
         "hint": interval_hint(value),
@@ -235,12 +235,12 @@ def _value(name: str, value: Value) -> Content:
     }
 
 
-def _check(check: Check) -> Content:
+def _check(check: Check, system: System) -> Content:
     """The interval of the value is `low` .. `high`, the unit behind the latter; "" where it says nothing."""
-    factor, unit = display_unit(check.unit)
-    limit = with_unit(number(check.limit * factor), unit)
-    text, low, high = numbers(check.value * factor, *_scaled(check.bounds, factor))
-    margin = _margin(check, factor) if math.isfinite(check.margin) else ""
+    shown = shown_scale(check.unit, system=system, size=check.limit)
+    unit, limit = shown.unit, with_unit(number(shown.of(check.limit)), shown.unit)
+    text, low, high = numbers(shown.of(check.value), *ends_shown(*(check.bounds or (None, None)), shown))
+    margin = _margin(check, shown) if math.isfinite(check.margin) else ""
     return {
         "name": check.name,
         "label": check_label(check),
@@ -261,25 +261,21 @@ def check_label(check: Check) -> str:
     return sentence(check.label or check.name.replace("_", " ").replace(".", " · "))
 
 
-def _margin(check: Check, factor: float) -> str:
+def _margin(check: Check, shown: Scale) -> str:
     """With a sign, and the digits that the check's value has."""
-    text = numbers(check.margin * factor, *_scaled(check.margin_bounds, factor), 4)[0]
+    low, high = check.margin_bounds or (math.nan, math.nan)
+    text = numbers(check.margin * shown.factor, low * shown.factor, high * shown.factor, 4)[0]
     return text if text.startswith("−") else f"+{text}"
 
 
-def _scaled(bounds: tuple[float, float] | None, factor: float) -> tuple[float, float]:
-    """Ends of an interval in the unit people read; nan where there is none."""
-    low, high = bounds or (math.nan, math.nan)
-    return low * factor, high * factor
-
-
-def _array(name: str, array: Array) -> Content:
-    values = np.atleast_1d(np.asarray(array.values))
+def _array(name: str, array: Array, system: System) -> Content:
+    shown = Scale(1.0, unit_text(array.unit)) if system == "mm" else shown_scale(array.unit, system=system)
+    values = np.atleast_1d(shown.of(np.asarray(array.values)))
     small = values.ndim <= 2 and values.size <= LARGEST_ARRAY
     rows = [[number(v) for v in row] for row in np.atleast_2d(values)] if small else []
     return {
         "name": name,
-        "unit": unit_text(array.unit),
+        "unit": shown.unit,
         "axes": " × ".join(array.axes),
         "shape": " × ".join(map(str, values.shape)),
         "head": [str(x) for x in array.labels[-1]] if array.labels else [],

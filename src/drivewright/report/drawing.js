@@ -195,12 +195,13 @@ export function createPainter(scene) {
   }
 
   function scaleBar(context, view, colours) {
-    const length = nice(170 / view.scale), x = 16.5, y = view.height - 16.5, end = x + length * view.scale;
+    const [factor, unit] = scene.length ?? [1, ""], size = nice(170 / view.scale * factor), length = size / factor;
+    const x = 16.5, y = view.height - 16.5, end = x + length * view.scale;
     context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     context.strokeStyle = colours.muted; context.lineWidth = 1.5;
     context.beginPath(); context.moveTo(x, y - 4); context.lineTo(x, y); context.lineTo(end, y); context.lineTo(end, y - 4); context.stroke();
     context.fillStyle = colours.muted; context.font = "11px system-ui, sans-serif";
-    context.fillText(lengthText(length), x + 5, y - 6);
+    context.fillText(unit ? `${+size.toPrecision(3)} ${unit}` : lengthText(length), x + 5, y - 6);
   }
 
   return {paint, behind, pick, extent};

@@ -1,6 +1,7 @@
 """Manufacturing files of a design: everything that `drivewright export` can write."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -66,7 +67,8 @@ def _refuse_bad_geometry(result: Result[Any]) -> None:
 def _failures(result: Result[Any]) -> list[str]:
     """The failed geometry checks in words."""
     return [
-        f"{check.name} = {quantity(check.value, check.unit)}, limit {check.sense} {quantity(check.limit, check.unit)} ({check.message})"
+        f"{check.name} = {quantity(check.value, check.unit, system=result.units)}, "
+        f"limit {check.sense} {quantity(check.limit, check.unit, system=result.units)} ({check.message})"
         for check in result.checks
         if check.geometry and not check.ok
     ]
@@ -95,7 +97,8 @@ def _svg(mechanism, model, result, folder):
 
 
 def _csv(mechanism, model, result, folder):
-    return [_written(tabular.write_csv, t, folder / f"{file_name(t.name)}.csv") for t in result.tables.values()]
+    write = partial(tabular.write_csv, system=result.units)
+    return [_written(write, t, folder / f"{file_name(t.name)}.csv") for t in result.tables.values()]
 
 
 def _step(mechanism, model, result, folder):

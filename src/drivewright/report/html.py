@@ -38,7 +38,7 @@ def player_data(result: Result[Any], seen: Views) -> str | None:
     """The player's and the plots' data as JSON that cannot end a script element; None without a scene."""
     if seen.scene is None:
         return None
-    data = {"scene": pack_scene(seen.scene), "plots": pack_plots(result, seen.scene, seen.plots)}
+    data = {"scene": pack_scene(seen.scene, result.units), "plots": pack_plots(result, seen.scene, seen.plots)}
     return json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 

@@ -9,10 +9,11 @@ import numpy as np
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.result import Plot, Result
 from drivewright.scene import Body, Scene
+from drivewright.units import System
 from drivewright.view.motion import fractions
 from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.panels import STANDING, decimals, drawable, panels
-from drivewright.view.text import display_unit
+from drivewright.view.text import display_unit, shown_scale
 
 FINENESS = 3e-5  # curves become chords within this part of the scene's size: under a pixel at twenty-fold zoom
 MOST_ROWS = 2000  # a longer table is thinned: more points than a plot is wide
@@ -23,8 +24,8 @@ def floats(array: ArrayLike) -> str:
     return base64.b64encode(np.ascontiguousarray(array, "<f4").tobytes()).decode()
 
 
-def pack_scene(scene: Scene) -> dict[str, Any]:
-    """Plain dictionary of a scene for `createPlayer`.
+def pack_scene(scene: Scene, system: System = "mm") -> dict[str, Any]:
+    """Plain dictionary of a scene for `createPlayer`; `length` is (factor, unit) of its scale bar, absent where it is metric.
 
     `motions` holds every different set of poses once, as (frames or 1) x (x, y, angle) with continuous angles, and `shapes` every
     different shape once; bodies and observers point into them.  `u` is the driving quantity as 0 ... 1.
@@ -58,7 +59,8 @@ def pack_scene(scene: Scene) -> dict[str, Any]:
     ]
     period = float(scene.period) if np.isfinite(scene.period) and scene.period > 0 else None
     return {
-        "cycle": _cycle(scene),
+        "cycle": _cycle(scene, system),
+        **({} if system == "mm" else {"length": list(display_unit("m", system))}),
         "period": period,
         "bodies": bodies,
         "observers": observers,
@@ -83,12 +85,12 @@ def _magnified(body: Body, motions: dict[str, int]) -> dict[str, float]:
     return {"rest": _pooled(body.rest, motions), "magnified": float(body.magnified), **limit}
 
 
-def _cycle(scene: Scene) -> dict[str, Any]:
+def _cycle(scene: Scene, system: System) -> dict[str, Any]:
     """The driving quantity in the unit people read, with its marks as (0 ... 1, label)."""
-    factor, unit = display_unit(scene.cycle_unit)
+    shown = shown_scale(scene.cycle_unit, system=system)
     start, span = float(scene.cycle[0]), float(scene.cycle[-1] - scene.cycle[0])
     marks = sorted([(value - start) / span, label] for value, label in scene.marks)
-    return {"label": scene.cycle_label, "unit": unit, "start": start * factor, "span": span * factor, "marks": marks}
+    return {"label": scene.cycle_label, "unit": shown.unit, "start": shown.of(start), "span": span * shown.factor, "marks": marks}
 
 
 def _pooled(poses: ArrayLike, motions: dict[str, int]) -> int:
@@ -126,11 +128,11 @@ def pack_plot_groups(result: Result[Any], scene: Scene, plots: Sequence[Plot]) -
         if main and plot.x == main.columns[0].name and not plot.equal and plot.style not in STANDING
     ]
     packed = [
-        {"name": plot.name, "title": plot.title, "panels": list(_panels(panels(result, plot), u, scene))}
+        {"name": plot.name, "title": plot.title, "panels": list(_panels(panels(result, plot), u, scene, result.units))}
         for plot, u in chosen
         if u is not None
     ]
-    return {"cycle": _cycle(scene), "plots": packed} if packed else None
+    return {"cycle": _cycle(scene, result.units), "plots": packed} if packed else None
 
 
 def _along(x: ArrayLike, scene: Scene) -> Floats | None:
@@ -141,7 +143,7 @@ def _along(x: ArrayLike, scene: Scene) -> Floats | None:
     return u if u.min() > -1e-6 and u.max() < 1 + 1e-6 else u % 1.0
 
 
-def _panels(panels, u, scene):
+def _panels(panels, u, scene, system):
     """The panels of one plot; where there are several, one with a single line is named after it."""
     order = np.argsort(u, kind="stable")
     for panel in panels:
@@ -155,7 +157,7 @@ def _panels(panels, u, scene):
             "u": floats(u[rows]),
             "style": panel.style,
             "log": panel.log,
-            "shade": _shade(panel, scene),
+            "shade": _shade(panel, scene, system),
             "limits": [[float(value), text] for value, text in panel.limits],
             "series": [
                 {
@@ -171,11 +173,11 @@ def _panels(panels, u, scene):
         }
 
 
-def _shade(panel, scene):
+def _shade(panel, scene, system):
     """Shaded stretches as [from, to] in 0 ... 1 along the scene's cycle."""
     start, span = scene.cycle[0], scene.cycle[-1] - scene.cycle[0]
-    factor = display_unit(scene.cycle_unit)[0]
-    return [[(edge / factor - start) / span for edge in stretch] for stretch in panel.shade]
+    shown = shown_scale(scene.cycle_unit, system=system)
+    return [[((edge - shown.zero) / shown.factor - start) / span for edge in stretch] for stretch in panel.shade]
 
 
 def envelope_rows(lines: Sequence[Floats], most: int = MOST_ROWS) -> Ints:

@@ -12,7 +12,7 @@ from drivewright.errors import InputError
 from drivewright.report.records import StudyRecord
 from drivewright.result import Column, Table
 from drivewright.spec.csv_text import FORMULA, csv_line, text_cell
-from drivewright.units import display
+from drivewright.units import Scale, System, scale
 
 if TYPE_CHECKING:
     import pyarrow
@@ -22,44 +22,43 @@ SLICE = 65_536  # rows of a study at a time, so that a long one needs little mem
 SHEET_ROWS, SHEET_COLUMNS, SHEET_LETTERS = 1_048_576, 16_384, 32_767  # what an Excel sheet and one of its cells hold
 
 
-def write_csv(table: Table, path: str | Path, digits: int = DIGITS) -> None:
+def write_csv(table: Table, path: str | Path, digits: int = DIGITS, system: System = "mm") -> None:
     """CSV file of a `result.Table`: header `name [unit]` (a pure number: `name`), numbers to `digits` figures, missing ones empty.
 
     Texts that a spreadsheet would take for a formula get an apostrophe in front (`spec.csv_text`)."""
-    header = [text_cell(heading(column)) for column in table.columns]
-    rows = zip(*(_cells(column, digits) for column in table.columns), strict=True)
+    header = [text_cell(heading(column, system)) for column in table.columns]
+    rows = zip(*(_cells(column, digits, system) for column in table.columns), strict=True)
     write_text(path, "".join(map(csv_line, [header, *rows])))
 
 
-def heading(column: Column) -> str:
+def heading(column: Column, system: System = "mm") -> str:
     """`name [unit]` with the unit that is shown."""
-    return titled(column.name, column.unit)
+    return titled(column.name, column.unit, system)
 
 
-def titled(name: str, unit: str) -> str:
+def titled(name: str, unit: str, system: System = "mm") -> str:
     """`name [unit]` of a name and an SI unit."""
-    shown = display(unit)[1]
+    shown = scale(unit, system=system).unit
     return name if shown in ("", "-") else f"{name} [{shown}]"
 
 
-def _cells(column: Column, digits: int) -> list[str]:
+def _cells(column: Column, digits: int, system: System) -> list[str]:
     data = np.asarray(column.data)
     if data.dtype.kind not in "iuf":
         return [text_cell(str(value)) for value in data.tolist()]
-    factor = display(column.unit)[0]
-    if data.dtype.kind in "iu" and factor == 1:
+    shown = scale(column.unit, system=system)
+    if data.dtype.kind in "iu" and (shown.factor, shown.zero) == (1, 0):
         return [str(value) for value in data.tolist()]
-    shown = factor * data
-    return [f"{value + 0.0:.{digits}g}" if np.isfinite(value) else "" for value in shown.tolist()]
+    return [f"{value + 0.0:.{digits}g}" if np.isfinite(value) else "" for value in shown.of(data).tolist()]
 
 
 # -- studies -------------------------------------------------------------------------------------------------------------------
 
 
-def write_study_table(study: StudyRecord, path: str | Path) -> Path:
+def write_study_table(study: StudyRecord, path: str | Path, system: System = "mm") -> Path:
     """Write the cases of a study as one table and return its path: .csv, .xlsx or .parquet.
 
-    CSV and Excel: units people read, named in the first line, missing numbers empty.  Parquet: SI, with unit and meaning in the
+    CSV and Excel: units of the `system`, named in the first line, missing numbers empty.  Parquet: SI, with unit and meaning in the
     metadata of every field.  InputError for another format, and for more than a sheet holds.
     """
     path = Path(path)
@@ -68,7 +67,7 @@ def write_study_table(study: StudyRecord, path: str | Path) -> Path:
         raise InputError(f"{path}: cannot be written as {path.suffix or 'a file without a suffix'}; take {', '.join(WRITERS)}")
     _refuse_what_no_sheet_holds(study.table, path)
     with replacing(path) as temporary:
-        write(study.table, temporary)
+        write(study.table, temporary, system)
     return path
 
 
@@ -80,14 +79,14 @@ def _refuse_what_no_sheet_holds(table, path):
             raise InputError(f"{path}: {count} {what} are more than the {most} that an Excel sheet holds; take parquet or csv")
 
 
-def _study_csv(table, path):
+def _study_csv(table, path, system):
     """The header by hand, for the units; the rows by pyarrow, a hundred times as fast as Python."""
     from pyarrow import csv as arrow_csv
 
     look = arrow_csv.WriteOptions(include_header=False, quoting_style="needed")
     with path.open("wb") as file:
-        file.write(csv_line(map(text_cell, _headings(table))).encode())
-        for part in _slices(table):
+        file.write(csv_line(map(text_cell, _headings(table, system))).encode())
+        for part in _slices(table, system):
             arrow_csv.write_csv(_with_text_cells(part), file, look)
 
 
@@ -105,30 +104,30 @@ def _with_text_cells(table):
     return pa.Table.from_arrays(columns, names=table.column_names)
 
 
-def _study_sheet(table, path):
+def _study_sheet(table, path, system):
     """One sheet with a header that stays in sight; texts are never taken for formulas."""
     import xlsxwriter
     from xlsxwriter.exceptions import FileCreateError
 
     try:
         with xlsxwriter.Workbook(path, {"constant_memory": True}) as book:
-            _fill_sheet(book, table)
+            _fill_sheet(book, table, system)
     except FileCreateError as error:  # what the system said is in it
         raise next((cause for cause in error.args if isinstance(cause, OSError)), OSError(str(error))) from None
 
 
-def _fill_sheet(book, table):
+def _fill_sheet(book, table, system):
     """The cells, the header first."""
     sheet = book.add_worksheet("cases")
     head = book.add_format({"bold": True, "bottom": 1, "valign": "top", "text_wrap": True})
-    for column, name in enumerate(_headings(table)):
+    for column, name in enumerate(_headings(table, system)):
         sheet.set_column(column, column, min(max(len(name) + 2, 10), 28))
         sheet.write_string(0, column, name, head)
     sheet.freeze_panes(1, 1)
     sheet.autofilter(0, 0, table.num_rows, max(table.num_columns - 1, 0))
     writers = [_cell_writer(sheet, field.type) for field in table.schema]
     row = 0
-    for part in _slices(table):
+    for part in _slices(table, system):
         for cells in zip(*(column.to_pylist() for column in part.columns), strict=True):
             row += 1
             for column, (write, cell) in enumerate(zip(writers, cells, strict=True)):
@@ -147,37 +146,37 @@ def _cell_writer(sheet, kind):
     return lambda row, column, text: sheet.write_string(row, column, text[:SHEET_LETTERS])
 
 
-def _study_parquet(table, path):
+def _study_parquet(table, path, system):
     from pyarrow import parquet
 
     parquet.write_table(table, path)
 
 
-def _headings(table: "pyarrow.Table") -> list[str]:
-    return [titled(field.name, _unit(field)) for field in table.schema]
+def _headings(table: "pyarrow.Table", system: System) -> list[str]:
+    return [titled(field.name, _unit(field), system) for field in table.schema]
 
 
 def _unit(field: "pyarrow.Field") -> str:
     return (field.metadata or {}).get(b"unit", b"").decode()
 
 
-def _slices(table: "pyarrow.Table") -> "Iterator[pyarrow.Table]":
+def _slices(table: "pyarrow.Table", system: System) -> "Iterator[pyarrow.Table]":
     """The table in slices, numbers in the units people read, what is not finite as null."""
     import pyarrow as pa
 
-    factors = [display(_unit(field))[0] for field in table.schema]
+    scales = [scale(_unit(field), system=system) for field in table.schema]
     for start in range(0, table.num_rows, SLICE):
         part = table.slice(start, SLICE)
-        columns = [_as_shown(column, factor) for column, factor in zip(part.columns, factors, strict=True)]
+        columns = [_as_shown(column, shown) for column, shown in zip(part.columns, scales, strict=True)]
         yield pa.Table.from_arrays(columns, names=table.column_names)
 
 
-def _as_shown(column, factor):
+def _as_shown(column, shown: Scale):
     import pyarrow as pa
 
-    if not (pa.types.is_floating(column.type) or (pa.types.is_integer(column.type) and factor != 1)):
+    if not (pa.types.is_floating(column.type) or (pa.types.is_integer(column.type) and (shown.factor, shown.zero) != (1, 0))):
         return column
-    data = factor * column.to_numpy().astype(float)
+    data = shown.of(column.to_numpy().astype(float))
     finite = np.isfinite(data)
     return pa.array(rounded(np.where(finite, data, 0.0)), mask=~finite)
 

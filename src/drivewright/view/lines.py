@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright.result import Column, Plot, Table
+from drivewright.units import System
 from drivewright.view.text import quantity
 
 
@@ -16,9 +17,9 @@ class Line(NamedTuple):
     ends: tuple[Column, ...] = ()
 
 
-def lines_of(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
-    """(x column, lines) of a plot."""
-    return LINES[plot.style](table, plot) if plot.style in LINES else _grouped(table, plot) if plot.by else _compared(table, plot)
+def lines_of(table: Table, plot: Plot, system: System = "mm") -> tuple[Column, list[Line]]:
+    """(x column, lines) of a plot; levels of the column `by` are named in a system of units."""
+    return LINES[plot.style](table, plot) if plot.style in LINES else _grouped(table, plot, system) if plot.by else _compared(table, plot)
 
 
 def _compared(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
@@ -32,12 +33,12 @@ def _line(table: Table, name: str, references: tuple[Column, ...] = ()) -> Line:
     return Line(table[name], references, table.bounds_of(name) or ())
 
 
-def _grouped(table: Table, plot: Plot) -> tuple[Column, list[Line]]:
+def _grouped(table: Table, plot: Plot, system: System) -> tuple[Column, list[Line]]:
     """(x column, lines): for every y column a line for each value of the column `by`, over all values of x; gaps are nan."""
     by, x = table[plot.by], table[plot.x]
     values, group = np.unique(by.data, return_inverse=True)
     places, place = np.unique(x.data, return_inverse=True)
-    levels = [str(v) if values.dtype.kind not in "fiub" else quantity(v, by.unit, 4) for v in values]
+    levels = [str(v) if values.dtype.kind not in "fiub" else quantity(v, by.unit, 4, system) for v in values]
 
     def split(column):
         data = np.full((len(values), len(places)), np.nan)

@@ -8,13 +8,14 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.errors import InputError, UnknownName
 from drivewright.result import Column, Plot, Result
+from drivewright.units import System
 from drivewright.view.axis_names import common_phrase
 from drivewright.view.coincident import show_coincident
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.markers import line_marker
 from drivewright.view.palette import SERIES
 from drivewright.view.panels import Panel, Series, drawable, find_plot, known_plots, limits_of, panel_of, panels, places_along, series_of
-from drivewright.view.text import display_unit
+from drivewright.view.text import display_unit, shown_scale
 
 MOST_PANELS = 12  # quantities of one plot that are drawn
 APART = ("map", "mesh", "histogram")  # styles whose pictures cannot lie upon each other
@@ -30,12 +31,13 @@ class Overlay(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A column of one design over its own x."""
+    """A column of one design over its own x, shown in a system of units, which all curves share."""
 
     design: int
     plot: Plot
     x: Column
     line: Line
+    system: System = "mm"
 
 
 def common_plots(results: Sequence[Result[Any]]) -> dict[str, list[int]]:
@@ -50,6 +52,7 @@ def common_plots(results: Sequence[Result[Any]]) -> dict[str, list[int]]:
 def overlay(results: Sequence[Result[Any]], labels: Sequence[str], name: str) -> Overlay:
     """The plot of that name, or a whole table over its first column, of all results that have it.
 
+    In the units of the first spec.
     UnknownName where none has it; InputError for a style whose pictures cannot lie upon each other (`apart`).
     """
     chosen = _plots(results, name)
@@ -73,7 +76,7 @@ def is_apart(results: Sequence[Result[Any]], name: str) -> bool:
 def apart(results: Sequence[Result[Any]], labels: Sequence[str], name: str) -> list[tuple[Panel, ...]]:
     """The panels of a plot for each result that has it, titled with the design; maps have one range of colours."""
     chosen = _plots(results, name)
-    drawn = [(labels[number], panels(results[number], plot)) for number, plot in chosen.items()]
+    drawn = [(labels[number], panels(results[number], plot, results[0].units)) for number, plot in chosen.items()]
     ends = [end for _, shown in drawn for panel in shown for end in (panel.low, panel.high) if np.isfinite(end)]
     same = {"low": min(ends), "high": max(ends)} if ends and all(plot.style == "map" for plot in chosen.values()) else {}
     return [tuple(panel._replace(title=f"{panel.title} – {label}", **same) for panel in shown) for label, shown in drawn]
@@ -98,10 +101,10 @@ def _quantities(results, chosen):
     unit = None
     for number, plot in chosen.items():
         plot = plot._replace(by="") if plot.style == "points" else plot
-        x, lines = lines_of(results[number].tables[plot.table], plot)
+        x, lines = lines_of(results[number].tables[plot.table], plot, results[0].units)
         unit = x.unit if unit is None else unit
         for line in lines if x.unit == unit else ():
-            found.setdefault((line.column.name, line.column.unit), []).append(Curve(number, plot, x, line))
+            found.setdefault((line.column.name, line.column.unit), []).append(Curve(number, plot, x, line, results[0].units))
     return found
 
 
@@ -120,15 +123,16 @@ def _panel(results, labels, curves, common):
     series = [each for curve in curves for each in _curves_of(curve, labels[curve.design], common, curve is first)]
     style = _style(first.plot, max(len(common[0]) if common else len(np.asarray(curve.x.data)) for curve in curves))
     plot = first.plot._replace(style=style, rings=tuple(_told(_all_rings(curves, labels))))
-    x = series_of(first.x) if names is None else series_of(first.x)._replace(data=names)
-    column = first.line.column
-    drawn = panel_of(plot, x, series, (_meaning(results, curves), column.unit), _limits(results, labels, curves))
+    x = series_of(first.x, system=first.system)
+    x = x if names is None else x._replace(data=names)
+    label = _meaning(results, curves), first.line.column.unit
+    drawn = panel_of(plot, x, series, label, _limits(results, labels, curves), system=first.system)
     return show_coincident(drawn._replace(places=_shared_places(curves)))
 
 
 def _shared_places(curves):
     """What stands at the same place along x in all designs, by the same name."""
-    each = [places_along(curve.plot, curve.x.unit) for curve in curves]
+    each = [places_along(curve.plot, curve.x.unit, curve.system) for curve in curves]
     return tuple(place for place in each[0] if all(place in other for other in each[1:]))
 
 
@@ -139,10 +143,10 @@ def _style(plot, places):
 
 def _curves_of(curve, label, common, first):
     """Series of a design: its curve, then what that is compared with, which the legend names once."""
-    place = _place(curve.x, common)
-    own = series_of(curve.line.column, _role(curve), ends=curve.line.ends, unit=curve.plot.unit)
+    place, about = _place(curve, common), {"unit": curve.plot.unit, "system": curve.system}
+    own = series_of(curve.line.column, _role(curve), ends=curve.line.ends, **about)
     own = own._replace(name=label, label=label, x=place, marker=line_marker(curve.design))
-    compared = [series_of(column, _role(curve), dashed=True, unit=curve.plot.unit) for column in curve.line.references]
+    compared = [series_of(column, _role(curve), dashed=True, **about) for column in curve.line.references]
     return [own, *(each._replace(label=each.label if first else "", x=place) for each in compared)]
 
 
@@ -150,11 +154,11 @@ def _role(curve):
     return SERIES[curve.design % len(SERIES)]
 
 
-def _place(x: Column, common: tuple[list[str], dict[str, int]] | None) -> Floats:
+def _place(curve: Curve, common: tuple[list[str], dict[str, int]] | None) -> Floats:
     """Places along x in the unit people read, of texts those of all designs."""
     if common:
-        return np.array([common[1][str(each)] for each in x.data], float)
-    return np.asarray(x.data, float) * display_unit(x.unit)[0]
+        return np.array([common[1][str(each)] for each in curve.x.data], float)
+    return shown_scale(curve.x.unit, system=curve.system).of(np.asarray(curve.x.data, float))
 
 
 def _meaning(results, curves):
@@ -202,16 +206,17 @@ def _ranked(quantities: Sequence[Sequence[Curve]], labels: Sequence[str]) -> tup
 
 
 def _ranked_panel(curves, labels, names, data) -> Panel:
-    column = curves[0].line.column
+    column, system = curves[0].line.column, curves[0].system
     series = [
-        Series(labels[curve.design], labels[curve.design], display_unit(column.unit)[1], each, _role(curve))
+        Series(labels[curve.design], labels[curve.design], display_unit(column.unit, system)[1], each, _role(curve))
         for curve, each in zip(curves, data, strict=True)
     ]
-    return panel_of(curves[0].plot, series_of(curves[0].x)._replace(data=names), series, (column.meaning or column.name, column.unit), ())
+    x, label = series_of(curves[0].x)._replace(data=names), (column.meaning or column.name, column.unit)
+    return panel_of(curves[0].plot, x, series, label, (), system=system)
 
 
 def _by_name(curve: Curve, names: Sequence[str]) -> Floats:
     """The curve's numbers at the names, nan where it has none."""
-    shown = series_of(curve.line.column)
+    shown = series_of(curve.line.column, system=curve.system)
     known = dict(zip(map(str, curve.x.data), np.asarray(shown.data, float), strict=True))
     return np.array([known.get(name, np.nan) for name in names])

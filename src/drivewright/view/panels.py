@@ -14,14 +14,16 @@ from drivewright import registry
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import UnknownName
 from drivewright.result import Column, Plot, Result, Table
+from drivewright.units import System
 from drivewright.view.axis_names import axis_name
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.palette import MARKERS, SERIES
-from drivewright.view.text import axis_label, display_unit, number, quantity, sentence, shown_unit, with_unit
+from drivewright.view.text import axis_label, number, quantity, sentence, shown_scale, with_unit
 
 REACH = 8.0  # a panel with a limit shows at most so many times the limit: beyond it (a pole of a radius) the line leaves the panel
 DECADES = 6  # powers of ten that a logarithmic axis shows at most
 MOST_GROUPS = 20  # kinds of points that are told apart
+SMALL_LENGTHS = {"mm": (1e6, "µm"), "inch": (1e3 / 0.0254, "mil")}  # {system: (factor, unit)}
 STANDING = ("map", "histogram", "ranked")  # styles whose x is no quantity that a cursor could run along
 
 
@@ -101,32 +103,36 @@ def drawable(result: Result[Any], plots: Sequence[Plot]) -> tuple[Plot, ...]:
     return tuple(plot for plot in plots if plot.table in result.tables)
 
 
-def panels(result: Result[Any], plot: Plot) -> tuple[Panel, ...]:
-    """The panels of a plot, one for each unit among its y columns (at most as many lines in one as there are colours)."""
-    table = result.tables[plot.table]
+def panels(result: Result[Any], plot: Plot, system: System | None = None) -> tuple[Panel, ...]:
+    """The panels of a plot, one for each unit among its y columns (at most as many lines in one as there are colours).
+
+    In the units of the result's spec, or of another `system`.
+    """
+    table, system = result.tables[plot.table], system or result.units
     if plot.style == "mesh":
-        return (_mesh_panel(plot, table),)
+        return (_mesh_panel(plot, table, system),)
     if plot.style == "map":
-        return (_map_panel(result, plot, table),)
+        return (_map_panel(result, plot, table, system),)
     if plot.style == "points" and plot.by:
-        return tuple(_cloud_panel(result, plot, table, name) for name in plot.y)
-    x, lines = lines_of(table, plot)
+        return tuple(_cloud_panel(result, plot, table, name, system) for name in plot.y)
+    x, lines = lines_of(table, plot, system)
     groups = {}
     for line in lines:
         groups.setdefault(line.column.unit, []).append(line)
     most = len(lines) if plot.style in ("bars", "ranked") else len(SERIES)
     chunks = [group[i : i + most] for group in groups.values() for i in range(0, len(group), most)]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
-    shade = _shaded(x, table[plot.shade]) if plot.shade else ()
+    shade = _shaded(x, table[plot.shade], system) if plot.shade else ()
     return tuple(
         panel_of(
             plot,
-            series_of(x),
-            _coloured(chunk, roles, plot.unit),
+            series_of(x, system=system),
+            _coloured(chunk, roles, plot.unit, system),
             _label(table, plot, chunk, len(groups) == 1),
             () if n else limits_of(result, plot),
             shade,
-        )._replace(places=places_along(plot, x.unit))
+            system,
+        )._replace(places=places_along(plot, x.unit, system))
         for n, chunk in enumerate(chunks)
     )
 
@@ -139,10 +145,10 @@ def _label(table: Table, plot: Plot, chunk: Sequence[Line], alone: bool) -> tupl
     return (meanings[0] if len(columns) == 1 else axis_name(meanings, unit, plot.title, alone)), unit
 
 
-def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str) -> Panel:
+def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str, system: System) -> Panel:
     """Points of a column told apart by colour and shape; the rows of the other groups are nan."""
-    column = series_of(table[name], ends=table.bounds_of(name) or ())
-    names, group = _groups(table[plot.by])
+    column = series_of(table[name], ends=table.bounds_of(name) or (), system=system)
+    names, group = _groups(table[plot.by], system)
 
     def member(n, name):
         data, *ends = (np.where(group == n, each, np.nan) for each in (column.data, *column.ends))
@@ -157,33 +163,34 @@ def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str) -> Pa
 
     series = [member(n, name) for n, name in enumerate(names)]
     limits = limits_of(result, plot) if name == plot.y[0] else ()
-    return panel_of(plot, series_of(table[plot.x]), series or [column], (column.label, table[name].unit), limits, ())
+    x = series_of(table[plot.x], system=system)
+    return panel_of(plot, x, series or [column], (column.label, table[name].unit), limits, (), system)
 
 
-def _groups(by: Column) -> tuple[list[str], NDArray[np.int64]]:
+def _groups(by: Column, system: System) -> tuple[list[str], NDArray[np.int64]]:
     """(names, number of the group of each row): texts as they come, numbers rising; the last of very many are one group."""
     is_text = np.asarray(by.data).dtype.kind not in "fiub"
     values, first, group = np.unique(np.asarray(by.data).astype(str) if is_text else by.data, return_index=True, return_inverse=True)
     order = np.argsort(first) if is_text else np.arange(len(values))
-    names = [sentence(str(v)) if is_text else f"{sentence(by.name)} {quantity(v, by.unit, 4)}" for v in values[order]]
+    names = [sentence(str(v)) if is_text else f"{sentence(by.name)} {quantity(v, by.unit, 4, system)}" for v in values[order]]
     place = np.argsort(order)[group]
     if len(names) > MOST_GROUPS:
         names = [*names[: MOST_GROUPS - 1], f"{len(names) - MOST_GROUPS + 1} more"]
     return names, np.minimum(place, len(names) - 1)
 
 
-def _coloured(chunk: Sequence[Line], roles: Iterator[str], unit: str) -> list[Series]:
+def _coloured(chunk: Sequence[Line], roles: Iterator[str], unit: str, system: System) -> list[Series]:
     """Series of some lines, each line in its colour."""
     series = []
     for line in chunk:
-        references = (series_of(column, "ink", dashed=True, unit=unit) for column in line.references)
-        series += [series_of(line.column, next(roles), ends=line.ends, unit=unit), *references]
+        references = (series_of(column, "ink", dashed=True, unit=unit, system=system) for column in line.references)
+        series += [series_of(line.column, next(roles), ends=line.ends, unit=unit, system=system), *references]
     return _with_distinct_labels(series)
 
 
-def _shaded(x: Column, column: Column) -> tuple[tuple[float, float], ...]:
+def _shaded(x: Column, column: Column, system: System) -> tuple[tuple[float, float], ...]:
     """Stretches (from, to) of x, as shown, in which a column is above 0; each sample stands for half the way to its neighbours."""
-    place = np.asarray(x.data) * display_unit(x.unit)[0]
+    place = shown_scale(x.unit, system=system).of(np.asarray(x.data))
     edges = np.concatenate([place[:1], (place[1:] + place[:-1]) / 2, place[-1:]])
     on = np.concatenate([[0], np.asarray(column.data) > 0, [0]])
     starts, ends = np.flatnonzero(np.diff(on) == 1), np.flatnonzero(np.diff(on) == -1)
@@ -200,9 +207,10 @@ def limits_of(result: Result[Any], plot: Plot) -> Iterator[tuple[float, str]]:
             yield (-known[name] if value.startswith("-") else known[name]), label
 
 
-def places_along(plot: Plot, unit: str) -> tuple[tuple[float, str], ...]:
+def places_along(plot: Plot, unit: str, system: System = "mm") -> tuple[tuple[float, str], ...]:
     """(x, name) of what stands along the x axis, x in the unit people read."""
-    return tuple((place * display_unit(unit)[0], name) for place, name in plot.places)
+    shown = shown_scale(unit, system=system)
+    return tuple((shown.of(place), name) for place, name in plot.places)
 
 
 def panel_of(
@@ -212,11 +220,12 @@ def panel_of(
     label: tuple[str, str],
     limits: Iterable[tuple[float, str]],
     shade: tuple[tuple[float, float], ...] = (),
+    system: System = "mm",
 ) -> Panel:
     """The panel of some series in the style of a plot; `label` (name, SI unit) of the y axis, `limits` (value [SI], name)."""
-    factor, text = shown_unit(label[1], plot.unit)
-    limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits)
-    rings = tuple((radius * factor, limit_text(radius * factor, label, text)) for radius, label in plot.rings)
+    shown = shown_scale(label[1], plot.unit, system)
+    limits = tuple((shown.of(value), limit_text(shown.of(value), label, shown.unit)) for value, label in limits)
+    rings = tuple((shown.of(radius), limit_text(shown.of(radius), label, shown.unit)) for radius, label in plot.rings)
     lines, values = [each for s in series for each in (s.data, *s.ends)], [value for value, _ in limits]
     if plot.style == "bars":
         data, ends = [s.data for s in series], series[0].ends if len(series) == 1 else ()
@@ -227,7 +236,7 @@ def panel_of(
         low, high = span(lines, values + [0.0] * (plot.style in ("stems", "grouped")), np.inf if plot.whole else REACH)
     return Panel(
         sentence(plot.title),
-        axis_label(sentence(label[0]), text),
+        axis_label(sentence(label[0]), shown.unit),
         x,
         tuple(series),
         limits,
@@ -241,43 +250,47 @@ def panel_of(
     )
 
 
-def _mesh_panel(plot: Plot, table: Table) -> Panel:
-    """The panel of a surface: series up, depth and colour (lengths in um), then the dashed right and up of the surface before."""
-    up, depth, colour = (series_of(table[name]) for name in plot.y)
-    if table[plot.y[2]].unit == "m":
-        colour = colour._replace(unit="µm", data=np.asarray(table[plot.y[2]].data) * 1e6)
-    before = tuple(series_of(table[name], dashed=True) for name in plot.reference)
-    label = axis_label(up.label, up.unit)
-    return Panel(plot.title, label, series_of(table[plot.x]), (up, depth, colour, *before), (), *span([up.data]), True, "mesh", plot.log)
+def _mesh_panel(plot: Plot, table: Table, system: System) -> Panel:
+    """The panel of a surface: series up, depth and colour (small lengths, as deflections are), then the dashed right and up of the surface
+    before."""
+    up, depth, colour = (series_of(table[name], system=system) for name in plot.y)
+    if table[plot.y[2]].unit == "m" and system in SMALL_LENGTHS:
+        factor, unit = SMALL_LENGTHS[system]
+        colour = colour._replace(unit=unit, data=np.asarray(table[plot.y[2]].data) * factor)
+    before = tuple(series_of(table[name], dashed=True, system=system) for name in plot.reference)
+    label, x = axis_label(up.label, up.unit), series_of(table[plot.x], system=system)
+    return Panel(plot.title, label, x, (up, depth, colour, *before), (), *span([up.data]), True, "mesh", plot.log)
 
 
-def _map_panel(result: Result[Any], plot: Plot, table: Table) -> Panel:
+def _map_panel(result: Result[Any], plot: Plot, table: Table, system: System) -> Panel:
     """The panel of cells over two axes; its range and its limits are those of the colour."""
-    up, tint = (series_of(table[name]) for name in plot.y)
-    factor, text = display_unit(table[plot.y[1]].unit)
-    limits = tuple((value * factor, limit_text(value * factor, label, text)) for value, label in limits_of(result, plot))
+    up, tint = (series_of(table[name], system=system) for name in plot.y)
+    shown = shown_scale(table[plot.y[1]].unit, system=system)
+    limits = tuple((shown.of(value), limit_text(shown.of(value), label, shown.unit)) for value, label in limits_of(result, plot))
     finite = np.asarray(tint.data, float)
     finite = finite[np.isfinite(finite) & (finite > 0)] if plot.log else finite[np.isfinite(finite)]
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (np.nan, np.nan)
-    label = axis_label(up.label, up.unit)
-    return Panel(sentence(plot.title), label, series_of(table[plot.x]), (up, tint), limits, low, high, False, "map", plot.log)
+    label, x = axis_label(up.label, up.unit), series_of(table[plot.x], system=system)
+    return Panel(sentence(plot.title), label, x, (up, tint), limits, low, high, False, "map", plot.log)
 
 
-def series_of(column: Column, role: str = "ink", dashed: bool = False, ends: Sequence[Column] = (), unit: str = "") -> Series:
+def series_of(
+    column: Column, role: str = "ink", dashed: bool = False, ends: Sequence[Column] = (), unit: str = "", system: System = "mm"
+) -> Series:
     """A column in the unit people read, or in another `unit`; `ends` are the columns of its intervals."""
-    factor, text = shown_unit(column.unit, unit)
+    shown = shown_scale(column.unit, unit, system)
     data = np.asarray(column.data)
     # Whole numbers stay whole, so that their axis has whole ticks.
-    if data.dtype.kind in "fb" or (data.dtype.kind in "iu" and factor != 1):
-        data = data * factor
+    if data.dtype.kind in "fb" or (data.dtype.kind in "iu" and (shown.factor, shown.zero) != (1, 0)):
+        data = shown.of(data)
     return Series(
         column.name,
         sentence(column.meaning or column.name),
-        text,
+        shown.unit,
         data,
         role,
         dashed,
-        ends=tuple(np.asarray(end.data, float) * factor for end in ends),
+        ends=tuple(shown.of(np.asarray(end.data, float)) for end in ends),
     )
 
 

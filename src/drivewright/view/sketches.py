@@ -7,6 +7,7 @@ import numpy as np
 
 from drivewright.errors import UnknownName
 from drivewright.scene import Drawing, Scene, place
+from drivewright.units import System
 from drivewright.view.motion import path, pose_at, seen_from, step_back
 from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.palette import SERIES, TRACES, colour
@@ -55,7 +56,9 @@ NAMES = {
 }
 
 
-def draw_scene(scene: Scene, frame: str | None = None, at: Sequence[float] = (0.0,), ghosts: Sequence[float] = ()) -> "Figure":
+def draw_scene(
+    scene: Scene, frame: str | None = None, at: Sequence[float] = (0.0,), ghosts: Sequence[float] = (), system: System = "mm"
+) -> "Figure":
     """Figure of a scene for one observer (the first one by default).
 
     A panel for each phase 0 ... 1 of the cycle in `at`; the bodies' edges at the phases in `ghosts` lie faintly behind.
@@ -64,8 +67,8 @@ def draw_scene(scene: Scene, frame: str | None = None, at: Sequence[float] = (0.
     with styled():
         figure, axes = figure_to_scale(len(at), sentence(observer.label))
         for axis, phase in zip(axes, at, strict=True):
-            _draw_state(axis, scene, observer, phase, ghosts)
-        axes[0].set_ylabel(f"y [{_length()[1]}]")
+            _draw_state(axis, scene, observer, phase, ghosts, system)
+        axes[0].set_ylabel(f"y [{_length(system)[1]}]")
         rows = _legend(figure, scene)
         arrange(figure, axes, *_extent(axes), bottom=0.55 + 0.19 * rows)
     return figure
@@ -89,24 +92,26 @@ def _observer(scene, name):
     return frames[name] if name is not None else scene.frames[0]
 
 
-def _length():
-    return display_unit("m")
+def _length(system: System) -> tuple[float, str]:
+    return display_unit("m", system)
 
 
-def _draw_state(axis, scene, observer, phase, ghosts):
+def _draw_state(axis, scene, observer, phase, ghosts, system: System = "mm"):
     """One moment with its traces; ghosts behind, the frame's own shapes as far as they lie near."""
     tolerance = FINENESS * overall_size(scene)
-    _draw_ghosts(axis, scene, observer, ghosts, 4 * tolerance)
-    _draw_traces(axis, scene, observer)
+    length = _length(system)[0]
+    _draw_ghosts(axis, scene, observer, ghosts, 4 * tolerance, length)
+    _draw_traces(axis, scene, observer, length)
     for body, pose in _seen_bodies(scene, observer, phase):
         for shape in body.shapes:
-            _draw_shape(axis, shape, pose, body.colour, tolerance)
+            _draw_shape(axis, shape, pose, body.colour, tolerance, length)
     near = _around(axis.dataLim.get_points(), 0.25)
     for shape in observer.shapes:
-        _draw_shape(axis, shape, (0.0, 0.0, 0.0), "ground", tolerance, near)
+        _draw_shape(axis, shape, (0.0, 0.0, 0.0), "ground", tolerance, length, near)
     value = scene.cycle[0] + phase * (scene.cycle[-1] - scene.cycle[0])
-    axis.set_title(f"{sentence(scene.cycle_label)} {quantity(value, scene.cycle_unit, 4)}", fontweight="normal", fontsize=9, color=MUTED)
-    axis.set_xlabel(f"x [{_length()[1]}]")
+    at = quantity(value, scene.cycle_unit, 4, system)
+    axis.set_title(f"{sentence(scene.cycle_label)} {at}", fontweight="normal", fontsize=9, color=MUTED)
+    axis.set_xlabel(f"x [{_length(system)[1]}]")
 
 
 def _seen_bodies(scene, observer, phase):
@@ -127,16 +132,16 @@ def _extent(axes):
     return _around(np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)]), 0.04)
 
 
-def _draw_shape(axis, shape, pose, role, tolerance, near=None):
+def _draw_shape(axis, shape, pose, role, tolerance, length, near=None):
     """One outline: filled where it is material, dashed where it is a construction line.  What lies beyond `near` counts for no extent."""
     width, dashes, filled = LAYERS.get(shape.layer, LAYERS["body"])
-    points = place(simplified_points(shape.outline, tolerance), pose) * _length()[0]
+    points = place(simplified_points(shape.outline, tolerance), pose) * length
     edge = {"defect": colour("bad"), "hole": colour("ink"), "axis": MUTED}.get(shape.layer, colour(role))
     face = (edge, 0.22) if filled and shape.outline.closed else "white" if shape.layer == "hole" else "none"
     _add(axis, points, shape.outline.closed, near, ec=edge, fc=face, lw=width, ls=dashes)
 
 
-def _draw_ghosts(axis, scene, observer, phases, tolerance):
+def _draw_ghosts(axis, scene, observer, phases, tolerance, length):
     """Edges of the material at other phases, faint: those of one colour in one stroke, which is as faint where they lie upon each other."""
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
@@ -146,7 +151,7 @@ def _draw_ghosts(axis, scene, observer, phases, tolerance):
         for body, pose in _seen_bodies(scene, observer, phase):
             for shape in body.shapes:
                 if LAYERS.get(shape.layer, LAYERS["body"])[2]:
-                    points = place(simplified_points(shape.outline, tolerance), pose) * _length()[0]
+                    points = place(simplified_points(shape.outline, tolerance), pose) * length
                     lines.setdefault(body.colour, []).append(points[[*range(len(points)), 0]] if shape.outline.closed else points)
     for role, outlines in lines.items():
         edges = Path.make_compound_path(*map(Path, outlines))
@@ -162,15 +167,15 @@ def _add(axis, points, closed, near=None, **look):
     axis.update_datalim(points if near is None else np.clip(points, *near))
 
 
-def _draw_traces(axis, scene, observer):
+def _draw_traces(axis, scene, observer, length):
     """Every trace over the whole cycle; an advancing observer also sees the last cycles'."""
     bodies = {body.name: body for body in scene.bodies}
     for number_, trace in enumerate(scene.traces):
-        points = path(trace.point, seen_from(bodies[trace.body].poses, observer.poses)) * _length()[0]
+        points = path(trace.point, seen_from(bodies[trace.body].poses, observer.poses)) * length
         role = _trace_colour(trace, number_)
         axis.plot(*points.T, color=role, lw=1.1, ls=(0, (4, 2)))
         for past in range(1, PAST + 1 if any(observer.advance) else 1):
-            axis.plot(*(points + past * step_back(observer) * _length()[0]).T, color=role, lw=0.9, alpha=0.45)
+            axis.plot(*(points + past * step_back(observer) * length).T, color=role, lw=0.9, alpha=0.45)
 
 
 def _trace_colour(trace, number_):
@@ -194,9 +199,9 @@ def _legend(figure, scene):
     return -(-len(keys) // columns)
 
 
-def draw_drawing(drawing: Drawing) -> "Figure":
+def draw_drawing(drawing: Drawing, system: System = "mm") -> "Figure":
     """Figure of a flat part: its layers to one scale, a scale bar, its overall size."""
-    factor, unit = _length()
+    factor, unit = _length(system)
     tolerance = FINENESS * float(np.ptp(_points(drawing), axis=0).max())
     with styled():
         figure, (axis,) = figure_to_scale(1, sentence(drawing.title))
@@ -223,21 +228,22 @@ def draw_drawing(drawing: Drawing) -> "Figure":
     return figure
 
 
-def draw_overlaid(drawings: Sequence[Drawing], labels: Sequence[str], title: str) -> "Figure":
+def draw_overlaid(drawings: Sequence[Drawing], labels: Sequence[str], title: str, system: System = "mm") -> "Figure":
     """Figure of flat parts of several designs upon each other, each design in its colour, the first one filled, to one scale."""
     from matplotlib.patches import Patch
 
+    factor, unit = _length(system)
     tolerance = FINENESS * max(float(np.ptp(_points(drawing), axis=0).max()) for drawing in drawings)
     with styled():
         figure, (axis,) = figure_to_scale(1, sentence(title))
         for number_, drawing in enumerate(drawings):
             for shape in drawing.shapes:
-                _draw_outline(axis, shape, SERIES[number_ % len(SERIES)], tolerance, number_ == 0)
+                _draw_outline(axis, shape, SERIES[number_ % len(SERIES)], tolerance, factor, number_ == 0)
         keys = [Patch(fc=(hue, 0.2), ec=hue, label=literal(label)) for hue, label in zip(_hues(labels), labels, strict=True)]
         columns = legend_columns(labels)
         figure.legend(handles=keys, loc="lower left", ncols=columns, handlelength=1.6, borderaxespad=0.3)
         arrange(figure, [axis], *_extent([axis]), bottom=0.55 + 0.19 * -(-len(labels) // columns))
-        axis.set(xlabel=f"x [{_length()[1]}]", ylabel=f"y [{_length()[1]}]")
+        axis.set(xlabel=f"x [{unit}]", ylabel=f"y [{unit}]")
     return figure
 
 
@@ -245,14 +251,13 @@ def _hues(labels):
     return [colour(SERIES[number_ % len(SERIES)]) for number_ in range(len(labels))]
 
 
-def _draw_outline(axis, shape, role, tolerance, is_first):
+def _draw_outline(axis, shape, role, tolerance, length, is_first):
     """An outline of one design among several: holes let through what lies below."""
     width, dashes, filled = LAYERS.get(shape.layer, LAYERS["body"])
     face = (colour(role), 0.14) if is_first and filled and shape.outline.closed else "none"
     edge = MUTED if shape.layer == "axis" else colour(role)
-    _add(
-        axis, simplified_points(shape.outline, tolerance) * _length()[0], shape.outline.closed, ec=edge, fc=face, lw=0.8 * width, ls=dashes
-    )
+    points = simplified_points(shape.outline, tolerance) * length
+    _add(axis, points, shape.outline.closed, ec=edge, fc=face, lw=0.8 * width, ls=dashes)
 
 
 def _size(drawing, factor, unit):

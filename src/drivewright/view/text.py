@@ -6,7 +6,7 @@ import textwrap
 
 from drivewright.digits import EXACT, ROUGH, last_place, over_decades, to_place
 from drivewright.result import Value
-from drivewright.units import BY_UNIT, display
+from drivewright.units import BY_UNIT, Scale, System, display, scale
 
 SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 UNSPOKEN = {"J": "energy"}  # what results have and nobody writes into a spec
@@ -71,40 +71,44 @@ def unit_text(unit: str) -> str:
     if unit in ("-", "", "1"):
         return ""
     raised = re.sub(r"\^(-?\d+)", lambda match: match[1].translate(SUPERSCRIPT), unit)
-    return re.sub(r"\bum\b", "µm", re.sub(r"\bdeg\b", "°", raised)).replace(" ", SOLID)
+    return re.sub(r"\bum\b", "µm", re.sub(r"\bdeg(?=[CF]?\b)", "°", raised)).replace(" ", SOLID)
 
 
-def display_unit(unit: str) -> tuple[float, str]:
+def display_unit(unit: str, system: System = "mm") -> tuple[float, str]:
     """(factor, printed unit) that turn an SI number into the one people read."""
-    factor, text = display(unit)
+    factor, text = display(unit, system=system)
     return factor, unit_text(text)
 
 
-def shown_unit(unit: str, wanted: str = "") -> tuple[float, str]:
-    """The same for a `wanted` unit of its dimension, e.g. "arcmin", instead of the usual one."""
-    factor, text = display(unit, wanted)
-    return factor, unit_text(text)
+def shown_scale(unit: str, wanted: str = "", system: System = "mm", size: float = 0.0) -> Scale:
+    """`units.scale` with its unit as printed: of a `wanted` unit, e.g. "arcmin", instead of the usual one, for a number of a `size`."""
+    plain = scale(unit, wanted, system, size)
+    return plain._replace(unit=unit_text(plain.unit))
 
 
 def with_unit(text: str, unit: str) -> str:
     """A number's text and its printed unit; a degree sign stands close, and infinity has no unit."""
     if text in ("n/a", "∞", "−∞"):
         return text
-    return f"{text}{unit}" if unit.startswith("°") or not unit else f"{text}{SOLID}{unit}"
+    return f"{text}{unit}" if unit.startswith("°") and unit not in ("°C", "°F") or not unit else f"{text}{SOLID}{unit}"
 
 
-def quantity(value: float, unit: str, digits: int = EXACT) -> str:
+def quantity(value: float, unit: str, digits: int = EXACT, system: System = "mm") -> str:
     """An SI number in the unit people read."""
-    factor, text = display_unit(unit)
-    return with_unit(number(value * factor, digits), text)
+    shown = shown_scale(unit, system=system, size=value)
+    return with_unit(number(shown.of(value), digits), shown.unit)
 
 
-def uncertain(value: float, unit: str, low: float | None, high: float | None, digits: int = EXACT) -> str:
+def uncertain(value: float, unit: str, low: float | None, high: float | None, digits: int = EXACT, system: System = "mm") -> str:
     """The same with its interval, '10.2 (8.1 to 12.4) mm'; as `quantity` where the interval says nothing."""
-    factor, text = display_unit(unit)
-    below, above = (None if end is None else end * factor for end in (low, high))
-    middle, *ends = numbers(value * factor, below, above, digits)
-    return with_unit(f"{middle} ({ends[0]} to {ends[1]})" if ends[0] else middle, text)
+    shown = shown_scale(unit, system=system, size=value)
+    middle, *ends = numbers(shown.of(value), *ends_shown(low, high, shown), digits)
+    return with_unit(f"{middle} ({ends[0]} to {ends[1]})" if ends[0] else middle, shown.unit)
+
+
+def ends_shown(low: float | None, high: float | None, shown: Scale) -> tuple[float | None, float | None]:
+    """Ends of an interval on a scale, None where there is none."""
+    return None if low is None else shown.of(low), None if high is None else shown.of(high)
 
 
 def interval_hint(value: Value) -> str:
