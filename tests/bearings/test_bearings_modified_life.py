@@ -190,6 +190,14 @@ def test_the_lubricant_of_a_spec():
     assert hotter < operating_viscosity(Lubrication()) < cooler
 
 
+@pytest.mark.property
+def test_a_changed_copy_keeps_what_was_given():
+    thick = Lubrication(viscosity="20 mm^2/s", contamination_factor=0.3)
+    other = thick.replace(reliability=0.95)
+    assert (other.viscosity, other.contamination_factor, other.reliability) == (thick.viscosity, 0.3, 0.95)
+    assert not list(lubrication_findings(other)) and list(lubrication_findings(Lubrication().replace(reliability=0.95)))
+
+
 @pytest.mark.analytical
 def test_contamination_factors():
     """The middle of the ranges of ISO 281; 0.55 is what SKF's bearing calculator takes for a 6309 of normal cleanliness."""

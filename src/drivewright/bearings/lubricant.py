@@ -63,17 +63,30 @@ CONTAMINATION_FACTORS: dict[str, tuple[float, float]] = {
 LARGE = 0.1  # m, pitch diameter from which a bearing counts as a large one
 
 
+GRADE, TEMPERATURE, CLEANLINESS = "ISO VG 68", 70.0, "normal-cleanliness"  # where nothing is said; the second in degC
+
+
 class Lubrication(Spec):
     """The lubricant of the bearings, and the reliability that their modified life is asked for."""
 
     viscosity: KinematicViscosity | None = Field(
         None, gt=0, description="kinematic viscosity at operating temperature, in place of grade and temperature", examples=["20 mm^2/s"]
     )
-    grade: Grade = Field("ISO VG 68", description="viscosity grade of the oil, or of a grease's base oil; its viscosity index is 95")
-    temperature: Temperature = Field(
-        "70 degC", ge=ZERO - 20, le=ZERO + 150, description="operating temperature of the bearing, for the grade's viscosity"
+    grade: Grade | None = Field(
+        None,
+        description=f"viscosity grade of the oil, or of a grease's base oil, viscosity index 95; {GRADE} unless given",
+        examples=[GRADE],
     )
-    contamination: Contamination = Field("normal-cleanliness", description="how clean the lubricant stays: class of ISO 281")
+    temperature: Temperature | None = Field(
+        None,
+        ge=ZERO - 20,
+        le=ZERO + 150,
+        description=f"operating temperature of the bearing, for the grade's viscosity; {TEMPERATURE:g} degC unless given",
+        examples=[f"{TEMPERATURE:g} degC"],
+    )
+    contamination: Contamination | None = Field(
+        None, description=f"how clean the lubricant stays: class of ISO 281; {CLEANLINESS} unless given", examples=[CLEANLINESS]
+    )
     contamination_factor: Number | None = Field(
         None, ge=0, le=1, description="factor e_C of ISO 281, in place of the class: 1 clean, 0 dirty", examples=[0.6]
     )
@@ -81,9 +94,8 @@ class Lubrication(Spec):
 
     @model_validator(mode="after")
     def _says_each_thing_once(self):
-        given = self.model_fields_set
         for one, others in (("viscosity", ("grade", "temperature")), ("contamination_factor", ("contamination",))):
-            twice = [key for key in others if key in given] if getattr(self, one) is not None else []
+            twice = [key for key in others if getattr(self, one) is not None and getattr(self, key) is not None]
             if twice:
                 raise SpecError(f"stands in place of {' and '.join(twice)}, which would count for nothing; give one of the two", key=one)
         return self
@@ -110,23 +122,25 @@ def grade_viscosity(grade: str, temperature: float) -> float:
 
 def operating_viscosity(lubrication: Lubrication) -> float:
     """Kinematic viscosity [m^2/s] at operating temperature."""
-    return grade_viscosity(lubrication.grade, lubrication.temperature) if lubrication.viscosity is None else lubrication.viscosity
+    if lubrication.viscosity is not None:
+        return lubrication.viscosity
+    temperature = ZERO + TEMPERATURE if lubrication.temperature is None else lubrication.temperature
+    return grade_viscosity(lubrication.grade or GRADE, temperature)
 
 
 def contamination_factor(lubrication: Lubrication, pitch_diameter: float) -> float:
     """e_C [-] of ISO 281 in a bearing of this pitch diameter [m]."""
     if lubrication.contamination_factor is not None:
         return lubrication.contamination_factor
-    return CONTAMINATION_FACTORS[lubrication.contamination][pitch_diameter >= LARGE]
+    return CONTAMINATION_FACTORS[lubrication.contamination or CLEANLINESS][pitch_diameter >= LARGE]
 
 
 def lubrication_findings(lubrication: Lubrication) -> Iterator[str]:
     """What the modified life assumes because nobody said it."""
-    given, assumed = lubrication.model_fields_set, []
+    assumed = []
     if lubrication.viscosity is None:
-        assumed += [lubrication.grade] * ("grade" not in given)
-        assumed += [f"{lubrication.temperature - ZERO:.4g} degC"] * ("temperature" not in given)
-    if lubrication.contamination_factor is None and "contamination" not in given:
-        assumed.append(f"contamination {lubrication.contamination}")
+        assumed += [GRADE] * (lubrication.grade is None) + [f"{TEMPERATURE:g} degC"] * (lubrication.temperature is None)
+    if lubrication.contamination_factor is None and lubrication.contamination is None:
+        assumed.append(f"contamination {CLEANLINESS}")
     if assumed:
         yield f"the modified life assumes {', '.join(assumed)}; say it under lubrication"
