@@ -16,6 +16,7 @@ from drivewright.spec.fields import Field
 from drivewright.units import KinematicViscosity, Temperature
 
 ZERO = 273.15  # K at 0 degC
+COLDEST, HOTTEST = 253.15, 423.15  # K, between which a bearing of a spec runs
 WARM, HOT = 40 + ZERO, 100 + ZERO
 # grade, which is the viscosity [mm^2/s] at 40 degC: that at 100 degC with a viscosity index of 95
 VISCOSITY_AT_HOT = {
@@ -79,8 +80,8 @@ class Lubrication(Spec):
     )
     temperature: Temperature | None = Field(
         None,
-        ge=ZERO - 20,
-        le=ZERO + 150,
+        ge=COLDEST,
+        le=HOTTEST,
         description=f"operating temperature of the bearing, for the grade's viscosity; {TEMPERATURE:g} degC unless given",
         examples=[f"{TEMPERATURE:g} degC"],
     )
