@@ -3,8 +3,11 @@
 `response` energy, force and stiffness of any elastic support; `newton` the compiled equilibrium of one bearing; `solving` the same with
 names, checks and what each element carries; `ball` and `roller` the two kinds, each with its law, static rating and reference life
 (ISO/TS 16281); `life` basic life of ISO 281, `equivalent_loads` its X and Y, `modified_life` and `lubricant` its a_ISO, `lives` all lives
-of a bearing, `load_spectrum` those of a duty cycle and of several bearings; `dynamic_rating` that of balls; `stiffness_curve`
-displacement and stiffness over load; `approximate_stiffness` formulas from catalogue numbers alone; `catalogue` bearings by name;
+of a bearing, `load_spectrum` those of a duty cycle and of several bearings; `dynamic_rating` C of ISO 281 and
+`standard_static_rating` C0 of ISO 76 by the inner geometry; `stiffness_curve` displacement and stiffness over load;
+`approximate_stiffness` formulas from catalogue numbers alone; `catalogue` bearings by name, `catalogue_entry` what is said of each;
+`designation` names as people write them, `boundary_dimensions` what they stand for, `inner_geometry` estimated from those,
+`estimated_bearing` and `designated_entry` the bearing of it, `envelope` the same of one's own, `rating_checks` what is told of ratings;
 `drawing` a bearing in section, `tables` and `values` answers as tables and values of a result.
 """
 
@@ -51,6 +54,9 @@ _WHERE = {
     "lives": ("RatingLives", "life_load_ratio", "rating_lives"),
     "load_spectrum": ("mean_load", "mean_speed", "spectrum_life", "system_life"),
     "roller": ("RollerBearing", "RollerLaw", "roller_reference_life", "roller_static_rating"),
+    "designation": ("UnknownDesignation", "designations", "parse_designation"),
+    "envelope": ("Envelope", "bearing_of_envelope"),
+    "rating_checks": ("catalogue_findings", "estimated_keys", "rating_findings"),
     "catalogue": ("Entry", "bearing", "entry", "load_catalogue", "names", "replace_catalogue_values"),
     "approximate_stiffness": (
         "gargiulo_ball",
