@@ -88,9 +88,19 @@ def test_formula_of_rollers(kappa, ratio):
 
 
 @pytest.mark.analytical
-def test_formula_of_balls():
-    film = (2.5671 - 2.2649 / 0.25**0.054381) ** 0.83
-    assert life_modification_factor(0.25, 0.125, "point") == pytest.approx(0.1 * (1 - film / 2) ** -9.3, rel=1e-12)
+@pytest.mark.parametrize(
+    ("kappa", "film"),
+    [
+        (0.25, 2.5671 - 2.2649 / 0.25**0.054381),
+        (0.399, 2.5671 - 2.2649 / 0.399**0.054381),
+        (0.401, 2.5671 - 1.9987 / 0.401**0.19087),
+        (0.999, 2.5671 - 1.9987 / 0.999**0.19087),
+        (1.01, 2.5671 - 1.9987 / 1.01**0.071739),
+    ],
+)
+def test_formula_of_balls(kappa, film):
+    """Equations 31 to 33 of ISO 281 in a public transcription."""
+    assert life_modification_factor(kappa, 0.125, "point") == pytest.approx(0.1 * (1 - film**0.83 / 2) ** -9.3, rel=1e-9)
 
 
 @pytest.mark.property
