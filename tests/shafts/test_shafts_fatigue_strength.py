@@ -84,9 +84,12 @@ def test_the_endurance_limit_has_a_ceiling_and_joins_at_51_mm():
     assert endurance_limit(2000 * MPA, 32 * MM, "ground") / endurance_limit(1500 * MPA, 32 * MM, "ground") == pytest.approx(
         (2000 / 1500) ** -0.085
     )
+    assert endurance_limit(690 * MPA, 51.5 * MM) == pytest.approx(endurance_limit(690 * MPA, 103 * MM) * 2**0.157, rel=1e-9)
+    expected = 1.58 * 2000**-0.085 * 1.24 * 32**-0.107 * 700 * MPA
+    assert endurance_limit(2000 * MPA, 32 * MM, "ground", 0.5) == pytest.approx(expected, rel=1e-9)
     below, above = (endurance_limit(690 * MPA, 51 * MM * each) for each in (0.9999, 1.0001))
     assert below == pytest.approx(above, rel=2e-3)
-    assert endurance_limit(690 * MPA, 1 * MM) == endurance_limit(690 * MPA, 2.79 * MM) > endurance_limit(690 * MPA, 3 * MM)
+    assert endurance_limit(690 * MPA, 1 * MM) == endurance_limit(690 * MPA, 2.79 * MM) > endurance_limit(690 * MPA, 2.8 * MM)
     assert endurance_limit(100 * MPA, 20 * MM) == pytest.approx(endurance_limit(200 * MPA, 20 * MM, "ground") / 2)  # neither above polished
 
 
@@ -97,8 +100,8 @@ def test_sensitivity_to_notches():
     by_strength = [notch_sensitivity(1 * MM, strength * MPA) for strength in (400, 800, 1200, 1700)]
     assert by_strength == sorted(by_strength)
     assert notch_sensitivity(1 * MM, 800 * MPA, torsion=True) > q[1]
-    assert notch_sensitivity(1 * MM, 100 * MPA) == notch_sensitivity(1 * MM, 50 * KPSI) < notch_sensitivity(1 * MM, 60 * KPSI)
-    assert notch_sensitivity(1 * MM, 3000 * MPA) == notch_sensitivity(1 * MM, 250 * KPSI)
+    assert notch_sensitivity(1 * MM, 100 * MPA) == notch_sensitivity(1 * MM, 50 * KPSI) < notch_sensitivity(1 * MM, 51 * KPSI)
+    assert notch_sensitivity(1 * MM, 3000 * MPA) == notch_sensitivity(1 * MM, 250 * KPSI) != notch_sensitivity(1 * MM, 249 * KPSI)
 
 
 def test_fatigue_notch_factors_lie_between_one_and_the_elastic_ones():
@@ -151,6 +154,7 @@ def test_twice_the_load_is_half_the_safety_and_a_shock_is_for_yield_alone():
 
 def test_without_stress_there_is_no_limit():
     assert judged().fatigue_safety == judged().static_safety == math.inf
+    assert judged(bending=1e-7).fatigue_safety == math.inf > judged(bending=1e-5).fatigue_safety  # what rounding leaves is no stress
 
 
 # -- which sections ------------------------------------------------------------------------------------------------------------
