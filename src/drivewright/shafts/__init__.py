@@ -13,8 +13,8 @@ tables and plots.
 Strength: `notches` and their factors; `fatigue_strength` safety of a section against fatigue and yield; `strength_sections` which sections;
 `haigh` all that as tables, values and a plot.
 Many at once: `batch` checks the arguments, `batch_kernels` computes.
-To look at: `drawing` shapes of a shaft, `scenes` the shaft on screen as it bends; `tables`, `plots` and `values` answers as those of a
-result; `solid_check` the shaft as a solid beside the beam.
+To look at: `drawing` shapes of a shaft, `scenes` the shaft on screen as it bends; `tables`, `plots`, `values` and `force_results` answers
+as those of a result; `solid_check` the shaft as a solid beside the beam.
 """
 
 from importlib import import_module
@@ -29,7 +29,7 @@ _WHERE = {
     "equilibrium": ("ShaftEquilibrium", "solve"),
     "influence": ("Flexibility", "flexibility", "stiffness"),
     "loaded": ("Diagram", "LoadedShaft", "ShaftLoads", "diagram", "largest_displacement", "apply_loads", "forces_along"),
-    "loads": ("are_coplanar", "tooth_load", "transverse_direction"),
+    "loads": ("ToothForces", "are_coplanar", "slope_in_plane_of_action", "tooth_forces", "tooth_load", "transverse_direction"),
     "mode_shapes": ("PlanarShape", "first_mode_along", "massless_frequencies", "planar_shape"),
     "strength": ("LimitLoad", "limit_loads"),
     "notches": (

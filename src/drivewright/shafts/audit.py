@@ -68,5 +68,5 @@ def _weight(shaft, gravity):
         for part, weight, place in zip(np.asarray(area(diameter, section.bore)), WEIGHTS, NODES, strict=True):
             mass = shaft.density * part * weight * section.length
             yield _row(start + place * section.length, mass * np.asarray(gravity), (0.0, 0.0))
-    for station in shaft.stations:
+    for station in shaft.masses:
         yield _row(station.position, station.mass * np.asarray(gravity), (0.0, 0.0))

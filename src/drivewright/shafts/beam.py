@@ -63,7 +63,7 @@ def beam(shaft: Shaft, places: Iterable[float] = ()) -> Beam:
 
 def _nodes(shaft, places):
     widths = [width_places(shaft, support) for support in shaft.supports]
-    wanted = np.concatenate([shaft.ends, [s.position for s in (*shaft.supports, *shaft.stations)], *widths, np.asarray(places, float)])
+    wanted = np.concatenate([shaft.ends, [s.position for s in (*shaft.supports, *shaft.masses)], *widths, np.asarray(places, float)])
     near = 1e-9 * shaft.length
     if wanted.min() < -near or wanted.max() > shaft.length + near:
         off = wanted.min() if wanted.min() < -near else wanted.max()

@@ -77,7 +77,7 @@ def apply_loads(shaft: Shaft, loads: ShaftLoads, places: Iterable[float] = ()) -
 
 
 def _weights(shaft, loads):
-    return [ShaftLoad(s.position, tuple(s.mass * g for g in loads.gravity)) for s in shaft.stations if s.mass and any(loads.gravity)]
+    return [ShaftLoad(s.position, tuple(s.mass * g for g in loads.gravity)) for s in shaft.masses if s.mass and any(loads.gravity)]
 
 
 def _spread(model, loads):

@@ -75,8 +75,10 @@ class LineLoad(NamedTuple):
 
 
 class Shaft(NamedTuple):
-    """Sections from left to right, one material, supports and stations in any order.  `shear`: kappa, COWPER or EULER_BERNOULLI;
-    `rotary_inertia`: whether the sections resist being turned (None: where they also shear, Timoshenko's beam; without shear Rayleigh's).
+    """Sections from left to right, one material, supports and stations in any order; `carried` are masses that are no stations.
+
+    `shear`: kappa, COWPER or EULER_BERNOULLI; `rotary_inertia`: whether the sections resist being turned (None: where they also shear,
+    Timoshenko's beam; without shear Rayleigh's).
     """
 
     sections: tuple[Section, ...]
@@ -87,6 +89,12 @@ class Shaft(NamedTuple):
     stations: tuple[Station, ...] = ()
     shear: float = COWPER
     rotary_inertia: bool | None = None
+    carried: tuple[Station, ...] = ()
+
+    @property
+    def masses(self) -> tuple[Station, ...]:
+        """Everything that sits on the shaft: its stations, and what is carried besides."""
+        return (*self.stations, *self.carried)
 
     @property
     def length(self) -> float:

@@ -9,6 +9,7 @@ from drivewright.result import Column, Plot, Table, Value
 from drivewright.shafts.unbalance import RESONANCE, Orbits
 from drivewright.shafts.whirl import Campbell, CriticalSpeed, WhirlModes
 
+LAG = ".lag"  # behind the name of a part
 SENSES = ((True, "forward", "with the shaft"), (False, "backward", "against the shaft"))
 HERTZ = 1 / (2 * np.pi)
 
@@ -86,13 +87,13 @@ def whirl_shape_table(modes: WhirlModes, z: Floats) -> Table:
 # -- unbalance -----------------------------------------------------------------------------------------------------------------
 
 
-def orbit_values(orbits: Orbits, stations: Sequence[str], supports: Sequence[str]) -> dict[str, Value]:
-    """`unbalance.STATION.amplitude` [m], its lag [rad], and `bearings.NAME.unbalance_force` [N] of `Orbits` at one speed."""
+def orbit_values(orbits: Orbits, parts: Sequence[str], supports: Sequence[str]) -> dict[str, Value]:
+    """`unbalance.NAME.amplitude` [m] of every part, its lag [rad], and `bearings.NAME.unbalance_force` [N] of `Orbits` at one speed."""
     values, at = {}, f"at {orbits.speeds[0] * 30 / np.pi:.6g} rpm"
-    for name, amplitude, lag in zip(stations, orbits.amplitude[0], orbits.lag[0], strict=True):
-        meaning = f"unbalance amplitude of station {name!r}, major semi-axis of its orbit {at}"
+    for name, amplitude, lag in zip(parts, orbits.amplitude[0], orbits.lag[0], strict=True):
+        meaning = f"unbalance amplitude of {name!r}, major semi-axis of its orbit {at}"
         values[f"unbalance.{name}.amplitude"] = Value(float(amplitude), "m", meaning)
-        meaning = f"phase lag of station {name!r} behind the unbalance at the angle 0, {at}"
+        meaning = f"phase lag of {name!r} behind the unbalance at the angle 0, {at}"
         values[f"unbalance.{name}.phase_lag"] = Value(float(lag), "rad", meaning)
     for name, force in zip(supports, orbits.support_forces[0], strict=True):
         if np.isfinite(force):
@@ -108,22 +109,20 @@ def resonance_finding(orbits: Orbits) -> str:
     )
 
 
-def orbit_table(orbits: Orbits, stations: Sequence[str]) -> Table:
-    """`unbalance_response`: amplitude [m] and lag [rad] of every station over the speed; rows at resonance without damping left out."""
+def orbit_table(orbits: Orbits, parts: Sequence[str]) -> Table:
+    """`unbalance_response`: amplitude [m] and lag [rad] of every part over the speed; rows at resonance without damping left out."""
     kept = ~orbits.resonant
     columns = [Column("speed", "rad/s", "speed of the shaft", orbits.speeds[kept])]
-    for name, amplitude, lag in zip(stations, orbits.amplitude[kept].T, orbits.lag[kept].T, strict=True):
-        columns.append(Column(name, "m", f"unbalance amplitude of station {name!r}", amplitude, f"Station {name}"))
-        columns.append(Column(f"{name}.lag", "rad", f"phase lag of station {name!r}", np.unwrap(lag), f"Station {name}, phase lag"))
+    for name, amplitude, lag in zip(parts, orbits.amplitude[kept].T, orbits.lag[kept].T, strict=True):
+        columns.append(Column(name, "m", f"unbalance amplitude of {name!r}", amplitude))
+        columns.append(Column(f"{name}{LAG}", "rad", f"phase lag of {name!r} behind the unbalance", np.unwrap(lag)))
     return Table("unbalance_response", "Unbalance response over speed", tuple(columns))
 
 
 # -- to look at ----------------------------------------------------------------------------------------------------------------
 
 
-def rotor_plots(
-    tables: Mapping[str, Table], stations: Sequence[str], speed: float | None, places: tuple[tuple[float, str], ...] = ()
-) -> Iterator[Plot]:
+def rotor_plots(tables: Mapping[str, Table], speed: float | None, places: tuple[tuple[float, str], ...] = ()) -> Iterator[Plot]:
     """The plots of the tables above; `speed` [rad/s] of the shaft stands upright in them, `places` along the shaft."""
     at = ((speed, "operating speed"),) if speed else ()
     if "campbell" in tables:
@@ -135,11 +134,11 @@ def rotor_plots(
         ahead, back = _branches(tables["whirl_shapes"])
         yield Plot("whirl_shapes", "Whirl shapes; dashed: backward", "whirl_shapes", "z", ahead, reference=back, places=places)
     if "unbalance_response" in tables:
-        yield Plot(
-            "unbalance_response", "Unbalance response over speed", "unbalance_response", "speed", tuple(stations), log=True, places=at
-        )
-        lags = tuple(f"{name}.lag" for name in stations)
-        yield Plot("unbalance_lag", "Phase lag behind the unbalance", "unbalance_response", "speed", lags, places=at)
+        names = [column.name for column in tables["unbalance_response"].columns[1:]]
+        amplitudes, lags = (tuple(name for name in names if name.endswith(LAG) == lag) for lag in (False, True))
+        table = "unbalance_response"
+        yield Plot(table, "Unbalance response over speed", table, "speed", amplitudes, log=True, places=at)
+        yield Plot("unbalance_lag", "Phase lag behind the unbalance", table, "speed", lags, places=at)
 
 
 def _branches(table: Table) -> tuple[tuple[str, ...], tuple[str, ...]]:

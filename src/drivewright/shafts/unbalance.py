@@ -108,17 +108,17 @@ def shaft_mass(shaft: Shaft) -> float:
 
 
 def permissible_unbalances(shaft: Shaft, grade: str, speed: float) -> tuple[Unbalance, ...]:
-    """The permissible residual unbalance of a rotor at a speed [rad/s], U = m G/s, shared among its stations by their masses, all at one
-    angle, which is the worst for the first mode.  InputError where no station has a mass.
+    """The permissible residual unbalance of a rotor at a speed [rad/s], U = m G/s, shared by their masses among what sits on it, all at one
+    angle, which is the worst for the first mode.  InputError where nothing there has a mass.
     """
-    masses = {station: station.mass for station in shaft.stations if station.mass > 0}
+    masses = {station: station.mass for station in shaft.masses if station.mass > 0}
     if not masses:
-        raise InputError("shaft: no station has a mass that could be out of balance; give one a mass or an unbalance")
+        raise InputError("shaft: no station and no gear has a mass that could be out of balance; give one a mass or an unbalance")
     whole = (shaft_mass(shaft) + sum(masses.values())) * GRADES[grade] / speed
     return tuple(Unbalance(station.position, whole * mass / sum(masses.values())) for station, mass in masses.items())
 
 
 def balance_quality(shaft: Shaft, unbalances: Sequence[Unbalance], speed: float) -> float:
     """e s [m/s] of given unbalances: the sum of their sizes over the mass of the rotor, times the speed [rad/s]."""
-    mass = shaft_mass(shaft) + sum(station.mass for station in shaft.stations)
+    mass = shaft_mass(shaft) + sum(station.mass for station in shaft.masses)
     return sum(abs(u.moment) for u in unbalances) / mass * speed

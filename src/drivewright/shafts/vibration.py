@@ -92,7 +92,7 @@ def _couple(gyroscopic, places, polar):
 
 
 def _add_stations(beam, whole, gyroscopic):
-    for station in beam.shaft.stations:
+    for station in beam.shaft.masses:
         at = FREEDOMS * beam.node(station.position)
         whole[range(at, at + 3), range(at, at + 3)] += station.mass
         whole[range(at + 3, at + 6), range(at + 3, at + 6)] += (station.diametral, station.diametral, station.polar)

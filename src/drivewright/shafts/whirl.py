@@ -18,6 +18,7 @@ from drivewright.numerics.roots import roots_in_brackets
 from drivewright.shafts.rotor import Rotor
 
 LEAST = 1e-3  # of the magnitude of an eigenvalue: with less the motion creeps back and is no vibration
+NEGLIGIBLE = 1e-6  # of the largest inverse eigenvalue: where there is no mass rounding makes one
 LINE = 1e-6  # sense of an ellipse that is a line: neither with the shaft nor against it
 NOISE = 1e-9  # damping ratio that is rounding
 
@@ -66,7 +67,7 @@ def _eigenpairs(rotor, speeds):
 def _sorted(rotor, speed, inverse, vectors, count):
     """The `WhirlModes` among the eigenpairs of one speed."""
     inverse, vectors = inverse[0], vectors[0]
-    moves = np.abs(inverse.imag) > LEAST * np.abs(inverse)
+    moves = (np.abs(inverse.imag) > LEAST * np.abs(inverse)) & (np.abs(inverse) > NEGLIGIBLE * np.abs(inverse).max())
     chosen = np.flatnonzero(moves if rotor.whirls else moves & (inverse.imag < 0))
     chosen = chosen[np.argsort(-np.abs(inverse[chosen]), kind="stable")]
     value, vector = rotor.reference / inverse[chosen], vectors[:, chosen]
@@ -112,14 +113,14 @@ class Campbell(NamedTuple):
 
 
 def campbell(rotor: Rotor, speeds: Sequence[float] | Floats, count: int) -> Campbell:
-    """The `Campbell` diagram at rising speeds [rad/s], its branches the `count` lowest of each sense at the first speed.
+    """The `Campbell` diagram at rising speeds [rad/s], its branches the 2 `count` lowest modes at the first speed.
 
     A branch goes on with the mode that is nearest to where it leads and whose shape is most alike.
     """
     speeds = np.asarray(speeds, float)
     pairs = _eigenpairs(rotor, speeds)
     each = [_sorted(rotor, s, inverse[None], vectors[None], 2 * count) for s, inverse, vectors in zip(speeds, *pairs, strict=True)]
-    rows = [_first(each[0], count)]
+    rows = [np.arange(min(2 * count, len(each[0].frequency)))]
     for before, after in zip(each, each[1:], strict=False):
         rows.append(_continued(rows, before, after))
     table = np.full((3, len(speeds), len(rows[0])), np.nan)
@@ -128,10 +129,6 @@ def campbell(rotor: Rotor, speeds: Sequence[float] | Floats, count: int) -> Camp
         table[:, k, on] = np.array([modes.frequency, modes.damping_ratio, modes.sense])[:, row[on]]
     order = np.argsort(np.nan_to_num(table[0, -1], nan=np.inf), kind="stable")
     return Campbell(speeds, *table[:, :, order])
-
-
-def _first(modes, count):
-    return np.sort(np.concatenate([modes.chosen(way)[:count] for way in (True, False)]))
 
 
 def _continued(rows, before, after):
@@ -166,7 +163,7 @@ def damped_critical_speeds(rotor: Rotor, diagram: Campbell) -> list[CriticalSpee
     found = []
     for branch in range(diagram.frequency.shape[1]):
         above = diagram.frequency[:, branch] - diagram.speeds
-        for k in np.flatnonzero(above[:-1] * above[1:] < 0):
+        for k in np.flatnonzero((above[:-1] * above[1:] <= 0) & (above[1:] != 0)):
             sense = diagram.sense[k, branch]
             speed, at = _crossing(rotor, diagram, (k, branch), lambda modes, n: modes.frequency[n] - modes.speed)
             found.append(CriticalSpeed(speed, float(at), sense > 0))
@@ -200,6 +197,7 @@ def _crossing(rotor, diagram, where, measure):
         return np.array([measure(*at(speed)) for speed in np.atleast_1d(speeds)])
 
     low, high = ends[:1], ends[1:]
-    speed = float(roots_in_brackets(measured, low, high, measured(low), measured(high))[0])
+    begins = measured(low)
+    speed = float(low[0] if begins[0] == 0 else roots_in_brackets(measured, low, high, begins, measured(high))[0])
     modes, number = at(speed)
     return speed, modes.damping_ratio[number]

@@ -49,6 +49,8 @@ HEADLINE = (
     "stations.*.deflection",
     "stations.*.displacement",
     "bearings.*.reaction",
+    "gears.*.deflection",
+    "gears.*.slope",
     "bearings.*.radial_force",
     "bearings.*.stiffness.tangent",
     "bearings.*.stiffness.secant",

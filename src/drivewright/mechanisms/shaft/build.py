@@ -12,7 +12,7 @@ from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.shaft.bearing_table import Bearing
 from drivewright.mechanisms.shaft.refusals import is_rolling, refuse_contradictions
 from drivewright.mechanisms.shaft.spec import ShaftSpec
-from drivewright.mechanisms.shaft.tables import Analysis, Gear
+from drivewright.mechanisms.shaft.tables import Analysis, Carried, Gear
 from drivewright.spec.csv_columns import read_columns
 
 DOWN = np.array([0.0, -1.0])
@@ -45,6 +45,11 @@ class ShaftModel:
         return [station.position for station in self.shaft.stations]
 
     @property
+    def turning_parts(self) -> tuple[Carried, ...]:
+        """Stations, and the gears that have a mass or an unbalance: what an unbalance moves."""
+        return (*self.spec.stations, *(gear for gear in self.spec.gears if gear.mass or gear.unbalance))
+
+    @property
     def loaded(self) -> bool:
         """Whether anything acts on the shaft: a load, a preload, a seat off the axis."""
         pushed = any(b.preload or any(b.seat_offset) or any(b.seat_tilt) for b in self.spec.bearings)
@@ -64,13 +69,18 @@ def build(spec: ShaftSpec) -> ShaftModel:
         material.poisson,
         material.density,
         tuple(_support(b, rolling.get(b.name), b.name in mirrored) for b in spec.bearings),
-        tuple(shafts.Station(s.name, s.position, s.mass, s.polar_inertia, s.diametral_inertia) for s in spec.stations),
+        tuple(map(_carried, spec.stations)),
         _shear_coefficient(spec.analysis),
         spec.analysis.theory != "euler-bernoulli",
+        tuple(map(_carried, spec.gears)),
     )
     loads = shafts.ShaftLoads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
     shafts.refuse_mechanism(shaft)
     return ShaftModel(spec, shaft, loads, rolling, material.yield_strength)
+
+
+def _carried(part: Carried) -> shafts.Station:
+    return shafts.Station(part.name, part.position, part.mass, part.polar_inertia, part.diametral_inertia)
 
 
 def _shear_coefficient(analysis: Analysis) -> float:

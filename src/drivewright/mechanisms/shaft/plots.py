@@ -3,6 +3,7 @@
 from drivewright.bearings.tables import bearing_plots
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.result import Plot, Result
+from drivewright.shafts.force_results import vector_plots
 from drivewright.shafts.plots import SURFACE, shaft_plots
 from drivewright.shafts.rotor_results import rotor_plots
 
@@ -10,9 +11,8 @@ from drivewright.shafts.rotor_results import rotor_plots
 def plots(result: Result[ShaftSpec]) -> tuple[Plot, ...]:
     """All plots whose table the result has."""
     spec, at = result.spec, places(result.spec)
-    names = [station.name for station in spec.stations]
-    turning = rotor_plots(result.tables, names, spec.drive.speed if spec.drive else None, at)
-    every = (*shaft_plots(result, at), *turning, *bearing_plots(result.tables), SURFACE)
+    turning = rotor_plots(result.tables, spec.drive.speed if spec.drive else None, at)
+    every = (*shaft_plots(result, at), *turning, *vector_plots(result.tables), *bearing_plots(result.tables), SURFACE)
     return tuple(plot for plot in every if plot.table in result.tables)
 
 

@@ -45,6 +45,13 @@ def _names(spec):
             if name in names[:number]:
                 raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{number}.name")
 
+    stations = [station.name for station in spec.stations]
+    for number, gear in enumerate(spec.gears):
+        if gear.name in stations and (gear.mass or gear.unbalance):
+            raise SpecError(
+                f"the name {gear.name!r} is that of a station, and both can be out of balance; choose another", f"gears.{number}.name"
+            )
+
 
 def _places(spec):
     """Everything stands on the shaft; no two bearings and no two stations at one place."""

@@ -36,7 +36,7 @@ def whirl(model: ShaftModel, done: Answers) -> Answer:
     if vibration is None or model.spec.drive is None:
         return Answer(findings=("whirl is absent: the shaft has no natural frequencies",), outcome="left out")
     speed, count = model.spec.drive.speed, model.spec.analysis.modes
-    rotor = shafts.reduced_rotor(vibration.equilibrium, [station.position for station in model.shaft.stations])
+    rotor = shafts.reduced_rotor(vibration.equilibrium, [part.position for part in model.turning_parts])
     modes = shafts.whirl_modes(rotor, speed, count)
     diagram = shafts.campbell(rotor, np.linspace(0.0, _highest_speed(model, vibration.lowest), SPEEDS), count)
     damped, critical = not rotor.is_conservative, shafts.damped_critical_speeds(rotor, diagram)
@@ -76,42 +76,43 @@ def _separation_check(model: ShaftModel, critical: Sequence[shafts.CriticalSpeed
 
 def no_unbalance(spec: ShaftSpec) -> str | None:
     """Why no unbalance response is computed."""
-    heavy = any(station.mass or station.unbalance for station in spec.stations)
-    return no_whirl(spec) or (None if heavy else "no station has a mass or an unbalance")
+    heavy = any(part.mass or part.unbalance for part in (*spec.stations, *spec.gears))
+    return no_whirl(spec) or (None if heavy else "no station and no gear has a mass or an unbalance")
 
 
 def unbalance(model: ShaftModel, done: Answers) -> Answer:
-    """Orbits of the stations at the speed of the shaft and over all speeds, by the unbalances that they have, else by the grade."""
+    """Orbits of stations and gears at the speed of the shaft and over all speeds, by their unbalances, else by the balance grade."""
     turning, vibration, drive = done["whirl"].data, done["modes"].data, model.spec.drive
     if turning is None or drive is None:
         return Answer(findings=("the unbalance response is absent: there is no whirl",), outcome="left out")
     given, findings = _unbalances(model), []
-    if not any(station.unbalance for station in model.spec.stations):
+    if not any(part.unbalance for part in model.turning_parts):
         findings.append(
-            f"no station has an unbalance: that which the balance grade {drive.balance_grade} permits at the speed of the shaft "
-            "(ISO 21940-11) is shared among the stations by their masses, all at one angle"
+            f"nothing on the shaft has an unbalance: that which the balance grade {drive.balance_grade} permits at the speed of the shaft "
+            "(ISO 21940-11) is shared among stations and gears by their masses, all at one angle"
         )
     stiffness = np.array([tangent[:2, :2] for tangent in vibration.equilibrium.tangent])
-    places, names = model.places, [support.name for support in model.shaft.supports]
+    places, names = [part.position for part in model.turning_parts], [part.name for part in model.turning_parts]
+    supports = [support.name for support in model.shaft.supports]
 
     def orbits(speeds: Floats) -> shafts.Orbits:
         return shafts.unbalance_response(turning.rotor, given, speeds, places, stiffness)
 
     at_speed = orbits(np.array([drive.speed]))
     over = np.linspace(0.0, _highest_speed(model, vibration.lowest), RESPONSE_SPEEDS)[1:]
-    table = results.orbit_table(orbits(_with_peaks(over, turning.critical)), model.names)
+    table = results.orbit_table(orbits(_with_peaks(over, turning.critical)), names)
     quality = Value(shafts.balance_quality(model.shaft, given, drive.speed), "m/s", "balance quality, eccentricity times speed")
     values = {"unbalance.balance_quality": quality}
     if at_speed.resonant[0]:
         return Answer(values, (table,), (), (*findings, results.resonance_finding(at_speed)))
-    values |= results.orbit_values(at_speed, model.names, names)
+    values |= results.orbit_values(at_speed, names, supports)
     return Answer(values, (table,), tuple(_amplitude_checks(model, values)), tuple(findings))
 
 
 def _unbalances(model: ShaftModel) -> tuple[shafts.Unbalance, ...]:
-    """Those of the stations, else what the balance grade permits."""
-    stations, drive = model.spec.stations, model.spec.drive
-    own = tuple(shafts.Unbalance(s.position, s.unbalance, s.unbalance_angle) for s in stations if s.unbalance)
+    """Those of stations and gears, else what the balance grade permits."""
+    drive = model.spec.drive
+    own = tuple(shafts.Unbalance(p.position, p.unbalance, p.unbalance_angle) for p in model.turning_parts if p.unbalance)
     return own if own or drive is None else shafts.permissible_unbalances(model.shaft, drive.balance_grade, drive.speed)
 
 
@@ -124,6 +125,6 @@ def _with_peaks(speeds: Floats, critical: Sequence[shafts.CriticalSpeed]) -> Flo
 
 def _amplitude_checks(model: ShaftModel, values: dict[str, Value]) -> Iterator[Check]:
     limit = model.spec.limits.unbalance
-    for name in model.names if limit else ():
-        value = values[f"unbalance.{name}.amplitude"]
-        yield Check.of(value, f"unbalance.{name}", float(limit or 0), "<=", f"unbalance amplitude of station {name!r}", ("shaft",))
+    for part in model.turning_parts if limit else ():
+        value = values[f"unbalance.{part.name}.amplitude"]
+        yield Check.of(value, f"unbalance.{part.name}", float(limit or 0), "<=", value.meaning, ("shaft",))

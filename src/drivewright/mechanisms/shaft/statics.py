@@ -6,9 +6,10 @@ import numpy as np
 
 from drivewright import shafts
 from drivewright.mechanisms.shaft.bearing_table import Bearing
-from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.build import ShaftModel, tooth_load
 from drivewright.mechanisms.shaft.refusals import is_rolling
-from drivewright.result import Answer, Answers, Check, Value
+from drivewright.result import Answer, Answers, Check, Table, Value
+from drivewright.shafts.force_results import seat_values, tooth_values, vector_table
 from drivewright.shafts.tables import diagram_table, reaction_table
 from drivewright.shafts.values import extreme_values, station_values, support_values
 
@@ -27,8 +28,10 @@ def statics(model: ShaftModel, done: Answers) -> Answer:
     along = shafts.diagram(loaded, SAMPLES)
     values |= station_values(loaded.equilibrium, model.direction) | support_values(loaded.equilibrium, model.direction)
     values |= extreme_values(along)
-    tables = (diagram_table(along, model.direction), reaction_table(loaded.equilibrium))
-    return Answer(values, tables, (*checks, *_checks(model, loaded, along)), data=loaded)
+    tables = [diagram_table(along, model.direction), reaction_table(loaded.equilibrium)]
+    values |= _gear_values(model, loaded.equilibrium)
+    tables.append(_force_vectors(model, loaded.equilibrium))
+    return Answer(values, tuple(tables), (*checks, *_checks(model, loaded, along)), data=loaded)
 
 
 def _linear_stiffness(model: ShaftModel) -> dict[str, Value]:
@@ -40,6 +43,23 @@ def _linear_stiffness(model: ShaftModel) -> dict[str, Value]:
             words = f"radial force over displacement of bearing {support.name!r}, at any load"
             values |= {f"{name}.tangent": Value(stiffness, "N/m", f"change of {words}"), f"{name}.secant": Value(stiffness, "N/m", words)}
     return values
+
+
+def _gear_values(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> dict[str, Value]:
+    values = {}
+    for gear in model.spec.gears:
+        forces = shafts.tooth_forces(gear.pitch_diameter, gear.torque, gear.pressure_angle, gear.helix_angle)
+        values |= tooth_values(gear.name, forces) | seat_values(gear.name, at_rest, tooth_load(gear), gear.face_width)
+    return values
+
+
+def _force_vectors(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Table:
+    acting = {f"bearing {b.name}": reaction for b, reaction in zip(model.spec.bearings, at_rest.reactions, strict=True)}
+    acting |= {f"gear {gear.name}": np.array(tooth_load(gear).force) for gear in model.spec.gears}
+    for number, load in enumerate(model.spec.loads):
+        if load.force:
+            acting[f"load {load.name or number}"] = load.force * shafts.transverse_direction(load.angle)
+    return vector_table(acting)
 
 
 # -- checks --------------------------------------------------------------------------------------------------------------------
@@ -76,8 +96,18 @@ def _checks(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram
         for station in model.shaft.stations:
             size, message = float(np.hypot(*at_rest.displacement_at(station.position))), f"deflection of station {station.name!r}"
             yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", message, own)
+    yield from _gear_checks(model, at_rest)
     for bearing, reaction in zip(model.spec.bearings, at_rest.reactions, strict=True):
         yield from _bearing_checks(model, at_rest, bearing, float(np.hypot(*reaction[:2])), under)
+
+
+def _gear_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Iterator[Check]:
+    for gear in model.spec.gears:
+        values, name = seat_values(gear.name, at_rest, tooth_load(gear), gear.face_width), f"gears.{gear.name}"
+        for key, limit in (("deflection", model.spec.limits.deflection), ("slope", model.spec.limits.gear_slope)):
+            if limit:
+                value = values[f"{name}.{key}"]
+                yield Check.of(value, f"{key}.{gear.name}", limit, "<=", value.meaning, ("shaft",))
 
 
 def _bearing_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium, bearing: Bearing, force: float, under: str) -> Iterator[Check]:

@@ -47,8 +47,8 @@ class Segment(Spec):
     bore: Length = Field("0 mm", ge=0, description="diameter of the hole through it")
 
 
-class Station(Spec):
-    """A place of interest, and what sits there."""
+class Carried(Spec):
+    """What sits on the shaft at a place."""
 
     name: Name = Field(description="name", examples=["m1"])
     position: Length = Field(description="distance from the left end of the shaft", examples=["0 mm"])
@@ -56,11 +56,13 @@ class Station(Spec):
     polar_inertia: Inertia = Field("0 kg m^2", ge=0, description="its moment of inertia about the shaft's axis")
     diametral_inertia: Inertia = Field("0 kg m^2", ge=0, description="its moment of inertia about a diameter")
     unbalance: Unbalance | None = Field(
-        None,
-        description="mass times eccentricity that turns with the shaft; drive.balance_grade where no station has one",
-        examples=["50 g mm"],
+        None, description="mass times eccentricity; drive.balance_grade where nothing on the shaft has one", examples=["50 g mm"]
     )
     unbalance_angle: Angle = Field("0 deg", description="place of the unbalance on the shaft, from x towards y")
+
+
+class Station(Carried):
+    """A place of interest, and what sits there."""
 
 
 DOWN = "-90 deg"
@@ -91,16 +93,15 @@ class LineLoad(Spec):
     angle: Angle = Field(DOWN, description="direction, from x towards y")
 
 
-class Gear(Spec):
+class Gear(Carried):
     """A gear on the shaft: its tooth forces follow from the torque."""
 
-    name: Name = Field(description="name", examples=["gear"])
-    position: Length = Field(description="distance from the left end", examples=["100 mm"])
     pitch_diameter: Length = Field(gt=0, description="diameter of the (working) pitch circle", examples=["60 mm"])
     torque: Torque = Field(description="that the teeth exert on the shaft about its axis, x towards y", examples=["30 N m"])
     mesh_angle: Angle = Field("0 deg", description="where the mate touches, from x towards y")
     pressure_angle: Angle = Field("20 deg", ge=0, lt=1.0, description="normal pressure angle")
     helix_angle: Angle = Field("0 deg", gt=-1.2, lt=1.2, description="positive: with a positive torque the axial force points to the right")
+    face_width: Length | None = Field(None, gt=0, description="width of the teeth, for the misalignment over the face", examples=["20 mm"])
 
 
 BalanceGrade = Literal["G 0.4", "G 1", "G 2.5", "G 6.3", "G 16", "G 40", "G 100", "G 250", "G 630", "G 1600", "G 4000"]
@@ -145,7 +146,8 @@ class Analysis(Spec):
 class Limits(Spec):
     """Requirements; each becomes a check."""
 
-    deflection: Length | None = Field(None, gt=0, description="of every station", examples=["0.1 mm"])
+    deflection: Length | None = Field(None, gt=0, description="of every station and gear", examples=["0.1 mm"])
+    gear_slope: Angle | None = Field(None, gt=0, description="of the shaft at every gear", examples=["2 arcmin"])
     slope: Angle | None = Field(None, gt=0, description="of the shaft at every bearing", examples=["4 arcmin"])
     yield_safety: Number = Field(1.0, gt=0, description="yield strength over the largest von Mises stress")
     static_safety: Number = Field(

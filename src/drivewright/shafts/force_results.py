@@ -1,0 +1,58 @@
+"""Forces on a shaft as values and tables of a result: teeth of its gears and how they stand, reactions, and both as vectors."""
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.result import Column, Plot, Table, Value
+from drivewright.shafts.equilibrium import ShaftEquilibrium
+from drivewright.shafts.loads import ToothForces, slope_in_plane_of_action
+from drivewright.shafts.model import ShaftLoad
+
+def tooth_values(name: str, forces: ToothForces) -> dict[str, Value]:
+    """The `ToothForces` of the gear of this name."""
+    key = f"gears.{name}"
+    return {
+        f"{key}.tangential_force": Value(float(forces.tangential), "N", f"tangential tooth force on gear {name!r}, signed as its torque"),
+        f"{key}.radial_force": Value(float(forces.radial), "N", f"radial tooth force on gear {name!r}, towards its axis"),
+        f"{key}.axial_force": Value(float(forces.axial), "N", f"axial tooth force on gear {name!r}, positive to the right"),
+    }
+
+
+def seat_values(name: str, equilibrium: ShaftEquilibrium, load: ShaftLoad, face_width: float | None) -> dict[str, Value]:
+    """Deflection [m], slope [rad] and misalignment of the gear of this name, whose teeth load the shaft at a node."""
+    key, of = f"gears.{name}", f"of the shaft at gear {name!r}"
+    move, slope = equilibrium.displacement_at(load.position), equilibrium.slope_at(load.position)
+    across, meaning = slope_in_plane_of_action(slope, load), f"slope of gear {name!r} in the plane of action, signed as its tooth force"
+    values = {
+        f"{key}.deflection": Value(float(np.hypot(*move)), "m", f"deflection {of}, magnitude"),
+        f"{key}.slope": Value(float(np.hypot(*slope)), "rad", f"slope {of}, magnitude"),
+        f"{key}.mesh_slope": Value(
+            across, "rad", f"slope of gear {name!r} in the plane of action, above 0 where it gives way to the right"
+        ),
+    }
+    if face_width:
+        meaning = f"misalignment over the face of gear {name!r}, in the plane of action, by this shaft alone"
+        values[f"{key}.misalignment"] = Value(abs(across) * face_width, "m", meaning)
+    return values
+
+
+def vector_table(forces: Mapping[str, Floats]) -> Table:
+    """`force_vectors`: the forces (x, y) [N] on the shaft by the name of what exerts them, each from the axis to its tip in a column of
+    its own."""
+    tips = np.array([point for force in forces.values() for point in (np.zeros(2), np.asarray(force, float)[:2])])
+    columns = [Column("x", "N", "force on the shaft along x", tips[:, 0])]
+    for n, name in enumerate(forces):
+        data = np.full(len(tips), np.nan)
+        data[2 * n : 2 * n + 2] = tips[2 * n : 2 * n + 2, 1]
+        columns.append(Column(name, "N", f"force of {name} along y (up)", data, name))
+    return Table("force_vectors", "Forces across the shaft", tuple(columns), "a force has no place in the rows of the others")
+
+
+def vector_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
+    """The forces as vectors in the plane across the axis: x and y as everywhere, z towards the eye."""
+    if "force_vectors" in tables:
+        names, meaning = tuple(column.name for column in tables["force_vectors"].columns[1:]), "x to the right, y up, z towards the eye"
+        title = "Forces across the shaft, seen from its right end"
+        yield Plot("force_vectors", title, "force_vectors", "x", names, equal=True, whole=True, meaning=meaning)
