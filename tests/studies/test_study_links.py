@@ -378,3 +378,11 @@ def test_the_report_says_what_follows(monkeypatch, tmp_path):
     assert "also offset = -2 * size + 3 mm" in page
     assert study["offset"].tolist() == pytest.approx([-13e-3, -15e-3], rel=1e-13)
     assert Path(tmp_path / "report" / "answers.json").is_file() and not math.isnan(study["area"][0])
+
+
+def test_followers_do_not_count_as_dimensions():
+    """One random key has two corners, whatever follows it; thirty keys would have a billion."""
+    spec = Toy(parts=tuple(Part(name=f"p{n}") for n in range(31)))
+    vary = {"parts.p0.width": uniform("1 mm", "2 mm")} | {f"parts.p{n}.width": linked(f"{n} * parts.p0.width") for n in range(1, 31)}
+    plan, cases = columns(vary, spec, method="corners")
+    assert len(plan) == 2 and cases["parts.p30.width"] == pytest.approx([30e-3, 60e-3], rel=1e-14)
