@@ -9,6 +9,7 @@ from drivewright.mechanisms.shaft.designs import batch
 from drivewright.mechanisms.shaft.plots import plots
 from drivewright.mechanisms.shaft.scene import drawings, parts, scene
 from drivewright.mechanisms.shaft.spec import ShaftSpec
+from drivewright.mechanisms.shaft.supplied import supplied
 from drivewright.registry import Analysis, Mechanism, oracle
 
 ANALYSES = (
@@ -92,4 +93,5 @@ mechanism = Mechanism(
     parts=parts,
     verify=oracle("shaft"),
     batch=batch,
+    supplied=supplied,
 )
