@@ -19,7 +19,17 @@ from drivewright.shafts.fatigue_strength import (
     strength_at,
 )
 from drivewright.shafts.haigh import HAIGH, haigh_table, strength_table, strength_values
-from drivewright.shafts.notches import CrossHole, Keyway, NotchFactors, RectangularGroove, RoundGroove, ShoulderFillet, SmoothPlace
+from drivewright.shafts.notches import (
+    CrossHole,
+    Keyway,
+    NotchFactors,
+    PressFit,
+    RectangularGroove,
+    RoundGroove,
+    ShoulderFillet,
+    SmoothPlace,
+    Spline,
+)
 from drivewright.shafts.strength_sections import ASSUMED_FILLET, assumed_fillets, section_at, shaft_sections
 
 pytestmark = pytest.mark.analytical
@@ -202,6 +212,12 @@ def test_every_step_every_notch_and_a_smooth_place_of_every_segment():
         "fillet radii are assumed, 0.02 of the smaller diameter: shoulder_2 (0.8 mm). Give fillet_radius."
     )
     assert assumed_fillets(shaft_sections(model(), (), diagram(model()), (1 * MM,) * 3)) is None
+
+
+def test_a_notch_without_a_length_is_where_it_is():
+    notches = [Keyway("key", 0.2), PressFit("hub", 0.2), Spline("teeth", 0.2)]
+    found = by_name(shaft_sections(model(), notches, diagram(model())))
+    assert [found[notch.name].notch for notch in notches] == notches
 
 
 def test_nominal_stresses_of_the_sections():

@@ -165,6 +165,10 @@ def test_elastic_factors_know_no_metre(notch):
     assert kt(scaled(notch, 7.0), 7 * 0.05, 7 * 0.01) == pytest.approx(kt(notch, 0.05, 0.01), rel=1e-12)
 
 
+def test_a_smooth_place_has_no_factor():
+    assert kt(SmoothPlace("s", 0.1)) == (1, 1, 1) and measured_factors(SmoothPlace("s", 0.1), 0.05, STRONG) is None
+
+
 def test_the_net_section_and_the_root():
     assert [net_diameter(notch, 0.05) for notch in ELASTIC] == pytest.approx([0.04, 0.046, 0.05, 0.05])
     assert [net_diameter(notch, 0.05) for notch in MEASURED] == pytest.approx([0.05, 0.05, 0.05, 0.048])
