@@ -13,7 +13,7 @@ from pydantic import BeforeValidator
 
 from drivewright.bearings.ball import BallBearing
 from drivewright.bearings.catalogue_entry import Entry
-from drivewright.bearings.designated_entry import designated_entry, with_clearance
+from drivewright.bearings.designated_entry import as_designated, designated_entry
 from drivewright.bearings.designation import UnknownDesignation, parse_designation, similar_designations
 from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import InputError, SpecError
@@ -49,8 +49,7 @@ def entry(name: str, catalogue: str | Path | None = None) -> Entry:
     designation = parse_designation(name)
     if designation is None:
         raise UnknownDesignation(name, known, similar_designations(name, known))
-    found = known[designation.name] if designation.name in known else designated_entry(designation)
-    return with_clearance(found, designation)
+    return as_designated(known[designation.name], designation) if designation.name in known else designated_entry(designation)
 
 
 def replace_catalogue_values(

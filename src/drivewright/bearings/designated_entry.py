@@ -39,14 +39,18 @@ ESTIMATED = {
 }
 
 
-@lru_cache(maxsize=512)
 def designated_entry(designation: BasicDesignation) -> Entry:
     """The `Entry` of a designation of a known series and size; ratings are filled in, and sources flag what is estimated."""
+    return as_designated(_plain_entry(designation._replace(clearance="", unread="")), designation)
+
+
+@lru_cache(maxsize=512)
+def _plain_entry(designation: BasicDesignation) -> Entry:
     kind, size = designation.kind, _dimensions(designation)
     angle = size.contact_angle or float(np.radians(designation.angle))
     bearing = bearing_of_geometry(_geometry(designation, size, angle), angle)
     return Entry(
-        description=f"{WORDS[kind]}{unread_text(designation)}",
+        description=WORDS[kind],
         bore=SI(size.bore),
         outer_diameter=SI(size.outer_diameter),
         width=SI(size.width),
@@ -56,20 +60,28 @@ def designated_entry(designation: BasicDesignation) -> Entry:
     )
 
 
-def with_clearance(entry: Entry, designation: BasicDesignation) -> Entry:
-    """The entry with the clearance of the designation's class: the middle of its range before the bearing is mounted.
+def as_designated(entry: Entry, designation: BasicDesignation) -> Entry:
+    """An entry with what the letters of its designation say: the clearance of its class, and which of them are not read.
 
-    Fits and temperature take most of it away: give radial_clearance where it counts.
+    The clearance is the middle of the range before the bearing is mounted.  Fits and temperature take most of it away: give
+    radial_clearance where it counts.
     """
-    kind, clearance_class = designation.kind, designation.clearance
-    limits = clearance_range(kind, entry.bore, clearance_class) if clearance_class and entry.bore else None
+    unread = unread_text(designation)
+    changes = _with_clearance(entry, designation) | ({"description": f"{entry.description}{unread}"} if unread else {})
+    return entry.model_copy(update=changes) if changes else entry
+
+
+def _with_clearance(entry, designation):
+    """What the clearance class changes: the bearing, and the sources where the entry has any."""
+    clearance_class = designation.clearance
+    limits = clearance_range(designation.kind, entry.bore, clearance_class) if clearance_class and entry.bore else None
     if limits is None:
-        return entry
+        return {}
     text = f"middle of class {clearance_class} of ISO 5753-1 before mounting, {1e6 * limits[0]:g} to {1e6 * limits[1]:g} um"
     source = Source(keys=("radial_clearance",), flag="read", text=f"{text}: NSK's and SKF's tables")
     bearing = entry.bearing.model_copy(update={"radial_clearance": sum(limits) / 2})
     others = tuple(each for each in entry.sources if "radial_clearance" not in each.keys)
-    return entry.model_copy(update={"ball" if entry.ball else "roller": bearing, "sources": (*others, source) if others else ()})
+    return {"ball" if entry.ball else "roller": bearing, "sources": (*others, source) if others else ()}
 
 
 def unread_text(designation: BasicDesignation) -> str:
