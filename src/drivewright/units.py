@@ -123,7 +123,7 @@ litre = 1e-3 * metre ** 3 = l = L
 
 NUMBER = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,9})?)\s*(.*?)\s*$", re.DOTALL)
 WORD = "[A-Za-z\u00b5\u03bc\u00b0]+"  # letters, both micro signs, degree sign
-PATTERN = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^\s0-9].*$"  # the same for editors: a number and a unit
+PATTERN = r"^\s*[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*([^\s0-9]|1\s*/).*$"  # the same for editors: a number and a unit
 # What may reach pint's parser: units, one-digit powers of units, products, quotients, and 1 as in 1/min.
 EXPRESSION = re.compile(rf"(?:{WORD}(?:\^[+-]?[0-9](?:\.[0-9])?)?|1(?![0-9.])|[\s*/()])+")
 # {kind that is wanted: {unit of another kind: the unit that it is read as}}: usual in drawings, and of one reading there.
@@ -317,7 +317,8 @@ class Dimension:
 
     def shown_unit(self, system: System) -> str:
         """The unit in which a system of units shows it."""
-        return {"mm": self.display_unit, "si": self.unit, "inch": self.inch or self.display_unit}[system]
+        si = self.unit.removeprefix("delta")
+        return {"mm": self.display_unit, "si": si, "inch": self.inch or self.display_unit}[system]
 
     @property
     def described(self) -> str:

@@ -196,10 +196,7 @@ def comparison_content(comparison: DesignComparison, remarks: Sequence[str] = ()
         "identical": [identical_text(group) for group in comparison.identical],
         "designs": [_design(*each) for each in zip(results, labels, verdicts, range(len(labels)), strict=True)],
         "headline": [_value_row(comparison, name) for name in headline],
-        "checks": [
-            _check_row(name, results, comparison.system)
-            for name in dict.fromkeys(check.name for result in results for check in result.checks)
-        ],
+        "checks": [_check_row(name, results, comparison.system) for name in checks],
         "keys": [_key_row(row) for row in keys[:MOST_KEYS]],
         "more_keys": max(len(keys) - MOST_KEYS, 0),
         "values": rows,

@@ -60,7 +60,7 @@ export function createPainter(scene) {
   }
 
   function grid(context, view, origin, colours) {
-    const step = nice(190 / view.scale), fine = nice(step / 4);
+    const [factor] = scene.length ?? [1], step = nice(190 / view.scale * factor) / factor, fine = nice(step / 4 * factor) / factor;
     for (const [spacing, colour] of [[fine, colours.grid], [step, colours["grid-strong"]]]) {
       context.beginPath();
       const [x0, y0, x1, y1] = view.window();

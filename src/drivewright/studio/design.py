@@ -42,6 +42,10 @@ class Design:
             raise _not_here()
         return spec
 
+    def spec_on_screen(self) -> MechanismSpec:
+        """The same shown in millimetres: the studio's own fields, sliders and scales are; files are written in the units of the spec."""
+        return self.spec().model_copy(update={"units": "mm"})
+
     def toml(self) -> str:
         """The tables as TOML text, data files as the user named them."""
         return self._toml

@@ -32,7 +32,7 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
 
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
-    spec = design.spec()
+    spec = design.spec_on_screen()
     model = runner.build(spec)
     scene, remarks = _scene(spec, model)
     send(json.dumps({"scene": pack_scene(scene) if scene else None, "remarks": remarks}, allow_nan=False))
@@ -52,7 +52,7 @@ def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] =
         send((*place[0], ""))
         began.append((name, time.perf_counter()))
 
-    spec = design.spec()
+    spec = design.spec_on_screen()
     compilation = Compilation(spec.mechanism, lambda: send((*place[0], compilation.words)))
     with watched_by(compilation):
         model = runner.build(spec)

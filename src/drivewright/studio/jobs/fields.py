@@ -32,7 +32,7 @@ def fields(design: Design, progress: Progress, analysis: str = "", run: bool = F
     kept: folder of the results that earlier runs have left.  UnknownName for an analysis without fields, MissingExtra without finite
     elements, InputError with the reason where the analysis is left out or fails.
     """
-    spec = design.spec()
+    spec = design.spec_on_screen()
     mechanism = registry.mechanism(spec.mechanism)
     known = {each.name: each for each in mechanism.analyses if each.fields}
     if analysis not in known:

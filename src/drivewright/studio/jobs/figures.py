@@ -23,7 +23,7 @@ def figures(
     {"figures": [{"name", "title", "svg"}], "requests": [{"name", "meaning", "missing"}] analyses that run on request and have not,
     "findings"}.  `analyses` names those to run besides the default ones; kept: folder of the results that earlier runs have left.
     """
-    spec = design.spec()
+    spec = design.spec_on_screen()
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
     default = tuple(analysis.name for analysis in mechanism.analyses if analysis.default)
     with detailed(progress) as step:

@@ -34,7 +34,7 @@ def optimise(
     [number of designs, best value so far in the unit people read or None, least violation of the requirements so far].
     """
     free, left_out = _freed(design, locks)
-    problem = prepare(free.spec())
+    problem = prepare(free.spec_on_screen())
     kept = Memory()
     outcome = run_search(problem, kept, workers, on, Live(progress, lambda: _so_far(problem, kept)))
     return _search_summary(design, outcome, left_out, theme)

@@ -47,7 +47,7 @@ def sensitivity(
     its margin per per cent of the key; of a value its own change in per cent per per cent.  Where the value is 0 the change itself; where
     the key is 0 its step stands for one per cent.
     """
-    spec = design.spec()
+    spec = design.spec_on_screen()
     keys = {key: found for key, found in numeric(design, spec).items() if not is_locked(design.tables, key, locks)}
     if not keys:
         raise SpecError("no number of this design is free to change; unlock some")

@@ -54,7 +54,7 @@ def study(
     [{"name", "objectives": [{"name", "goal"}], "rows"}], "statements", "figures", "failed", "total"}.  A check is told by its margin.
     Of more than `MOST_ROWS` cases an even part is told, and every case on a front.
     """
-    spec = with_options(design.spec(), vary, samples=samples, method=method)
+    spec = with_options(design.spec_on_screen(), vary, samples=samples, method=method)
     if spec.study is None or not (spec.study.vary or spec.study.points):
         raise SpecError(_remedy(design), "study.vary")
     plan = make_plan(spec)
