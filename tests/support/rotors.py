@@ -21,7 +21,7 @@ def disc(place, outer, inner, width, density):
 
 
 def two_discs(stiffness, damping):
-    """Friswell, Penny, Garvey & Lees, Dynamics of Rotating Machines 2010, example 5.9.1, as ROSS' documentation has it, on bearings alike."""
+    """Friswell, Penny, Garvey & Lees, Dynamics of Rotating Machines 2010, example 5.9.1, as ROSS' documentation has it."""
     bearings = [[place, stiffness, damping] for place in (0.0, 1.5)]
     discs = [disc(place, outer, 0.05, 0.07, 7810.0) for place, outer in ((0.5, 0.28), (1.0, 0.35))]
     return STEEL | {

@@ -28,7 +28,7 @@ _WHERE = {
     "assembly": ("ShaftSystem", "assemble", "refuse_mechanism", "nodal_forces"),
     "equilibrium": ("ShaftEquilibrium", "solve"),
     "influence": ("Flexibility", "flexibility", "stiffness"),
-    "loaded": ("Diagram", "LoadedShaft", "ShaftLoads", "diagram", "largest_displacement", "apply_loads", "forces_along"),
+    "loaded": ("Diagram", "LoadedShaft", "ShaftLoads", "diagram", "largest_displacement", "apply_loads", "forces_along", "scaled_loads"),
     "loads": ("ToothForces", "are_coplanar", "slope_in_plane_of_action", "tooth_forces", "tooth_load", "transverse_direction"),
     "mode_shapes": ("PlanarShape", "first_mode_along", "massless_frequencies", "planar_shape"),
     "strength": ("LimitLoad", "limit_loads"),

@@ -37,6 +37,17 @@ def forces_along(loads: ShaftLoads, direction: Floats, count: int) -> Iterator[t
             yield load.start + share * (load.end - load.start), float(np.dot(direction, force))
 
 
+def scaled_loads(loads: ShaftLoads, factor: float) -> ShaftLoads:
+    """The loads with all forces and moments times a factor; the weight stays."""
+
+    def scaled(vector: tuple[float, ...]) -> tuple[float, ...]:
+        return tuple(factor * each for each in vector)
+
+    points = tuple(load._replace(force=scaled(load.force), moment=scaled(load.moment)) for load in loads.points)
+    lines = tuple(load._replace(first=scaled(load.first), last=scaled(load.last)) for load in loads.lines)
+    return loads._replace(points=points, lines=lines)
+
+
 class LoadedShaft(NamedTuple):
     """A `ShaftEquilibrium`, and what loads it: per length in both planes, coefficients (2, n-1, 3) over the pieces; at points (6n,);
     and all as forces (size,) on the unknowns."""

@@ -456,7 +456,7 @@ def test_drawing_and_solid_have_the_volume_of_the_shaft():
     assert isinstance(part.solids[0], scene.Turned)
 
 
-def test_basic_life_is_there_only_under_a_radial_load():
+def test_basic_life_counts_the_axial_load_too():
     rated = {"dynamic_rating": "4.03 kN"}
     places = (("A", "56.5 mm"), ("B", "136.5 mm"))
     free = [{"name": n, "position": z, "geometry": BALLS | rated, "free": ["axial", "tilt"]} for n, z in places]
@@ -469,7 +469,9 @@ def test_basic_life_is_there_only_under_a_radial_load():
             loads=[{"station": "m2", "force": "500 N", "axial_force": "600 N"}],
         )
     )
-    assert "bearings.A.basic_life" not in pushed.values and "bearings.A.reference_life" in pushed.values
+    load = pushed["bearings.A.equivalent_load"]
+    assert pushed["bearings.A.basic_life"] == pytest.approx(1e6 * (4030 / load) ** 3, rel=1e-6)
+    assert load > pushed["bearings.A.radial_force"] and "bearings.A.reference_life" in pushed.values
 
 
 def test_one_bore_through_several_segments_is_drawn_as_one():

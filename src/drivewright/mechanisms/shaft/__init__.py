@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.shaft import frequencies, influence, rolling, rotation, sensitivity, solid, statics
+from drivewright.mechanisms.shaft import frequencies, influence, rolling, rotation, sensitivity, solid, statics, strength
 from drivewright.mechanisms.shaft.build import build
 from drivewright.mechanisms.shaft.claims import claims
 from drivewright.mechanisms.shaft.designs import batch
@@ -25,6 +25,7 @@ ANALYSES = (
         missing=influence.no_stations,
     ),
     Analysis("failure", influence.failure, "what fails first", needs=("statics", "flexibility"), missing=influence.no_strength),
+    Analysis("strength", strength.strength, "fatigue and yield of every section", needs=("statics",), missing=strength.no_strength),
     Analysis("modes", frequencies.frequencies, "natural frequencies and critical speeds", needs=("statics",), missing=frequencies.no_modes),
     Analysis("whirl", rotation.whirl, "whirl at speed, Campbell diagram, stability", needs=("statics", "modes"), missing=rotation.no_whirl),
     Analysis(
@@ -66,7 +67,13 @@ HEADLINE = (
     "shaft.max_stress",
     "stations.*.allowed_load",
     "bearings.*.max_pressure",
+    "bearings.*.basic_life.time",
+    "bearings.*.reference_life.time",
+    "bearings.*.modified_life.time",
+    "bearings.*.basic_life",
     "bearings.*.reference_life",
+    "shaft.system_*.time",
+    "strength.min_safety",
     "solid.deviation",
 )
 

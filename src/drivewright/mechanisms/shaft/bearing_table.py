@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from drivewright.bearings.ball import BallBearing
 from drivewright.bearings.catalogue import Designation
+from drivewright.bearings.envelope import Envelope
 from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import UnitError
 from drivewright.spec import DataFile, Name, Spec
@@ -71,6 +72,7 @@ class Bearing(Spec):
     bearing: Designation | None = Field(None, description="designation in the catalogue instead, e.g. 61804", examples=["61804"])
     geometry: BallBearing | None = Field(None, description="inner geometry of a ball bearing instead")
     roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing instead")
+    envelope: Envelope | None = Field(None, description="a rolling bearing by its type, boundary dimensions and ratings alone instead")
     radial_clearance: Length | None = Field(
         None,
         description="play across the diameter, counted as for rolling bearings: of a rolling "

@@ -45,6 +45,11 @@ class ShaftModel:
         return [station.position for station in self.shaft.stations]
 
     @property
+    def sprung(self) -> frozenset[str]:
+        """Names of the bearings that are linear springs, whatever carries them."""
+        return frozenset(b.name for b in self.spec.bearings if not is_rolling(b) and not b.table and not b.radial_clearance)
+
+    @property
     def turning_parts(self) -> tuple[Carried, ...]:
         """Stations, and the gears that have a mass or an unbalance: what an unbalance moves."""
         return (*self.spec.stations, *(gear for gear in self.spec.gears if gear.mass or gear.unbalance))
@@ -138,13 +143,21 @@ def _damping(bearing: Bearing) -> shafts.Damping:
 
 def rolling_bearing(spec: ShaftSpec, bearing: Bearing) -> BallBearing | RollerBearing:
     """The rolling bearing of a table, with the clearance and the ratings that stand there in place of its own."""
-    found = bearing.geometry or bearing.roller_geometry
-    if found is None:
-        try:
-            found = bearings.bearing(str(bearing.bearing), spec.catalogue)
-        except InputError as error:
-            raise SpecError(str(error), f"bearings.{bearing.name}.bearing") from None
+    found = bearing.geometry or bearing.roller_geometry or _named_or_estimated(spec, bearing)
     return bearings.replace_catalogue_values(found, bearing.radial_clearance, bearing.dynamic_rating, bearing.static_rating)
+
+
+def _named_or_estimated(spec: ShaftSpec, bearing: Bearing) -> BallBearing | RollerBearing:
+    """The bearing of a designation, or of an envelope."""
+    where = f"bearings.{bearing.name}"
+    try:
+        if bearing.envelope is not None:
+            return bearings.bearing_of_envelope(bearing.envelope)
+        return bearings.bearing(str(bearing.bearing), spec.catalogue)
+    except SpecError as error:
+        raise error.located(f"{where}.envelope.{error.key}" if bearing.envelope else error.key) from None
+    except InputError as error:
+        raise SpecError(str(error), f"{where}.bearing") from None
 
 
 # -- loads ---------------------------------------------------------------------------------------------------------------------

@@ -1,20 +1,21 @@
 """What has no meaning, refused by name; what can be computed is left to the checks."""
 
+from drivewright.bearings.load_spectrum import WHOLE
 from drivewright.errors import SpecError, nearest
 from drivewright.mechanisms.shaft.bearing_table import Bearing
-from drivewright.mechanisms.shaft.tables import ShaftTables
+from drivewright.mechanisms.shaft.tables import DutyCase, ShaftTables
 
 NEAR = 1e-9  # of the shaft's length: the same place
 TAKEN = {"bearings": ("bending", "shear", "tension", "total", "entry"), "stations": ("z",)}  # columns of our own
-SPRINGS = ("radial_stiffness", "stiffness_xx", "table", "bearing", "geometry", "roller_geometry")
+SPRINGS = ("radial_stiffness", "stiffness_xx", "table", "bearing", "geometry", "roller_geometry", "envelope")
 PLANES = ("stiffness_xx", "stiffness_yy")
 CROSS = ("stiffness_xy", "stiffness_yx")
-ROLLING = ("bearing", "geometry", "roller_geometry")
+ROLLING = ("bearing", "geometry", "roller_geometry", "envelope")
 
 
 def refuse_nonsense(spec: ShaftTables) -> None:
     """SpecError for the first thing that has no meaning."""
-    for check in (_names, _places, _stations_of_loads, _analysis):
+    for check in (_names, _places, _stations_of_loads, _analysis, _duty):
         check(spec)
 
 
@@ -37,7 +38,7 @@ def _segments(spec):
 
 
 def _names(spec):
-    for table in ("bearings", "stations", "gears"):
+    for table in ("bearings", "stations", "gears", "notches"):
         names = [entry.name for entry in getattr(spec, table)]
         for number, name in enumerate(names):
             if name in TAKEN.get(table, ()):
@@ -56,9 +57,8 @@ def _names(spec):
 def _places(spec):
     """Everything stands on the shaft; no two bearings and no two stations at one place."""
     far = spec.length
-    wanted = [
-        (f"{table}.{entry.name}.position", entry.position) for table in ("bearings", "stations", "gears") for entry in getattr(spec, table)
-    ]
+    tables = ("bearings", "stations", "gears", "notches")
+    wanted = [(f"{table}.{entry.name}.position", entry.position) for table in tables for entry in getattr(spec, table)]
     wanted += [(f"loads.{number}.position", load.position) for number, load in enumerate(spec.loads) if load.position is not None]
     wanted += [
         (f"line_loads.{number}.{end}", getattr(load, end)) for number, load in enumerate(spec.line_loads) for end in ("start", "end")
@@ -146,6 +146,22 @@ def _analysis(spec):
     given = spec.analysis.shear_coefficient
     if not isinstance(given, str) and not 0 < given <= 1:
         raise SpecError(f'must lie above 0 and at most 1, got {given:g}; or write "cowper"', "analysis.shear_coefficient")
+
+
+def _duty(spec):
+    total = sum(case.share for case in spec.duty)
+    if spec.duty and abs(total - 1) > WHOLE:
+        raise SpecError(f"the shares of the time sum to {total:.6g}; together they are 1", "duty")
+    if spec.drive is None and any(case.speed is None for case in spec.duty):
+        number = next(n for n, case in enumerate(spec.duty) if case.speed is None)
+        raise SpecError("is missing, and there is no [drive] speed it could be", f"duty.{number}.speed")
+    if spec.duty and not any(duty_speed(spec, case) for case in spec.duty):
+        raise SpecError("nothing turns in it; give one of its cases a speed", "duty")
+
+
+def duty_speed(spec: ShaftTables, case: DutyCase) -> float:
+    """Speed [rad/s] of the shaft in a case of its duty cycle."""
+    return case.speed if case.speed is not None else spec.drive.speed if spec.drive else 0.0
 
 
 def _mm(length):

@@ -2,7 +2,9 @@
 
 from typing import Literal
 
+from drivewright.bearings.lubricant import Lubrication
 from drivewright.mechanisms.shaft.bearing_table import Bearing
+from drivewright.mechanisms.shaft.strength_tables import NotchTable, StrengthTable
 from drivewright.spec import DataFile, Integer, MechanismSpec, Name, Number, Spec, Text
 from drivewright.spec.fields import Field
 from drivewright.units import (
@@ -36,6 +38,12 @@ class Material(Spec):
     yield_strength: Pressure | None = Field(
         None, gt=0, description="yield strength, for stress checks; of the card, else none", examples=["355 MPa"]
     )
+    tensile_strength: Pressure | None = Field(
+        None, gt=0, description="tensile strength, for fatigue; of the card by the bar's diameter, else none", examples=["600 MPa"]
+    )
+    bar_diameter: Length | None = Field(
+        None, gt=0, description="diameter of the bar that was heat-treated; the largest of the shaft unless given", examples=["60 mm"]
+    )
 
 
 class Segment(Spec):
@@ -45,6 +53,12 @@ class Segment(Spec):
     diameter: Length = Field(gt=0, description="outer diameter, at the left end where it is a cone", examples=["20 mm"])
     end_diameter: Length | None = Field(None, gt=0, description="outer diameter at the right end of a cone", examples=["24 mm"])
     bore: Length = Field("0 mm", ge=0, description="diameter of the hole through it")
+    fillet_radius: Length | None = Field(
+        None,
+        gt=0,
+        description="radius of the fillet at the step to the next segment; 0.02 of the smaller diameter unless given",
+        examples=["1 mm"],
+    )
 
 
 class Carried(Spec):
@@ -116,6 +130,15 @@ class Drive(Spec):
     )
 
 
+class DutyCase(Spec):
+    """A part of the duty cycle."""
+
+    name: Name | None = Field(None, description="name", examples=["roughing"])
+    share: Number = Field(gt=0, le=1, description="share of the time; all together are 1", examples=[0.25])
+    load: Number = Field(1.0, ge=0, description="factor on all loads and gears; weight and preload stay")
+    speed: Speed | None = Field(None, ge=0, description="speed of the shaft; that of [drive] unless given", examples=["3000 rpm"])
+
+
 class Analysis(Spec):
     """How it is computed."""
 
@@ -149,11 +172,13 @@ class Limits(Spec):
     deflection: Length | None = Field(None, gt=0, description="of every station and gear", examples=["0.1 mm"])
     gear_slope: Angle | None = Field(None, gt=0, description="of the shaft at every gear", examples=["2 arcmin"])
     slope: Angle | None = Field(None, gt=0, description="of the shaft at every bearing", examples=["4 arcmin"])
-    yield_safety: Number = Field(1.0, gt=0, description="yield strength over the largest von Mises stress")
+    yield_safety: Number = Field(1.0, gt=0, description="yield strength over the largest von Mises stress, nominal and at notches")
+    fatigue_safety: Number = Field(1.2, gt=0, description="of every section against fatigue")
     static_safety: Number = Field(
         1.0, gt=0, description="static rating of a bearing over its load; of a rolling bearing by its contact pressure"
     )
     life: Time | None = Field(None, gt=0, description="reference life of every rolling bearing", examples=["20000 h"])
+    modified_life: Time | None = Field(None, gt=0, description="modified life of every rolling bearing", examples=["20000 h"])
     shock_factor: Number = Field(1.0, ge=1, description="shock over steady load, for yield, static safety and what fails first")
     buckling: Number = Field(3.0, gt=0, description="axial force at which the shaft buckles over the axial force")
     largest_slope: Angle = Field(
@@ -186,6 +211,10 @@ class ShaftTables(MechanismSpec):
     line_loads: tuple[LineLoad, ...] = Field((), description="loads along the shaft")
     gears: tuple[Gear, ...] = Field((), description="gears")
     drive: Drive | None = Field(None, description="turning of the shaft")
+    duty: tuple[DutyCase, ...] = Field((), description="duty cycle of loads and speeds, for the lives of the bearings")
+    lubrication: Lubrication = Field(Lubrication(), description="lubricant of the rolling bearings")
+    notches: tuple[NotchTable, ...] = Field((), description="notches beside the steps")
+    strength: StrengthTable = Field(StrengthTable(), description="what the shaft goes through, for its fatigue")
     analysis: Analysis = Field(Analysis(), description="analysis")
     limits: Limits = Field(Limits(), description="requirements")
 

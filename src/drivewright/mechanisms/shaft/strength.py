@@ -1,0 +1,66 @@
+"""Fatigue and yield of every section of the shaft."""
+
+from collections.abc import Iterator
+
+from drivewright import materials, shafts
+from drivewright.errors import InputError
+from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.spec import ShaftSpec
+from drivewright.mechanisms.shaft.statics import SAMPLES
+from drivewright.result import Answer, Answers, Check, Value
+
+
+def no_strength(spec: ShaftSpec) -> str | None:
+    """Why nothing can be said of the strength."""
+    return materials.no_strength_reason(*_given(spec))
+
+
+def _given(spec):
+    """(card, diameter of the bar [m], tensile and yield strength [Pa] as given)."""
+    material = spec.material
+    return material.card, bar_diameter(spec), material.tensile_strength, material.yield_strength
+
+
+def bar_diameter(spec: ShaftSpec) -> float:
+    """Diameter [m] of the bar that the shaft is made from: as given, else its largest."""
+    largest = max(max(segment.diameter, segment.end_diameter or 0.0) for segment in spec.segments)
+    return spec.material.bar_diameter or largest
+
+
+def strength(model: ShaftModel, done: Answers) -> Answer:
+    """Safety of every section against fatigue and yield under the loads."""
+    spec, loaded = model.spec, done["statics"].data
+    if not model.loaded:
+        return Answer(findings=("strength is absent: there are no loads",), outcome="left out")
+    given = materials.given_strength(*_given(spec))
+    service = shafts.Service(spec.strength.torsion, spec.limits.shock_factor, spec.strength.surface, spec.strength.reliability)
+    radii = [segment.fillet_radius for segment in spec.segments[:-1]]
+    notches = [notch.notch() for notch in spec.notches]
+    try:
+        sections = shafts.shaft_sections(model.shaft, notches, shafts.diagram(loaded, SAMPLES), radii)
+        rows = [shafts.strength_at(section, given, service) for section in sections]
+    except InputError as error:
+        return Answer(findings=(f"strength is absent: {error}",), outcome="left out")
+    values = shafts.strength_values(rows)
+    if not values:
+        return Answer(findings=("strength is absent: the loads do not stress the shaft",))
+    values |= _material_values(given)
+    assumed = shafts.assumed_fillets(sections)
+    tables = (shafts.strength_table(rows), shafts.haigh_table(rows, given))
+    return Answer(values, tables, tuple(_checks(spec, values)), (assumed,) if assumed else ())
+
+
+def _material_values(given: materials.Strength) -> dict[str, Value]:
+    return {
+        "strength.tensile_strength": Value(given.tensile, "Pa", "tensile strength that the shaft is judged with"),
+        "strength.yield_strength": Value(given.yield_strength, "Pa", "yield strength that the shaft is judged with"),
+    }
+
+
+def _checks(spec: ShaftSpec, values: dict[str, Value]) -> Iterator[Check]:
+    where = values["strength.min_safety"].meaning.partition(", at ")[2]
+    for key, limit, words in (
+        ("fatigue_safety", spec.limits.fatigue_safety, "least safety of a section against fatigue"),
+        ("static_safety", spec.limits.yield_safety, "least safety of a section against yield, with its notch factors, at the shock load"),
+    ):
+        yield Check.of(values[f"strength.{key}"], f"strength.{key}", limit, ">=", f"{words}; the weakest is {where}", ("shaft",))

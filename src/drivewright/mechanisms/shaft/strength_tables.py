@@ -1,0 +1,76 @@
+"""What the user says of the strength of a shaft: its notches, and what it goes through."""
+
+from typing import Literal
+
+from pydantic import model_validator
+
+from drivewright import shafts
+from drivewright.errors import SpecError
+from drivewright.spec import Integer, Name, Number, Spec
+from drivewright.spec.fields import Field
+from drivewright.units import Length
+
+NotchKind = Literal["round-groove", "retaining-ring", "cross-hole", "keyway", "press-fit", "spline"]
+WANTED: dict[str, tuple[str, ...]] = {
+    "round-groove": ("depth", "radius"),
+    "retaining-ring": ("depth", "width", "radius"),
+    "cross-hole": ("diameter",),
+    "keyway": (),
+    "press-fit": (),
+    "spline": (),
+}
+LONG = ("keyway", "press-fit", "spline")  # kinds with a length
+OWN = {"keys": ("keyway",), "form": ("spline",), "length": LONG}  # keys of some kinds that have a default
+
+
+class NotchTable(Spec):
+    """A notch of the shaft beside its steps: groove, hole, keyway, press fit or spline."""
+
+    name: Name = Field(description="name", examples=["ring"])
+    kind: NotchKind = Field(description="what it is", examples=["keyway"])
+    position: Length = Field(description="distance from the left end of the shaft; of what has a length its left end", examples=["100 mm"])
+    length: Length = Field("0 mm", ge=0, description="length of a keyway, press fit or spline: it is judged where the stress is largest")
+    depth: Length | None = Field(None, gt=0, description="depth of a groove", examples=["1.5 mm"])
+    width: Length | None = Field(None, gt=0, description="width of a retaining-ring groove", examples=["1.6 mm"])
+    radius: Length | None = Field(None, gt=0, description="radius of a groove's bottom, or of its corners", examples=["0.2 mm"])
+    diameter: Length | None = Field(None, gt=0, description="diameter of a cross hole", examples=["5 mm"])
+    keys: Integer = Field(1, ge=1, le=2, description="number of keyways around the shaft")
+    form: Literal["straight", "serrated", "involute"] = Field("involute", description="flanks of a spline")
+
+    @model_validator(mode="after")
+    def _has_what_its_kind_wants(self):
+        for key in ("depth", "width", "radius", "diameter"):
+            wanted = key in WANTED[self.kind]
+            if wanted and getattr(self, key) is None:
+                raise SpecError(f"is missing: a {self.kind} wants {', '.join(WANTED[self.kind])}", key)
+            if not wanted and getattr(self, key) is not None:
+                raise SpecError(f"does not belong to a {self.kind}; leave it out", key)
+        for key, kinds in OWN.items():
+            if key in self.model_fields_set and self.kind not in kinds:
+                raise SpecError(f"belongs to a {' or '.join(kinds)}, not to a {self.kind}; leave it out", key)
+        return self
+
+    def notch(self) -> shafts.Notch:
+        """The notch in plain data."""
+        at = (self.name, self.position)
+        if self.kind == "round-groove":
+            return shafts.RoundGroove(*at, self.depth or 0.0, self.radius or 0.0)
+        if self.kind == "retaining-ring":
+            return shafts.RectangularGroove(*at, self.depth or 0.0, self.width or 0.0, self.radius or 0.0)
+        if self.kind == "cross-hole":
+            return shafts.CrossHole(*at, self.diameter or 0.0)
+        if self.kind == "keyway":
+            return shafts.Keyway(*at, self.length, self.keys)
+        if self.kind == "press-fit":
+            return shafts.PressFit(*at, self.length)
+        return shafts.Spline(*at, self.length, self.form)
+
+
+class StrengthTable(Spec):
+    """What the shaft goes through, for its fatigue."""
+
+    torsion: Literal["constant", "pulsating", "alternating"] = Field(
+        "constant", description="how the torque acts; pulsating: from 0 to its value again and again, as where a drive starts and stops"
+    )
+    surface: Literal["ground", "machined", "hot-rolled", "forged"] = Field("machined", description="surface of the shaft")
+    reliability: Number = Field(0.99, ge=0.5, lt=1, description="reliability of the endurance limit")
