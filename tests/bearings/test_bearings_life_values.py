@@ -92,6 +92,9 @@ def test_what_an_idle_or_an_unrated_bearing_has():
     idle = solve(BALLS, displacement=np.zeros(5))
     assert set(life_values("A", idle, SPEED)) == {"bearings.A.viscosity_ratio"}
     assert "bearings.A.static_rating_safety" not in load_values("A", idle)
+    slight = solve(BALLS, force=[0.3, 0, 0, 0, 0])
+    assert life_values("A", slight)["bearings.A.basic_life"].value == pytest.approx(1e6 * (29100 / 0.3) ** 3, rel=1e-9)
+    assert "bearings.A.static_rating_safety" in load_values("A", slight)
     bare = solve(BALLS.replace(dynamic_rating=None), force=[2000, 0, 1500, 0, 0])
     assert set(life_values("A", bare, SPEED)) == {"bearings.A.equivalent_load"}
     assert list(bearing_findings("A", bare, SPEED)) == ["life of bearing 'A' is absent: it has no dynamic_rating"]

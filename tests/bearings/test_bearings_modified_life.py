@@ -196,6 +196,7 @@ def test_the_lubricant_of_a_spec():
     assert operating_viscosity(Lubrication()) == grade_viscosity("ISO VG 68", 343.15)
     assert operating_viscosity(Lubrication(grade="ISO VG 100", temperature="40 degC")) == pytest.approx(100e-6, rel=1e-12)
     assert operating_viscosity(Lubrication(viscosity="20 mm^2/s")) == pytest.approx(20e-6, rel=1e-12)
+    assert Lubrication(temperature="-20 degC").temperature == 253.15 and Lubrication(temperature="150 degC").temperature == 423.15
     cooler, hotter = (operating_viscosity(Lubrication(temperature=f"{t} degC")) for t in (60, 80))
     assert hotter < operating_viscosity(Lubrication()) < cooler
 
@@ -237,7 +238,8 @@ def test_what_is_assumed_is_told():
         ({"viscosity": "20 mm^2/s", "temperature": "60 degC", "grade": "ISO VG 46"}, "in place of grade and temperature"),
         ({"contamination_factor": 0.5, "contamination": "slight"}, "contamination_factor: stands in place of contamination"),
         ({"grade": "VG 46"}, "did you mean 'ISO VG 46'"),
-        ({"temperature": "200 degC"}, "at most 150 degC"),
+        ({"temperature": "150.1 degC"}, "at most 150 degC"),
+        ({"temperature": "-20.1 degC"}, "at least -20 degC"),
         ({"viscosity": "20 mPa s"}, "viscosity"),
         ({"reliability": 0.5}, "at least 0.9"),
         ({"contamination_factor": 1.2}, "at most 1"),
