@@ -144,8 +144,10 @@ def test_a_retaining_ring_groove_by_hand():
     expected = (0.9 * (1.27 + 1.17 * g), 0.9 * (1.14 + 1.08 * g), 1.48 + 0.45 * h)
     strength = STRONG._replace(yield_strength=500e6)
     assert measured_factors(groove, 0.0326, strength)[:3] == pytest.approx(expected, rel=1e-5)
-    narrow = measured_factors(groove._replace(width=1.3 * MM), 0.0326, strength)[:3]
-    assert narrow == pytest.approx([1.08 * each for each in expected], rel=1e-5)
+    narrow = measured_factors(groove._replace(width=1.04 * MM), 0.0326, strength)[:3]
+    assert narrow == pytest.approx([1.08 * 0.8**-0.2 * each for each in expected], rel=1e-5)
+    assert measured_factors(groove._replace(width=1.85 * MM), 0.0326, strength)[:3] == pytest.approx(expected, rel=1e-5)
+    assert measured_factors(groove._replace(width=1.79 * MM), 0.0326, strength)[:3] != pytest.approx(expected, rel=1e-5)
 
 
 # -- all of them ---------------------------------------------------------------------------------------------------------------
