@@ -39,6 +39,9 @@ def test_names_and_units():
     assert {key: value.unit for key, value in values.items()} == {f"bearings.A.{key}": unit for key, unit in wanted.items()}
     for value in [*values.values(), load_values("A", COMBINED)["bearings.A.static_rating_safety"]]:
         assert faults(label_of(value.meaning)) == ()
+    assert "X Fr + Y Fa by ISO 281, table 3" in values["bearings.A.equivalent_load"].meaning
+    assert "the radial force itself" in life_values("A", RADIAL)["bearings.A.equivalent_load"].meaning
+    assert "a1 a_ISO L10r" in values["bearings.A.modified_life"].meaning
     still = life_values("A", COMBINED)
     assert set(still) == {"bearings.A.equivalent_load", "bearings.A.basic_life", "bearings.A.reference_life"}
 

@@ -241,7 +241,8 @@ def test_what_is_assumed_is_told():
         ({"temperature": "150.1 degC"}, "at most 150 degC"),
         ({"temperature": "-20.1 degC"}, "at least -20 degC"),
         ({"viscosity": "20 mPa s"}, "viscosity"),
-        ({"reliability": 0.5}, "at least 0.9"),
+        ({"reliability": 0.89}, "at least 0.9"),
+        ({"reliability": 0.9996}, "at most 0.9995"),
         ({"contamination_factor": 1.2}, "at most 1"),
     ],
 )

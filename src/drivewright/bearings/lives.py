@@ -31,7 +31,7 @@ class RatingLives(NamedTuple):
 def rating_lives(state: BearingEquilibrium, speed: float | None = None, lubrication: Lubrication | None = None) -> RatingLives:
     """The `RatingLives` of a bearing at a speed [rad/s]; without one those that need none.
 
-    The modified life is a1 a_ISO L10r, with the load P_ref that gives L10r; where L10r is not known that of L10 and P.
+    The modified life is a1 a_ISO L10r, with the load P_ref that gives L10r.
     """
     bearing = state.bearing
     equivalent = equivalent_load(bearing, state.force)
@@ -39,15 +39,14 @@ def rating_lives(state: BearingEquilibrium, speed: float | None = None, lubricat
     if equivalent is not None:
         basic = basic_life(bearing, equivalent.load) if equivalent.load > 0 else np.inf
     basic, reference = (None if bearing.dynamic_rating is None else life for life in (basic, state.reference_life))
-    life = basic if reference is None else reference
     diameter = getattr(bearing, "pitch_diameter", None)  # a kind of one's own need not have one
-    if not speed or life is None or diameter is None:
+    if not speed or reference is None or diameter is None:
         return RatingLives(equivalent, basic, reference, None, None, None)
-    return RatingLives(equivalent, basic, reference, *_modified(bearing, life, speed, diameter, lubrication or Lubrication()))
+    return RatingLives(equivalent, basic, reference, *_modified(bearing, reference, speed, diameter, lubrication or Lubrication()))
 
 
 def _modified(bearing, life, speed, diameter, lubrication):
-    """(kappa, a_ISO, modified life [revolutions]) from the unmodified life [revolutions]; pitch diameter [m]."""
+    """(kappa, a_ISO, modified life [revolutions]) from the reference life [revolutions]; pitch diameter [m]."""
     contact = contact_of(bearing)
     kappa = operating_viscosity(lubrication) / reference_viscosity(speed, diameter)
     if not np.isfinite(life):

@@ -21,7 +21,7 @@ SLIDING = 1e-6  # axial over radial force below which a cylindrical roller beari
 LIVES = {
     "basic_life": ("basic life", "L10", "revolutions under the equivalent load P, ISO 281"),
     "reference_life": ("reference life", "L10r", "revolutions by the load on every rolling element, ISO/TS 16281"),
-    "modified_life": ("modified life", "Lnm", "revolutions with lubricant, contamination and reliability, ISO 281"),
+    "modified_life": ("modified life", "Lnm", "revolutions a1 a_ISO L10r: lubricant, contamination and reliability, ISO 281"),
 }
 
 
@@ -80,18 +80,17 @@ def _factor_text(lives: RatingLives) -> str:
 
 def _life_pairs(name: str, lives: RatingLives, speed: float | None) -> dict[str, Value]:
     """Each life that is finite, as revolutions and at a speed as time."""
-    values, base = {}, "L10" if lives.reference is None else "L10r"
+    values = {}
     for kind, life in (("basic_life", lives.basic), ("reference_life", lives.reference), ("modified_life", lives.modified)):
         if life is not None and np.isfinite(life):
-            values |= _life_pair(name, kind, life, life_duration(life, speed) if speed else None, base)
+            values |= _life_pair(name, kind, life, life_duration(life, speed) if speed else None)
     return values
 
 
-def _life_pair(name: str, kind: str, revolutions: float, time: float | None, base: str) -> dict[str, Value]:
-    """One life in revolutions and, where it is known, in time [s]; base: the life that a modified one modifies."""
+def _life_pair(name: str, kind: str, revolutions: float, time: float | None) -> dict[str, Value]:
+    """One life in revolutions and, where it is known, in time [s]."""
     key, (words, symbol, source) = f"bearings.{name}.{kind}", LIVES[kind]
-    on = f"{source}, a1 a_ISO {base}" if kind == "modified_life" else source
-    values = {key: Value(float(revolutions), REVOLUTIONS, f"{words} {symbol} of bearing {name!r}, {on}")}
+    values = {key: Value(float(revolutions), REVOLUTIONS, f"{words} {symbol} of bearing {name!r}, {source}")}
     if time is not None:
         values[f"{key}.time"] = Value(float(time), "s", f"{words} {symbol}h of bearing {name!r}, at the shaft's speed")
     return values
@@ -106,12 +105,11 @@ def spectrum_values(name: str, cases: Sequence[DutyCase], lubrication: Lubricati
     if not shares @ speeds > 0:
         return {}
     lives = [rating_lives(case.state, case.speed, lubrication) for case in cases]
-    base = "L10" if any(each.reference is None for each in lives) else "L10r"
     values = _mean_load_values(name, cases, lives)
     for kind, column in zip(LIVES, zip(*((each.basic, each.reference, each.modified) for each in lives), strict=True), strict=True):
         time = _spectrum_time(shares, speeds, column)
         if time is not None and np.isfinite(time):
-            values |= _life_pair(name, kind, time * mean_speed(shares, speeds) / (2 * np.pi), time, base)
+            values |= _life_pair(name, kind, time * mean_speed(shares, speeds) / (2 * np.pi), time)
     return values
 
 
