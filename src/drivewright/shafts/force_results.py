@@ -10,6 +10,7 @@ from drivewright.shafts.equilibrium import ShaftEquilibrium
 from drivewright.shafts.loads import ToothForces, slope_in_plane_of_action
 from drivewright.shafts.model import ShaftLoad
 
+
 def tooth_values(name: str, forces: ToothForces) -> dict[str, Value]:
     """The `ToothForces` of the gear of this name."""
     key = f"gears.{name}"

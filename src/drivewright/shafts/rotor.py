@@ -41,8 +41,8 @@ class Rotor(NamedTuple):
     """The matrices (r, r) of a rotor, K the unit matrix, and where its coordinates move it.
 
     `whirls`: whether q stands for z = x + iy; matrices are complex then.  shapes (2, n, r): x and y of the nodes at `z` (n,) [m], such
-    that a motion q e^(i w t) has the complex amplitudes shapes q; axial (n, r) [m].  supports (p, 2, r): x and y of the shaft in every
-    support, against the ring of one whose seat yields; support_damping (p, 2, 2) [N s/m].
+    that a motion q e^(i w t) has the complex amplitudes shapes q; axial_mass (r, r): the part of the mass that moves along the axis.
+    supports (p, 2, r): x and y of the shaft in every support, against the ring of one whose seat yields; support_damping (p, 2, 2) [N s/m].
     """
 
     whirls: bool
@@ -52,7 +52,7 @@ class Rotor(NamedTuple):
     circulatory: Floats | Complexes
     z: Floats
     shapes: Floats | Complexes
-    axial: Floats
+    axial_mass: Floats
     supports: Floats | Complexes
     support_damping: Floats
     reference: float  # [rad/s] of the lowest mode: what frequencies are scaled with
@@ -97,11 +97,18 @@ def reduced_rotor(equilibrium: ShaftEquilibrium, places: Sequence[float] = (), k
         _pressed(felt, np.array([_cross_coupling(contact) for contact in equilibrium.contact]), whirls),
         model.beam.z,
         _both_planes(nodes[:, 0], nodes[:, 1], whirls),
-        nodes[:, AXIAL],
+        _axial_mass(inertia, chosen, coordinates),
         _both_planes(felt[:, 0], felt[:, 1], whirls).swapaxes(0, 1),
         damping,
         frequency,
     )
+
+
+def _axial_mass(inertia, chosen, coordinates):
+    """(r, r) of the motion along the axis alone; rings, beyond the nodes, have no mass."""
+    axial = chosen[chosen % FREEDOMS == AXIAL]
+    own = coordinates[np.isin(chosen, axial)]
+    return own.T @ inertia[np.ix_(axial, axial)] @ own
 
 
 def is_round(equilibrium: ShaftEquilibrium) -> bool:

@@ -183,7 +183,8 @@ def _axial_share(shapes, inertia):
     """Part of the kinetic energy along the axis, for each column."""
     moved = inertia @ shapes
     along = np.arange(len(shapes)) % FREEDOMS == AXIAL  # rings, beyond the nodes, have no mass
-    return np.sum(shapes[along] * moved[along], axis=0) / np.sum(shapes * moved, axis=0)
+    parts = (np.conj(shapes) * moved).real
+    return np.sum(parts[along], axis=0) / np.sum(parts, axis=0)
 
 
 def lateral_system(equilibrium):
@@ -252,8 +253,7 @@ def critical_speeds(equilibrium: ShaftEquilibrium, count: int) -> CriticalSpeeds
     whole = np.zeros((equilibrium.model.size, len(squares)), complex)
     whole[chosen] = vectors
     nodes = (equilibrium.model.basis @ whole)[: equilibrium.model.beam.size].reshape(-1, FREEDOMS, len(squares))
-    across = np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1))
-    lateral = across > np.sum(np.abs(nodes[:, AXIAL]) ** 2, axis=0)
+    lateral, across = _axial_share(whole, inertia) < 0.5, np.sum(np.abs(nodes[:, :2]) ** 2, axis=(0, 1))
     backward = np.sum(np.conj(nodes[:, 0]) * nodes[:, 1], axis=0).imag > 1e-9 * across
     return CriticalSpeeds(*(np.sqrt(squares[lateral & (backward == way)][:count]) for way in (False, True)))
 

@@ -71,9 +71,9 @@ def _sorted(rotor, speed, inverse, vectors, count):
     chosen = np.flatnonzero(moves if rotor.whirls else moves & (inverse.imag < 0))
     chosen = chosen[np.argsort(-np.abs(inverse[chosen]), kind="stable")]
     value, vector = rotor.reference / inverse[chosen], vectors[:, chosen]
-    shapes, along = rotor.shapes @ vector, rotor.axial @ vector
-    lateral = np.sum(np.abs(shapes) ** 2, axis=(0, 1)) > np.sum(np.abs(along) ** 2, axis=0)
-    value, shapes = value[lateral], shapes[:, :, lateral]
+    along, whole = (np.sum(np.conj(vector) * (mass @ vector), axis=0).real for mass in (rotor.axial_mass, rotor.mass))
+    lateral = along < 0.5 * whole
+    value, shapes = value[lateral], (rotor.shapes @ vector)[:, :, lateral]
     shapes = np.where(value.imag < 0, np.conj(shapes), shapes)
     frequency, ratio = np.abs(value.imag), -value.real / np.abs(value)
     order = np.argsort(frequency, kind="stable")

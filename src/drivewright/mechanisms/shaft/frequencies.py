@@ -32,7 +32,7 @@ def no_modes(spec: ShaftSpec) -> str | None:
 def frequencies(model: ShaftModel, done: Answers) -> Answer:
     """Modes and critical speeds about the equilibrium of the loads, and what a massless shaft would make of them; `data` is the
     `Vibration`."""
-    count, fine = model.spec.analysis.modes, _refined(model, done["statics"].data.equilibrium)
+    count, fine = model.spec.analysis.modes, turning_equilibrium(model, done["statics"].data.equilibrium)
     try:
         (bending, axial), critical = shafts.modes(fine, count), shafts.critical_speeds(fine, count)
     except InputError as error:
@@ -51,7 +51,7 @@ def frequencies(model: ShaftModel, done: Answers) -> Answer:
     return Answer(values, (mode_table(fine, bending),), tuple(_speed_check(model, lowest)), findings, data=Vibration(fine, lowest))
 
 
-def _refined(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> shafts.ShaftEquilibrium:
+def turning_equilibrium(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> shafts.ShaftEquilibrium:
     """The same equilibrium on a mesh that is fine enough for the shapes of the modes; bearings keep their tangents."""
     step = model.spec.analysis.element_length or model.shaft.length / ELEMENTS
     if model.shaft.length / step > MAX_ELEMENTS:

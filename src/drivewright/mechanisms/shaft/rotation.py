@@ -85,7 +85,7 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
     turning, vibration, drive = done["whirl"].data, done["modes"].data, model.spec.drive
     if turning is None or drive is None:
         return Answer(findings=("the unbalance response is absent: there is no whirl",), outcome="left out")
-    given, findings = _unbalances(model), []
+    given, findings = unbalances(model), []
     if not any(part.unbalance for part in model.turning_parts):
         findings.append(
             f"nothing on the shaft has an unbalance: that which the balance grade {drive.balance_grade} permits at the speed of the shaft "
@@ -109,11 +109,11 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
     return Answer(values, (table,), tuple(_amplitude_checks(model, values)), tuple(findings))
 
 
-def _unbalances(model: ShaftModel) -> tuple[shafts.Unbalance, ...]:
+def unbalances(model: ShaftModel) -> tuple[shafts.Unbalance, ...]:
     """Those of stations and gears, else what the balance grade permits."""
     drive = model.spec.drive
     own = tuple(shafts.Unbalance(p.position, p.unbalance, p.unbalance_angle) for p in model.turning_parts if p.unbalance)
-    return own if own or drive is None else shafts.permissible_unbalances(model.shaft, drive.balance_grade, drive.speed)
+    return own if own or drive is None else shafts.permissibleunbalances(model.shaft, drive.balance_grade, drive.speed)
 
 
 def _with_peaks(speeds: Floats, critical: Sequence[shafts.CriticalSpeed]) -> Floats:

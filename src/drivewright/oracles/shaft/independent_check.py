@@ -3,26 +3,31 @@
 Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
 """
 
+import re
 from collections.abc import Iterator
 
 import numpy as np
 
 from drivewright import bearings, shafts
-from drivewright.errors import InputError
+from drivewright.errors import InputError, MissingExtra
 from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.frequencies import turning_equilibrium
+from drivewright.mechanisms.shaft.rotation import unbalances
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.oracles.shaft import moment_integrals
-from drivewright.registry import Row
+from drivewright.registry import LeftOut, Row
 from drivewright.result import Result
 from drivewright.shafts.solid_check import allowed_difference, solid_and_beam
 
+WHIRL = re.compile(r"whirl\.(forward|backward)\.[12]")
 INTEGRAL = "integrals of M^2/EI, redundant reactions"
 GIVEN = "integral of the moments of loads and reactions"
 ALONE = "rolling bearing alone, at the force found"
+TURNING, ROSS = "whirl and unbalance response in ROSS", "ROSS: elements, eigenvalues and response of its own"
 SOLID = "solid of second-order finite elements"
 
 
-def verify(model: ShaftModel, result: Result[ShaftSpec]) -> Iterator[Row]:
+def verify(model: ShaftModel, result: Result[ShaftSpec]) -> Iterator[Row | LeftOut]:
     """All rows."""
     loaded = shafts.apply_loads(model.shaft, model.loads)
     yield from _flexibility(model, result)
@@ -31,6 +36,8 @@ def verify(model: ShaftModel, result: Result[ShaftSpec]) -> Iterator[Row]:
     yield from _bearings(model, loaded)
     if "flexibility" in result.arrays:
         yield from _solid(model, loaded.equilibrium)
+    if "campbell" in result.tables:
+        yield from _turning(model, result)
 
 
 def _flexibility(model, result):
@@ -130,3 +137,31 @@ def _solid(model, at_rest):
     for name, i, j in _pairs(model):
         allowed = allowed_difference(model.shaft) * np.sqrt(solid.flexibility[i, i] * solid.flexibility[j, j])
         yield f"flexibility {name}, on bands", beam[i, j], solid.flexibility[i, j], "m/N", float(allowed), SOLID
+
+
+# -- ROSS ----------------------------------------------------------------------------------------------------------------------
+
+
+def _turning(model, result):
+    """Whirl frequencies and orbits at the speed of the shaft, or why there are none."""
+    try:
+        from drivewright.oracles.shaft import ross_model
+    except ImportError as error:
+        yield LeftOut(TURNING, str(MissingExtra("the turning shaft in ROSS", "peers", error)), "peers")
+        return
+    at_rest = turning_equilibrium(model, shafts.apply_loads(model.shaft, model.loads).equilibrium)
+    missing = ross_model.unknown(at_rest)
+    if missing:
+        yield LeftOut(TURNING, f"its elements do not know {missing}")
+        return
+    twin, speed = ross_model.rotor(at_rest), model.spec.drive.speed
+    frequencies, _ = ross_model.whirl_frequencies(twin, speed)
+    for name, value in result.values.items():
+        if WHIRL.fullmatch(name):
+            nearest = frequencies[np.argmin(np.abs(frequencies - value.value))]
+            yield name, value.value, float(nearest), "rad/s", 1e-5 * value.value, ROSS
+    parts = [part for part in model.turning_parts if f"unbalance.{part.name}.amplitude" in result.values]
+    found = ross_model.unbalance_amplitudes(twin, at_rest, unbalances(model), speed, [part.position for part in parts]) if parts else []
+    for part, amplitude in zip(parts, found, strict=True):
+        ours = result.values[f"unbalance.{part.name}.amplitude"].value
+        yield f"unbalance.{part.name}.amplitude", ours, float(amplitude), "m", 1e-4 * ours, ROSS
