@@ -272,6 +272,17 @@ def test_what_is_estimated_is_told():
     assert set(estimated_keys(card)) == {"balls", "ball_diameter", "pitch_diameter", "dynamic_rating", "static_rating"}
 
 
+def test_a_file_of_ones_own_says_what_it_estimates(tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(
+        '[bearings.X.ball]\nballs = 9\nball_diameter = "8 mm"\npitch_diameter = "40 mm"\nstatic_rating = "9 kN"\n'
+        '[[bearings.X.sources]]\nkeys = ["balls", "ball_diameter", "pitch_diameter"]\nflag = "read"\ntext = "drawing"\n'
+        '[[bearings.X.sources]]\nkeys = ["static_rating"]\nflag = "estimated"\ntext = "by the drawing"\n'
+    )
+    (text,) = catalogue_findings("A", "X", entry("X", path))
+    assert "C0 = 9 kN" in text and "C = " not in text and text.endswith("give static_rating of the maker")
+
+
 def test_ratings_of_a_bearing_itself_are_no_finding():
     for name in itertools.chain(names(), designations()):
         assert list(rating_findings("A", entry(name).bearing)) == []

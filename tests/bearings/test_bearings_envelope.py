@@ -68,6 +68,11 @@ def test_without_ratings_it_is_the_rule_of_a_designation():
             assert getattr(bearing, key) == pytest.approx(getattr(expected, key), rel=1e-9), key
 
 
+def test_the_usual_contact_angles():
+    angles = {kind: np.degrees(Envelope(**{**SIZE, "type": kind}).nominal_angle) for kind in ("angular-contact", "tapered", "cylindrical")}
+    assert angles == pytest.approx({"angular-contact": 40, "tapered": 14, "cylindrical": 0})
+
+
 def test_one_rating_alone_moves_the_geometry_its_way():
     plain = bearing_of_envelope(Envelope(**SIZE))
     small, large = (bearing_of_envelope(Envelope(**SIZE, static_rating=f"{value} kN")) for value in (14.5, 18))
