@@ -98,6 +98,7 @@ def test_what_an_idle_or_an_unrated_bearing_has():
     slight = solve(BALLS, force=[0.3, 0, 0, 0, 0])
     assert life_values("A", slight)["bearings.A.basic_life"].value == pytest.approx(1e6 * (29100 / 0.3) ** 3, rel=1e-9)
     assert "bearings.A.static_rating_safety" in load_values("A", slight)
+    assert life_values("A", slight)["bearings.A.equivalent_load"].value == pytest.approx(0.3)
     bare = solve(BALLS.replace(dynamic_rating=None), force=[2000, 0, 1500, 0, 0])
     assert set(life_values("A", bare, SPEED)) == {"bearings.A.equivalent_load"}
     assert list(bearing_findings("A", bare, SPEED)) == ["life of bearing 'A' is absent: it has no dynamic_rating"]
@@ -177,6 +178,7 @@ def test_a_cycle_of_one_case_is_that_case():
     one, other = numbers(life_values("A", COMBINED, SPEED)), numbers(spectrum_values("A", [DutyCase(1.0, SPEED, COMBINED)]))
     assert {key: other[key] for key in other if key != "mean_load"} == pytest.approx({key: one[key] for key in other if key != "mean_load"})
     assert other["mean_load"] == pytest.approx(one["equivalent_load"])
+    assert "bearings.A.basic_life.time" in spectrum_values("A", [DutyCase(1.0, 0.01, COMBINED)])
     oil = Lubrication(contamination="severe")
     assert spectrum_values("A", [DutyCase(1.0, SPEED, COMBINED)], oil)["bearings.A.modified_life"].value < one["modified_life"]
 
