@@ -44,7 +44,16 @@ def load_values(name: str, state: BearingEquilibrium) -> dict[str, Value]:
     }
     if loaded:
         values[f"{key}.static_safety"] = Value(state.static_safety, "-", f"load at the permissible static pressure over the load {of}")
-    return values | _static_rating_values(name, state)
+    return values | _rating_values(name, state.bearing) | _static_rating_values(name, state)
+
+
+def _rating_values(name, bearing):
+    """C and C0 that the lives and safeties count with."""
+    values = {f"bearings.{name}.static_rating": Value(static_rating(bearing), "N", f"basic static load rating C0 of bearing {name!r}")}
+    if bearing.dynamic_rating is not None:
+        meaning = f"basic dynamic load rating C of bearing {name!r}"
+        values[f"bearings.{name}.dynamic_rating"] = Value(bearing.dynamic_rating, "N", meaning)
+    return values
 
 
 def _static_rating_values(name, state):

@@ -69,7 +69,7 @@ class Bearing(Spec):
     table: DataFile | None = Field(
         None, description="CSV of the radial force over the radial displacement instead: displacement [um],force [N] from 0, 0"
     )
-    bearing: Designation | None = Field(None, description="designation in the catalogue instead, e.g. 61804", examples=["61804"])
+    bearing: Designation | None = Field(None, description="designation of a rolling bearing instead, e.g. 6306 or NU206", examples=["6306"])
     geometry: BallBearing | None = Field(None, description="inner geometry of a ball bearing instead")
     roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing instead")
     envelope: Envelope | None = Field(None, description="a rolling bearing by its type, boundary dimensions and ratings alone instead")

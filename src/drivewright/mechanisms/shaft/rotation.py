@@ -113,7 +113,7 @@ def unbalances(model: ShaftModel) -> tuple[shafts.Unbalance, ...]:
     """Those of stations and gears, else what the balance grade permits."""
     drive = model.spec.drive
     own = tuple(shafts.Unbalance(p.position, p.unbalance, p.unbalance_angle) for p in model.turning_parts if p.unbalance)
-    return own if own or drive is None else shafts.permissibleunbalances(model.shaft, drive.balance_grade, drive.speed)
+    return own if own or drive is None else shafts.permissible_unbalances(model.shaft, drive.balance_grade, drive.speed)
 
 
 def _with_peaks(speeds: Floats, critical: Sequence[shafts.CriticalSpeed]) -> Floats:

@@ -110,6 +110,7 @@ class LineLoad(Spec):
 class Gear(Carried):
     """A gear on the shaft: its tooth forces follow from the torque."""
 
+    name: Name = Field(description="name", examples=["gear"])
     pitch_diameter: Length = Field(gt=0, description="diameter of the (working) pitch circle", examples=["60 mm"])
     torque: Torque = Field(description="that the teeth exert on the shaft about its axis, x towards y", examples=["30 N m"])
     mesh_angle: Angle = Field("0 deg", description="where the mate touches, from x towards y")

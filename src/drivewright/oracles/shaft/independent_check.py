@@ -84,21 +84,24 @@ def _balance(loaded):
 
 
 def _deflections(model, loaded):
-    """Deflection of the stations from the loads and reactions alone, between the first and the last bearing."""
+    """Deflection of stations and gears from the loads and reactions alone, between the first and the last bearing."""
     equilibrium = loaded.equilibrium
     if len(equilibrium.model.mounts) < 2 or not model.loaded or any(mount.support.width for mount in equilibrium.model.mounts):
         return
-    beam = equilibrium.model.beam
+    beam, spec = equilibrium.model.beam, model.spec
+    places = [(f"{table}.{part.name}", part.position) for table in ("stations", "gears") for part in getattr(spec, table)]
     for axis, name in enumerate("xy"):
         forces, couples = moment_integrals.acting(loaded, axis)
         ends = sorted(mount.support.position for mount in equilibrium.model.mounts)
         first, last = (equilibrium.u[6 * beam.node(place) + axis] for place in (ends[0], ends[-1]))
-        deflections = moment_integrals.deflections_through(model.shaft, (ends[0], first), (ends[-1], last), forces, couples, model.places)
+        deflections = moment_integrals.deflections_through(
+            model.shaft, (ends[0], first), (ends[-1], last), forces, couples, [z for _, z in places]
+        )
         size = np.abs(equilibrium.u[: beam.size].reshape(-1, 6)[:, :2]).max()
-        for station, other in zip(model.shaft.stations, deflections, strict=True):
-            ours = equilibrium.u[6 * beam.node(station.position) + axis]
+        for (part, place), other in zip(places, deflections, strict=True):
+            ours = equilibrium.u[6 * beam.node(place) + axis]
             if size > 0 and max(abs(ours), abs(other)) > 1e-9 * size:
-                yield f"stations.{station.name}.deflection_{name}", ours, other, "m", 1e-6 * size, GIVEN
+                yield f"{part}.deflection_{name}", ours, other, "m", 1e-6 * size, GIVEN
 
 
 def _bearings(model, loaded):
