@@ -17,7 +17,7 @@ from drivewright.report.export import export
 from drivewright.report.folder import write_run_folder
 from drivewright.report.pack import pack_plot_groups, pack_scene
 from drivewright.report.tabular import write_csv
-from drivewright.result import Check, Column, Plot, Result, Table, Value
+from drivewright.result import Array, Check, Column, Plot, Result, Table, Value
 from drivewright.spec import load
 from drivewright.view.overlays import overlay
 from drivewright.view.panels import panels
@@ -216,3 +216,17 @@ def test_texts_of_values_and_differences():
     assert value_text(Value(0.0254, "m", ""), "inch") == "1\xa0in" and value_text(Value(0.0254, "m", "")) == "25.4\xa0mm"
     apart = compare([made(values={"a": Value(x, "m", "a")}) for x in (0.0254, 0.0508)], ["A", "B"]).differences("a")[1]
     assert difference_text(apart, "m", "inch") == "+1\xa0in (+100\xa0%)"
+
+
+def test_arrays_and_margins_with_intervals():
+    check = Check("wall", 0.0508, 0.0254, ">=", "m", "wall", low=0.04, high=0.06)
+    result = replace(made("inch", checks=[check]), arrays={"a": Array("m", ("i",), ((0, 1),), np.array([0.0254, 0.0508]))})
+    told = content(result)
+    assert (told["arrays"][0]["unit"], told["arrays"][0]["rows"]) == ("in", [["1", "2"]])
+    assert told["checks"][0]["margin"] == "+1.00\xa0in"
+
+
+def test_places_along_x_of_several_designs_are_in_the_system():
+    x, y = Column("x", "m", "x", np.array([0.0, 0.0254])), Column("y", "N", "y", np.array([1.0, 2.0]))
+    panel = overlay([made(tables=[Table("t", "t", (x, y))])] * 2, ["A", "B"], "t").panels[0]
+    assert panel.series[1].x == pytest.approx([0.0, 1.0]) and panel.series[1].unit == "lbf" and panel.x.unit == "in"

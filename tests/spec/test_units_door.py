@@ -285,6 +285,7 @@ def test_what_was_said_in_the_common_unit_is_written_so(digits, power, dimension
         ("stiffness", "2e7 N/m", "20000 N/mm"),
         ("pressure", "1.5 GPa", "1500 MPa"),
         ("time", "7 min", "420 s"),
+        ("temperature", "0 degC", "0 degC"),
     ],
 )
 def test_quantities_are_written_as_people_read_them(name, said, written):
