@@ -105,6 +105,20 @@ def test_cross_hole_of_a_solid_shaft():
     assert kt(CrossHole("h", 0.1, 10 * MM), outer=0.04)[:2] == pytest.approx(expected)
 
 
+POLYNOMIALS = (  # rows: powers of hole/D; columns: powers of bore/D; as printed at eng-calculations.com, bending recalled
+    ((3,), (0.427, -6.770, 22.698, -16.670), (11.357, 15.665, -60.929, 41.501)),
+    ((3,), (-6.690, -1.620, 4.432), (44.739, 10.724, -19.927), (-53.307, -25.998, 43.258)),
+    ((4,), (-6.793, 1.133, -0.126), (38.382, -7.242, 6.495), (-44.576, -7.428, 58.656)),
+)
+
+
+def test_cross_holes_of_tubes():
+    x, m = 0.4, 0.9
+    printed = [sum(c * x**i * m**j for i, row in enumerate(rows) for j, c in enumerate(row)) for rows in POLYNOMIALS]
+    tension, bending, torsion = kt(CrossHole("h", 0.1, 20 * MM), outer=0.05, bore=0.045)
+    assert (tension, bending, torsion * math.sqrt(3)) == pytest.approx(printed, rel=1e-12)
+
+
 # -- measured factors ----------------------------------------------------------------------------------------------------------
 
 
