@@ -1,4 +1,4 @@
-"""What a machine designer asks of a gearbox shaft or a rotor every day: bearings by designation, lives, gears, strength, whirl, unbalance."""
+"""What a machine designer asks of a shaft every day: bearings by designation, lives, gears, strength, whirl, unbalance."""
 
 import copy
 

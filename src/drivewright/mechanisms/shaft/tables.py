@@ -135,7 +135,7 @@ class DutyCase(Spec):
     """A part of the duty cycle."""
 
     name: Name | None = Field(None, description="name", examples=["roughing"])
-    share: Number = Field(gt=0, le=1, description="share of the time; all together are 1", examples=[0.25])
+    share: Number = Field(gt=0, le=1, description="share of the time; all together are 1", examples=[1.0])
     load: Number = Field(1.0, ge=0, description="factor on all loads and gears; weight and preload stay")
     speed: Speed | None = Field(None, ge=0, description="speed of the shaft; that of [drive] unless given", examples=["3000 rpm"])
 
