@@ -214,6 +214,12 @@ def test_every_step_every_notch_and_a_smooth_place_of_every_segment():
     assert assumed_fillets(shaft_sections(model(), (), diagram(model()), (1 * MM,) * 3)) is None
 
 
+def test_segments_of_one_diameter_have_no_shoulder_between_them():
+    one = model()._replace(sections=(*STEPPED[:2], STEPPED[1], shafts.Section(0.05, 0.039, 0.039)))
+    found = by_name(shaft_sections(one, (), diagram(one)))
+    assert [name for name in found if name.startswith("shoulder")] == ["shoulder_1", "shoulder_3"]
+
+
 def test_a_notch_without_a_length_is_where_it_is():
     notches = [Keyway("key", 0.2), PressFit("hub", 0.2), Spline("teeth", 0.2)]
     found = by_name(shaft_sections(model(), notches, diagram(model())))

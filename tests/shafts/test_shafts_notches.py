@@ -86,6 +86,12 @@ def test_a_groove_ends_at_a_smooth_bar_and_at_the_deep_groove_in_a_half_space():
     assert sharp == pytest.approx((3.065, 3.065, 2.0), rel=0.1)  # Peterson: 3.065; in torsion a half circle has 2 exactly
 
 
+def test_a_round_groove_by_hand():
+    # r/t = 0.5 and r/d = 0.05: 2 r/d (1 + 2 r/d)^2 = 0.121
+    expected = 1 + 0.27577**-0.5, 1 + 0.43275**-0.5, 1 + 1.5963**-0.5
+    assert kt(RoundGroove("g", 0.1, 4 * MM, 2 * MM), outer=0.048) == pytest.approx(expected, rel=1e-9)
+
+
 @pytest.mark.property
 @pytest.mark.parametrize("bore", [0.0, 0.5])
 def test_a_small_cross_hole_is_one_in_a_plate(bore):
