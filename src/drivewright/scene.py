@@ -192,7 +192,7 @@ class Frame:
     """An observer: everything is drawn relative to `poses` (frames, 3).
 
     `advance` (x, y) [m] is how far the observer's own motion carries on from one cycle to the next;
-    `shapes` stand still for this observer (soil line, box).
+    `shapes` stand still for this observer (soil line, box); `axes` are the names of what points to the right and up.
     """
 
     name: str
@@ -200,6 +200,7 @@ class Frame:
     poses: Floats
     advance: Point = (0.0, 0.0)
     shapes: tuple[Shape, ...] = ()
+    axes: tuple[str, str] = ("x", "y")
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Unbalance response of rigid rotors by closed forms, its limits and symmetries, balance grades, and resonance without damping."""
 
+from typing import get_args
+
 import numpy as np
 import pytest
 from rotors import CASES, matrix, our_rotor, our_shaft
@@ -7,6 +9,8 @@ from test_shafts_whirl import DAMPING, DIAMETRAL, HALF, MASS, POLAR, STIFF, rigi
 
 from drivewright import shafts
 from drivewright.errors import InputError
+from drivewright.mechanisms.shaft.tables import BalanceGrade
+from drivewright.shafts.unbalance import GRADES
 
 MOMENT, SPEEDS = 1e-4, np.array([100.0, 577.0, 2000.0])
 NO_STIFFNESS = np.zeros((2, 2, 2))
@@ -27,6 +31,15 @@ def test_a_rigid_rotor_goes_round_on_a_circle():
     assert np.all(np.abs(found.backward) < 1e-12 * np.abs(found.forward))
     force = np.abs((STIFF + 1j * DAMPING * SPEEDS) * z)
     assert found.support_forces == pytest.approx(np.stack([force, force], axis=1), rel=1e-7)
+
+
+@pytest.mark.analytical
+def test_cross_coupling_shifts_the_response():
+    """z = U s^2/(2k - m s^2 + 2 i c s - 2 i q), q the force along x of a displacement along y."""
+    cross = 3e5
+    found = response(rigid(matrix(STIFF, cross=cross), matrix(DAMPING)))
+    z = MOMENT * SPEEDS**2 / (2 * STIFF - MASS * SPEEDS**2 + 2j * DAMPING * SPEEDS - 2j * cross)
+    assert found.forward[:, 0] == pytest.approx(z, rel=1e-6)
 
 
 @pytest.mark.analytical
@@ -125,6 +138,15 @@ def test_permissible_unbalance_by_the_grade():
     assert 2.5e-3 / speed == pytest.approx(7.96e-6, rel=1e-3)
     with pytest.raises(InputError, match="no station and no gear has a mass"):
         shafts.permissible_unbalances(shaft._replace(stations=()), "G 2.5", speed)
+
+
+@pytest.mark.interface
+def test_grades_are_those_of_the_standard():
+    """Each some 2.5 times the one before, from 0.4 to 4000 mm/s."""
+    printed = (0.4, 1, 2.5, 6.3, 16, 40, 100, 250, 630, 1600, 4000)
+    assert [f"G {grade:g}" for grade in printed] == list(GRADES)
+    assert list(GRADES.values()) == pytest.approx([1e-3 * grade for grade in printed], rel=1e-12)
+    assert list(GRADES) == list(get_args(BalanceGrade))
 
 
 @pytest.mark.analytical

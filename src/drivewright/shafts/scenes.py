@@ -20,6 +20,7 @@ from drivewright.solids.deformation import round_factor
 
 FRAMES, SLICES, ARROWS = 61, 90, 5  # of the cycle, of the shaft, of a line load
 DRAWN_PART = 0.06  # the largest deflection is drawn as about this part of the shaft's length
+STRAIGHT = 1e-9  # of the direction of the unit loads along x: straight down
 NO_FORCE = 1e-9  # [N, N/m] along the unit loads: no arrow
 
 
@@ -87,7 +88,13 @@ def shaft_scene(
     for n, (place, force) in enumerate(forces_along(loads, direction, ARROWS)):
         if abs(force) > NO_FORCE:
             bodies.append(riding(f"load.{n}", "load", drawing.load_arrow(shaft, place, force), place, "orange"))
-    return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (Frame("side", "seen from the side, exaggerated", still),))
+    frame = Frame("side", "seen from the side, exaggerated", still, axes=("z", _up(direction)))
+    return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (frame,))
+
+
+def _up(direction: Floats) -> str:
+    """What points up in a picture that looks along the plane of the unit loads, these downwards."""
+    return "y" if abs(direction[0]) < STRAIGHT and direction[1] < 0 else "against the unit loads"
 
 
 def _support_symbol(shaft: Shaft, support: Support, rolling: BallBearing | RollerBearing | None) -> Iterator[Shape]:

@@ -15,6 +15,7 @@ modified_sine_help  help page of a commercial cam program: factors of the modifi
 motion_factors      factors of the classical motion laws as handbooks print them, and in closed form
 page                the sources as one page of Markdown, for the documentation
 pusher_paper        the conjugate-cam seedling pusher of Chen et al
+rotors              whirl and critical speeds of two rotors of the literature
 shaft_bearings      rolling bearings of the shaft paper: which kind is the stiffest, and how stiff a 61804 is
 shaft_equations     equations (1) to (21) of the shaft paper, each evaluated for its data, beside the beam of the presets
 shaft_model         the shafts of the pipe-lining machine as printed: data of Table 1, and what runs of the presets give for them
@@ -36,6 +37,7 @@ from drivewright.validation import (
     modified_sine_help,
     motion_factors,
     pusher_paper,
+    rotors,
     shaft_paper,
 )
 from drivewright.validation.page import page
@@ -70,6 +72,8 @@ OURS = (
     folding_linkage.source,
     clearance_joints.source,
     shaft_paper.source,
+    rotors.two_disc_rotor,
+    rotors.nelson_mcvaugh,
     indexer_paper.source,
     hyvo_paper.source,
 )

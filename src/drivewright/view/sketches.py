@@ -68,7 +68,7 @@ def draw_scene(
         figure, axes = figure_to_scale(len(at), sentence(observer.label))
         for axis, phase in zip(axes, at, strict=True):
             _draw_state(axis, scene, observer, phase, ghosts, system)
-        axes[0].set_ylabel(f"y [{_length(system)[1]}]")
+        axes[0].set_ylabel(f"{observer.axes[1]} [{_length(system)[1]}]")
         rows = _legend(figure, scene)
         arrange(figure, axes, *_extent(axes), bottom=0.55 + 0.19 * rows)
     return figure
@@ -111,7 +111,7 @@ def _draw_state(axis, scene, observer, phase, ghosts, system: System = "mm"):
     value = scene.cycle[0] + phase * (scene.cycle[-1] - scene.cycle[0])
     at = quantity(value, scene.cycle_unit, 4, system)
     axis.set_title(f"{sentence(scene.cycle_label)} {at}", fontweight="normal", fontsize=9, color=MUTED)
-    axis.set_xlabel(f"x [{_length(system)[1]}]")
+    axis.set_xlabel(f"{observer.axes[0]} [{_length(system)[1]}]")
 
 
 def _seen_bodies(scene, observer, phase):
