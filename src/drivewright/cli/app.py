@@ -191,6 +191,7 @@ def sweep(
     values: Annotated[str, typer.Option("--values", help="values and checks (check.NAME) to keep, comma separated; all unless given")] = "",
     out: Annotated[Path | None, typer.Option("--out", help="folder of the study; default out/<stem of the spec>-study")] = None,
     set_: SetOption = None,
+    units: UnitsOption = None,
     workers: Annotated[int | None, typer.Option("--workers", help="processes on this machine; default: one per core")] = None,
     on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
     yes: Annotated[bool, typer.Option("--yes", help="also a very large number of cases")] = False,
@@ -205,7 +206,7 @@ def sweep(
     _refuse_both(only, all_)
     with show.located(spec):
         loaded = with_options(
-            _load(spec, set_),
+            _load(spec, set_, units),
             vary or (),
             points,
             samples=sample,
@@ -260,6 +261,7 @@ def optimise(
     spec: SpecFile,
     out: Annotated[Path | None, typer.Option("--out", help="folder of the search; default out/<stem of the spec>-optimised")] = None,
     set_: SetOption = None,
+    units: UnitsOption = None,
     workers: Annotated[int | None, typer.Option("--workers", help="processes on this machine; default: one per core")] = None,
     on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
 ) -> None:
@@ -267,7 +269,7 @@ def optimise(
     from drivewright.report.optimised import write_optimised
     from drivewright.studies.optimisation import optimise as search
 
-    loaded = _load(spec, set_)
+    loaded = _load(spec, set_, units)
     with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-optimised"
         outcome = search(loaded, out=folder, workers=workers, on=on, progress=step)
@@ -287,8 +289,9 @@ def verify(spec: SpecFile, set_: SetOption = None) -> None:
     from drivewright.studies.verification import verify as compare
 
     with show.located(spec):
-        comparison = compare(_load(spec, set_))
-    show.comparison(comparison)
+        loaded = _load(spec, set_)
+        comparison = compare(loaded)
+    show.comparison(comparison, loaded.units)
     if not all(row.ok for row in comparison):
         raise typer.Exit(1)
     if any(row.extra for row in comparison):

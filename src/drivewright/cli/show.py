@@ -6,13 +6,13 @@ import math
 import sys
 import threading
 import time
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 
 from drivewright import atomic, digits, registry, units
 from drivewright.errors import InputError, MissingExtra, SpecError, UnknownName
+from drivewright.execution.case_reasons import reason_groups
 
 if TYPE_CHECKING:
     from rich.console import JustifyMethod
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
     Header: TypeAlias = Iterable[tuple[str, JustifyMethod]]
 
 MAX_STUDY_ROWS = 12  # of a study's values
+MOST_REASONS = 3  # why its cases are not complete
+LONGEST_REASON = 300  # characters
+ROUNDING = 1e-9  # of a limit or a value: a margin that is none
 SELDOM = 30.0  # seconds between two lines on how far a command is, where no bar can be drawn
 
 
@@ -165,8 +168,12 @@ def number(
     value: float, unit: str, low: float | None = None, high: float | None = None, wanted: str = "", system: units.System = "mm"
 ) -> str:
     """A number in the unit people read, or in a `wanted` one, with the unit, and with its interval in the digits that this supports."""
-    shown = units.scale(unit, wanted, system, value)
-    text, *ends = digits.plain(shown.of(value), *(None if end is None else shown.of(end) for end in (low, high)))
+    return _on_scale(value, None if low is None or high is None else (low, high), units.scale(unit, wanted, system, value))
+
+
+def _on_scale(value: float, bounds: tuple[float, float] | None, shown: units.Scale) -> str:
+    """A number with its interval on a scale, with the unit."""
+    text, *ends = digits.plain(*(shown.of(each) for each in (value, *(bounds or ()))))
     return _with_unit(f"{text} ({ends[0]} to {ends[1]})" if ends else text, shown.unit)
 
 
@@ -248,14 +255,7 @@ def checks(design_checks: "Iterable[Check]", system: units.System = "mm") -> Non
         return Text("ok", style="green") if check.ok else Text("FAILS", style="bold red")
 
     rows = [
-        (
-            verdict(c),
-            c.name,
-            number(c.value, c.unit, *(c.bounds or (None, None)), system=system),
-            f"{c.sense} {number(c.limit, c.unit, system=system)}",
-            _margin(c, system),
-            f"{c.message} ({UNDECIDED})" if c.undecided else c.message,
-        )
+        (verdict(c), c.name, *_check_numbers(c, system), f"{c.message} ({UNDECIDED})" if c.undecided else c.message)
         for c in sorted(design_checks, key=lambda c: c.ok)
     ]
     if rows:
@@ -266,18 +266,26 @@ def checks(design_checks: "Iterable[Check]", system: units.System = "mm") -> Non
         )
 
 
-def _margin(check: "Check", system: units.System) -> str:
-    """With the digits that the check's value has."""
-    factor, shown = units.display(check.unit, system=system)
-    low, high = check.margin_bounds or (None, None)
-    return _with_unit(digits.plain(factor * check.margin, low and factor * low, high and factor * high)[0], shown)
+def _check_numbers(check: "Check", system: units.System) -> tuple[str, str, str]:
+    """Value, limit and margin in one unit, the one that suits the limit: a life of half an hour stands beside its limit of 10000 h."""
+    shown = units.scale(check.unit, system=system, size=check.limit)
+    limit = _with_unit(digits.plain(shown.of(check.limit))[0], shown.unit)
+    return _on_scale(check.value, check.bounds, shown), f"{check.sense} {limit}", _margin(check, shown)
+
+
+def _margin(check: "Check", shown: units.Scale) -> str:
+    """With the digits that the check's value has; 0 where it is no more than rounding."""
+    if abs(check.margin) <= ROUNDING * max(abs(check.limit), abs(check.value)) < math.inf:
+        return _with_unit("0", shown.unit)
+    margin, *ends = (shown.factor * each for each in (check.margin, *(check.margin_bounds or ())))
+    return _with_unit(digits.plain(margin, *ends)[0], shown.unit)
 
 
 def optimised(search: "Optimised") -> None:
     """The best design(s) of a search and the requirements it met or missed."""
     table("objectives", (("value", "left"), ("best", "right"), ("wanted", "left")), search.objective_rows())
     table("unknowns", (("key", "left"), ("best", "right"), ("lower", "right"), ("upper", "right")), search.unknown_rows())
-    checks(search.requirements)
+    checks(search.requirements, search.best.units)
     so_far = " so far: the best of them, not the end of the search" if search.interrupted else ""
     note(f"{search.evaluations} evaluations{so_far}, {search.seconds:.1f} s, seed {search.seed}")
     for line in search.findings:
@@ -297,9 +305,8 @@ def study(study: "Study", answers: "Answers | None" = None) -> None:
         print(f"yield: {share:.1%} of the random cases pass every check ({low:.1%} to {high:.1%} with 95% confidence)")
     if len(names) > len(rows):
         note(f"{len(names) - len(rows)} more values in the report and in the study's table")
-    reasons = Counter(text for text, status in zip(study["message"], study["status"], strict=True) if status != "complete")
-    for reason, count in reasons.most_common(3):
-        note(f"note: {count} x {reason}")
+    for group in reason_groups(study["status"], study["message"])[:MOST_REASONS]:
+        note(f"note: {group.cases} x {group.text(LONGEST_REASON)}")
     for remark in (*study.plan.remarks, *study.remarks):
         note(f"note: {remark}")
 
@@ -321,14 +328,14 @@ def _headline_columns(study: "Study") -> list[str]:
     return sorted(known, key=lambda name: len(set(study[name][:1000].tolist())) == 1)
 
 
-def comparison(rows: "Iterable[Comparison]") -> None:
-    """Our numbers beside those of the independent route, and below them what was not compared and why."""
+def comparison(rows: "Iterable[Comparison]", system: units.System = "mm") -> None:
+    """Our numbers beside those of the independent route in a system of units, and below them what was not compared and why."""
     rows = tuple(rows)
     table(
         "independent route",
         (("quantity", "left"), ("ours", "right"), ("other", "right"), ("difference", "right"), ("allowed", "right"), ("route", "left")),
         [
-            (r.name, number(r.ours, r.unit), number(r.other, r.unit), number(r.other - r.ours, r.unit), number(r.allowed, r.unit), r.route)
+            (r.name, *(number(each, r.unit, system=system) for each in (r.ours, r.other, r.other - r.ours, r.allowed)), r.route)
             for r in rows
             if not r.left_out
         ],

@@ -1,13 +1,13 @@
 """What a key of a spec takes: a quantity, a number, a whole number, a flag or a text."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from drivewright.errors import SpecError, UnitError, brief, nearest
 from drivewright.spec import Spec, dimension_at, value_at
 from drivewright.spec.fields import choices_of, containers_of, field_at, table_at, type_of
-from drivewright.units import SI, Dimension
+from drivewright.units import SI, TEMPERATURE_DIFFERENCE, Dimension
 
 
 @dataclass(frozen=True)
@@ -27,6 +27,16 @@ class KeyKind:
     def numeric(self) -> bool:
         """Whether it has a distribution and a range."""
         return self.name in ("quantity", "number", "integer")
+
+    @property
+    def difference(self) -> "KeyKind":
+        """What the difference of two of its values is: of temperatures "5 degC" is 5 K then."""
+        is_temperature = self.dimension is not None and self.dimension.name == "temperature"
+        return replace(self, dimension=TEMPERATURE_DIFFERENCE) if is_temperature else self
+
+    def reading(self, value: Any) -> str:
+        """What a value is read as where its unit is one of another kind, "10 rev/s" for "10 Hz"; "" where it says what it is."""
+        return self.dimension.reading(value) if self.dimension and isinstance(value, str) else ""
 
     def read(self, value: Any, place: str) -> Any:
         """A level in SI; SpecError at `place`."""
@@ -60,7 +70,7 @@ def key_kind(spec: Spec, key: str, place: str = "study.vary", given: Sequence[An
     Of a key that takes a number or a word, the values `given` for it decide.
     """
     if key.split(".")[0] in FIXED:
-        raise SpecError(f"{key} cannot vary: it says what the study is of", place)
+        raise SpecError(f"{key} cannot vary: it says {FIXED[key.split('.')[0]]}", place)
     exists, dimension = dimension_at(type(spec), key)
     if not exists or _missing_element(spec, key):
         raise SpecError(f"this spec has no key {key!r}{_missing_element(spec, key) or _nearest_keys(spec, key)}", place)
@@ -94,7 +104,8 @@ def _element_steps(spec: Spec, key: str) -> int:
 
 
 KINDS = {float: "number", int: "integer", bool: "flag", str: "text"}
-FIXED = ("format", "mechanism", "study", "optimise")  # what a study is made of
+# Keys that cannot vary, and what they say.
+FIXED = dict.fromkeys(("format", "mechanism", "study", "optimise"), "what the study is of") | {"units": "what results are shown in"}
 
 
 def _missing_element(spec: Spec, key: str) -> str:

@@ -12,7 +12,8 @@ from drivewright.report.content import Views, content, pictures
 from drivewright.report.folder import file_name, record_text
 from drivewright.report.html import embedded, page
 from drivewright.report.records import AnswersRecord, StudyRecord, VariableRecord
-from drivewright.view.text import SOLID, display_unit, number, quantity, sentence, uncertain, unit_text, with_unit
+from drivewright.units import System
+from drivewright.view.text import ends_shown, number, numbers, quantity, sentence, shown_scale, uncertain, unit_text, with_unit
 
 STATES = {"complete": "good", "partial": "warn", "failed": "bad"}
 MOST_REASONS = 8
@@ -70,13 +71,16 @@ def _forget(folder, pattern, kept):
 def study_content(study: StudyRecord, answers: AnswersRecord) -> dict[str, Any]:
     """What the page says, as plain text in plain dictionaries."""
     result = answers.result
-    tables = [described | _printed(table) for described, table in zip(content(result)["tables"], result.tables.values(), strict=True)]
+    system = study.spec.units
+    tables = [
+        described | _printed(table, system) for described, table in zip(content(result)["tables"], result.tables.values(), strict=True)
+    ]
     return content(result, headlines=_headlines(answers)) | {
         "verdict": verdict(study),
         "tables": tables,
         "cases": cases(study),
         "reasons": reasons(study),
-        "varied": [varied(variable) for variable in study.plan.variables],
+        "varied": [varied(variable, system) for variable in study.plan.variables],
         "varied_columns": [{"name": name, "unit": "", "meaning": name, "number": False} for name in VARIED],
         "sampling": sampling(study),
         "command": COMMAND,
@@ -110,63 +114,81 @@ def _headlines(answers):
     return [name for name in answers.result.values if name == "yield" or name.partition(".")[2] in plotted][:MOST_TILES]
 
 
-def _printed(table):
+def _printed(table, system):
     """{'printed': rows of text, 'columns'} of a table small enough for the page; a column of unit "" is in the unit its row names."""
     rows, columns = len(table.columns[0].data), table.columns
     if not 0 < rows <= PRINTED[0] or sum(not table.bounded(column.name) for column in columns) > PRINTED[1]:
         return {}
     named = next((column.data for column in columns if column.name == "unit"), [""] * rows)
     kept = [column for column in columns if column.name != "unit" and not table.bounded(column.name)]
-    heads = [{"name": c.name, "unit": display_unit(c.unit)[1], "meaning": sentence(c.meaning), "number": _is_number(c)} for c in kept]
-    return {"columns": heads, "printed": list(zip(*(_cells(column, named, table.bounds_of(column.name)) for column in kept), strict=True))}
+    scales = [_column_scale(column, system) for column in kept]
+    heads = [
+        {"name": c.name, "unit": shown.unit, "meaning": sentence(c.meaning), "number": _is_number(c)}
+        for c, shown in zip(kept, scales, strict=True)
+    ]
+    cells = (_cells(c, named, table.bounds_of(c.name), shown, system) for c, shown in zip(kept, scales, strict=True))
+    return {"columns": heads, "printed": list(zip(*cells, strict=True))}
+
+
+def _column_scale(column, system):
+    """The `Scale` of a column: long times in hours, where the longest of them is long."""
+    size = np.nanmax(np.abs(column.data), initial=0.0) if _is_number(column) else 0.0
+    return shown_scale(column.unit, system=system, size=size)
 
 
 def _is_number(column):
     return np.asarray(column.data).dtype.kind in "iuf"
 
 
-def _cells(column, named, bounds):
-    """Texts of a column with its intervals, without a unit where its head says it."""
+def _cells(column, named, bounds, shown, system):
+    """Texts of a column with its intervals on the scale `shown` of its head, or with the unit that each row names."""
     data = np.asarray(column.data).tolist()
     if not _is_number(column):
         return [str(cell) for cell in data]
-    units = [str(unit) for unit in named] if column.unit == "" else [column.unit] * len(data)
     lows, highs = (np.asarray(end.data).tolist() for end in bounds) if bounds else ([None] * len(data),) * 2
-    texts = [uncertain(*row) for row in zip(data, units, lows, highs, strict=True)]
-    tail = display_unit(column.unit)[1] if column.unit else ""
-    return [text.removesuffix(tail).rstrip(SOLID) for text in texts] if tail else texts
+    rows = zip(data, lows, highs, strict=True)
+    if column.unit == "":
+        return [uncertain(value, str(unit), low, high, system=system) for unit, (value, low, high) in zip(named, rows, strict=True)]
+    return [_on_scale(value, low, high, shown) for value, low, high in rows]
+
+
+def _on_scale(value, low, high, shown):
+    """A number with its interval, without the unit."""
+    text, *ends = numbers(shown.of(value), *ends_shown(low, high, shown))
+    return f"{text} ({ends[0]} to {ends[1]})" if ends[0] else text
 
 
 # -- what varied ---------------------------------------------------------------------------------------------------------------
 
 
-def varied(variable: VariableRecord) -> tuple[str, str, str]:
-    """(key and those that go with it, levels or distribution, nominal value) as people read them."""
+def varied(variable: VariableRecord, system: System = "mm") -> tuple[str, str, str]:
+    """(key and those that go with it, levels or distribution, nominal value) as people read them in a system of units."""
     if variable.levels is not None:
-        over = _levels(variable)
+        over = _levels(variable, system)
     else:
-        over = _distribution(variable) if variable.distribution is not None else "the points of a file"
+        over = _distribution(variable, system) if variable.distribution is not None else "the points of a file"
     key = variable.key + (f", also {', '.join(variable.also)}" if variable.also else "")
-    return key, over, "" if variable.nominal is None else _text(variable, variable.nominal)
+    return key, over, "" if variable.nominal is None else _text(variable, variable.nominal, system)
 
 
-def _text(variable, value):
+def _text(variable, value, system):
     if isinstance(value, (bool, np.bool_)):
         return str(bool(value)).lower()
-    return quantity(float(value), variable.kind.unit) if isinstance(value, (int, float, np.number)) else str(value)
+    return quantity(float(value), variable.kind.unit, system=system) if isinstance(value, (int, float, np.number)) else str(value)
 
 
-def _levels(variable):
+def _levels(variable, system):
     """Each of some levels; of many numbers the ends, and how they follow each other."""
     levels = variable.levels
     if len(levels) <= MOST_LEVELS or levels.dtype.kind not in "iuf":
-        texts = [_text(variable, level) for level in levels.tolist()]
+        texts = [_text(variable, level, system) for level in levels.tolist()]
         more = len(texts) - 3 * MOST_LEVELS
         return ", ".join(texts[: 3 * MOST_LEVELS]) + (f" and {more} more" if more > 0 else "")
     steps = np.diff(levels)
     even = np.ptp(steps) <= 1e-9 * np.abs(steps).max()
     how = "equal steps" if even else "equal ratios" if _is_geometric(levels) else "uneven steps"
-    return f"{_text(variable, levels.min())} … {_text(variable, levels.max())}, {len(levels)} levels in {how}"
+    low, high = (_text(variable, end, system) for end in (levels.min(), levels.max()))
+    return f"{low} … {high}, {len(levels)} levels in {how}"
 
 
 def _is_geometric(levels):
@@ -176,19 +198,20 @@ def _is_geometric(levels):
     return np.ptp(steps) <= 1e-9 * np.abs(steps).max()
 
 
-def _distribution(variable):
+def _distribution(variable, system):
     """The form with its numbers."""
-    frozen, unit = variable.distribution, variable.kind.unit
+    frozen = variable.distribution
     form, (low, high) = FORMS[frozen.dist.name], frozen.support()
-    ends = f"{quantity(low, unit)} … {quantity(high, unit)}"
+    ends = " … ".join(_text(variable, end, system) for end in (low, high))
     if form == "uniform":
         return f"uniform, {ends}"
     if form == "triangular":  # the mean of a triangle is that of its three corners
-        return f"triangular, {ends}, peak at {quantity(3 * frozen.mean() - low - high, unit)}"
+        return f"triangular, {ends}, peak at {_text(variable, 3 * frozen.mean() - low - high, system)}"
     # The parameters of the bell itself; a cut one is narrower than they say.
     middle, sigma = frozen.args[-2:]
     cut = f", within {ends}" if np.isfinite(low) or np.isfinite(high) else ""
-    return f"normal, mean {quantity(middle, unit)}, standard deviation {quantity(sigma, unit)}{cut}"
+    width = quantity(float(sigma), variable.kind.difference.unit, system=system)
+    return f"normal, mean {_text(variable, middle, system)}, standard deviation {width}{cut}"
 
 
 # -- how to do it again --------------------------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ from drivewright.spec.keys import key_by_name
 from drivewright.studies.nominal import nominal_value
 from drivewright.studies.relations import formula_link
 from drivewright.studies.variables import Variable, column, refuse_beside
+from drivewright.units import System
 
 NEAR = 1e-9  # of a value: the same
 
@@ -87,10 +88,8 @@ def contradictions(spec: MechanismSpec, variables: Iterable[Variable]) -> Iterat
             wanted = link.at(np.array([own]))[0]
             if not _is_same(there, wanted):
                 other = f"where {link.text} gives" if link.text else f"and {each.key} is"
-                yield (
-                    f"{link.key} is {_shown(link.kind, there)} in the spec, {other} {_shown(link.kind, wanted)}; in this study it "
-                    f"follows {each.key}"
-                )
+                here, following = (_shown(link.kind, value, spec.units) for value in (there, wanted))
+                yield (f"{link.key} is {here} in the spec, {other} {following}; in this study it follows {each.key}")
 
 
 def _is_same(there: Any, wanted: Any) -> bool:
@@ -99,7 +98,7 @@ def _is_same(there: Any, wanted: Any) -> bool:
     return bool(there == wanted or abs(there - wanted) <= NEAR * max(abs(there), abs(wanted)) < np.inf)
 
 
-def _shown(kind: KeyKind, value: Any) -> str:
+def _shown(kind: KeyKind, value: Any, system: System) -> str:
     from drivewright.view.text import quantity
 
-    return quantity(float(value), kind.unit) if kind.numeric and not isinstance(value, str) else str(value)
+    return quantity(float(value), kind.unit, system=system) if kind.numeric and not isinstance(value, str) else str(value)

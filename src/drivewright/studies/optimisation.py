@@ -110,7 +110,7 @@ class Optimised:
         return [
             (
                 name,
-                _with_interval(reached, name) if name in reached else "does not exist",
+                _with_interval(reached, name, self.best.units) if name in reached else "does not exist",
                 "as small as possible" if sign > 0 else "as large as possible",
             )
             for name, sign in self.problem.objectives
@@ -120,7 +120,7 @@ class Optimised:
         """(key, best, lower, upper) as text."""
         keys, kinds = self.problem.keys, self.problem.kinds
         return [
-            (key, *(_shown(x, kind.unit, 5) for x in (best, low, high)))
+            (key, *(_shown(x, kind.unit, self.best.units, 5) for x in (best, low, high)))
             for key, kind, best, (low, high) in zip(keys, kinds, self.front[0], self.problem.bounds, strict=True)
         ]
 
@@ -209,8 +209,8 @@ def _outcome(problem, table):
         )
         for name, sense, limit in problem.limits
     )
-    findings = [] if feasible else [_blame(problem, front_values, values)]
-    findings += _route_differences(front_values, reached)
+    findings = [*problem.readings] + ([] if feasible else [_blame(problem, front_values, values)])
+    findings += _route_differences(problem, front_values, reached)
     findings += _on_bounds(problem, front[0]) if len(problem.objectives) == 1 else []
     return {
         "best": best,
@@ -265,23 +265,25 @@ def _blame(problem, reached, values):
         absent = ", ".join(name for name, _ in problem.objectives if not np.isfinite(reached[name][0]))
         return f"no feasible design after {count} evaluations: {absent} does not exist in any of them. Move the bounds of the unknowns"
     name, sense, limit = problem.limits[worst]
-    unit = problem.about[name].unit
+    unit, system = problem.about[name].unit, problem.spec.units
     alone = int(np.sum(problem.violations(values)[worst] <= 0))
     end = at_worst(reached, name, sense)[0]
-    uncertain = f" with an interval to {_shown(end, unit)}, all of which has to meet it" if end != reached[name][0] else ""
+    uncertain = f" with an interval to {_shown(end, unit, system)}, all of which has to meet it" if end != reached[name][0] else ""
+    wanted, best = (_shown(each, unit, system) for each in (limit, reached[name][0]))
     return (
-        f"no feasible design after {count} evaluations; the requirement to blame is {name} {sense} {_shown(limit, unit)}: the least "
-        f"violating design reaches {_shown(reached[name][0], unit)}{uncertain}, and {alone} of the designs tried meet this one at all. "
+        f"no feasible design after {count} evaluations; the requirement to blame is {name} {sense} {wanted}: the least "
+        f"violating design reaches {best}{uncertain}, and {alone} of the designs tried meet this one at all. "
         "Relax it or widen the bounds of the unknowns."
     )
 
 
-def _route_differences(evaluated, reached):
+def _route_differences(problem, evaluated, reached):
     """Where the evaluation during the search and the run of the best design part."""
     for name, column in evaluated.items():
         value = reached[name].value if name in reached else np.nan
         if np.isfinite(column[0]) and not abs(column[0] - value) <= NEAR * max(abs(column[0]), abs(value)):
-            yield f"{name}: the compiled evaluation of the search gives {column[0]:.8g}, the run of the best design {value:.8g}"
+            ours, run_ = (_shown(each, problem.about[name].unit, problem.spec.units, 8) for each in (column[0], value))
+            yield f"{name}: the compiled evaluation of the search gives {ours}, the run of the best design {run_}"
 
 
 def _on_bounds(problem, x):
@@ -298,14 +300,15 @@ def _bounds(reached, name):
     return {side: end.value for side, end in ends.items()} if all(end and end.bounds == name for end in ends.values()) else {}
 
 
-def _with_interval(reached, name):
+def _with_interval(reached, name, system):
     """A number with its interval, in the digits that this supports."""
-    factor, unit = units.display(reached[name].unit)
-    value, *ends = plain(*(factor * each for each in (reached[name].value, *_bounds(reached, name).values())))
-    return f"{value} ({ends[0]} to {ends[1]}) {unit}".removesuffix(" -") if ends else _shown(reached[name].value, reached[name].unit)
+    output = reached[name]
+    shown = units.scale(output.unit, system=system, size=output.value)
+    value, *ends = plain(*(shown.of(each) for each in (output.value, *_bounds(reached, name).values())))
+    return f"{value} ({ends[0]} to {ends[1]}) {shown.unit}".removesuffix(" -") if ends else _shown(output.value, output.unit, system)
 
 
-def _shown(value, unit, digits=6):
-    """A number in the unit people read, with the unit."""
-    factor, shown = units.display(unit)
-    return f"{value * factor:.{digits}g} {shown}".removesuffix(" -")
+def _shown(value, unit, system, digits=6):
+    """A number in the unit people read in a system of units, with the unit."""
+    shown = units.scale(unit, system=system, size=value)
+    return f"{shown.of(value):.{digits}g} {shown.unit}".removesuffix(" -")

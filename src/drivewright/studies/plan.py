@@ -21,7 +21,7 @@ from drivewright.spec.keys import key_by_name
 from drivewright.studies.links import contradictions, with_links
 from drivewright.studies.points import read_points
 from drivewright.studies.relations import Link
-from drivewright.studies.variables import Variable, variable
+from drivewright.studies.variables import Variable, readings_of, variable
 
 LARGEST = 100_000_000  # cases
 MOST_CORNERS = 16  # keys whose corners are all taken
@@ -128,8 +128,16 @@ def make_plan(spec: MechanismSpec) -> Plan:
     if listed and random:
         raise SpecError("a file of points is not crossed with random keys; put their values into the file", "study.points")
     points, blocks, remarks = _points(study, random)
-    remarks = (*remarks, *contradictions(spec, (*listed, *variables)))
+    remarks = (*remarks, *spec.readings.values(), *_readings((*listed, *variables)), *contradictions(spec, (*listed, *variables)))
     return Plan(grid, random, points, blocks, listed, study.seed, remarks)
+
+
+def _readings(variables):
+    """What is said of numbers with a unit of another kind, also in what follows another key."""
+    for each in variables:
+        yield from each.readings
+        for link in each.links:
+            yield from readings_of(link.kind, link.key, [link.offset_text])
 
 
 def _refuse_many(study):

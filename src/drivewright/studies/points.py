@@ -13,6 +13,7 @@ from drivewright.execution.keys import READABLE, key_kind
 from drivewright.spec import MechanismSpec
 from drivewright.spec.csv_text import csv_rows, plain_text, read_data_file
 from drivewright.studies.variables import Variable, column
+from drivewright.units import SCALES
 
 
 def read_points(spec: MechanismSpec, file: str | Path) -> dict[Variable, NDArray[Any]]:
@@ -30,31 +31,50 @@ def _read(spec, key, unit, cells, file):
     """(Variable, values) of one column."""
     try:
         kind = key_kind(spec, key, f"column '{key}'")
-        factor = _factor(kind, unit, key)
+        unit, reading = _unit(kind, unit, key)
     except SpecError as error:
         raise error.located(file=str(file)) from None
     values = [_cell(kind, cell, f"case {number}, column '{key}'", file) for number, cell in enumerate(cells)]
-    if kind.dimension and factor != 1 and isinstance(cells[0], str):  # rounded once, as the same text elsewhere
-        values = [value if isinstance(value, str) else kind.dimension.parse(f"{value!r} {unit}") for value in values]
-    elif kind.name == "quantity":
-        values = [value if isinstance(value, str) else value * factor for value in values]
-    return Variable(key, kind), column(values, kind)
+    if kind.dimension and unit is not None:
+        values = _in_si(kind.dimension, values, unit, isinstance(cells[0], str), key, file)
+    return Variable(key, kind, readings=reading), column(values, kind)
 
 
-def _factor(kind, unit, key):
-    """Factor to SI of a column's unit; None is SI."""
-    if unit is None:
-        return 1.0
-    if kind.name == "quantity":
+def _unit(kind, unit, key):
+    """(unit of a column's numbers, None for SI, remarks on what it is read as where it is one of another kind)."""
+    if kind.name == "quantity" and unit is not None:
         if not unit:
             raise SpecError(f"wants its unit in brackets: '{key} [{kind.dimension.display_unit}]'", f"column '{key}'")
+        taken = kind.reading(f"1 {unit}").partition(" ")[2] or unit
         try:
-            return kind.dimension.factor(unit)
+            kind.dimension.factor(taken)
         except UnitError as error:
             raise error.located(f"column '{key}'") from None
-    if unit not in ("", "-"):
+        return taken, () if taken == unit else (f"{key}: [{unit}] in the file of points is read as [{taken}]",)
+    if unit not in (None, "", "-"):
         raise SpecError(f"takes {READABLE[kind.name]}, so it has no unit; got [{unit}]", f"column '{key}'")
-    return 1.0
+    return None, ()
+
+
+def _in_si(dimension, values, unit, is_text, key, file):
+    """Numbers of a column in SI, words as they are.  Those of a text are rounded once, as the same text elsewhere."""
+    factor, zero = dimension.factor(unit), SCALES[unit] if dimension.name == "temperature" else 0
+    if not is_text:
+        return [value if isinstance(value, str) else value * factor + float(zero) for value in values]
+    if factor == 1 and not zero:
+        return values
+    return [
+        value if isinstance(value, str) else _parsed(dimension, f"{value!r} {unit}", f"case {number}, column '{key}'", file)
+        for number, value in enumerate(values)
+    ]
+
+
+def _parsed(dimension, text, place, file):
+    """SI number of a text."""
+    try:
+        return dimension.parse(text)
+    except UnitError as error:
+        raise error.located(place, str(file)) from None
 
 
 def _is_word(kind, cell):

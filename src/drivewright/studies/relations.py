@@ -49,6 +49,12 @@ class Link:
     offset: float = 0.0
     text: str = ""
 
+    @property
+    def offset_text(self) -> str:
+        """The offset as it is given, empty for none."""
+        found = relation(self.text)
+        return found.offset if found else ""
+
     def __str__(self) -> str:
         return f"{self.key} = {self.text}" if self.text else self.key
 
@@ -134,7 +140,7 @@ def _offset(kind: KeyKind, text: str, place: str) -> float:
     """The offset of a relation [SI]."""
     if not text:
         return 0.0
-    number = kind.read(read_value(text), place)
+    number = kind.difference.read(read_value(text), place)
     if isinstance(number, str) or not np.isfinite(number):
         raise SpecError(f"wants a number with a unit behind the key, got {brief(text)}", place)
     return float(number)

@@ -9,6 +9,7 @@ from drivewright.spec.differences import flat_tables, is_same_entry
 
 TOLD = 8  # differences that are told
 UNSEEN = ("spec", "plan", "study")  # parts of an identity that the keys tell better
+UNTOLD = ("title", "units")  # keys that change no number
 PROGRAM = "drivewright"  # the part of an identity that is the program's version
 
 
@@ -29,8 +30,8 @@ def _row(name, there, here):
 
 
 def differing_keys(spec_file: str | Path, spec: MechanismSpec, is_sweep: bool) -> list[str]:
-    """A row for each key that is not the same in a spec file, if there is one, and here; the title, and the keys of a search in a sweep
-    or of a sweep in a search, change nothing."""
+    """A row for each key that is not the same in a spec file, if there is one, and here; the title, the units shown, and the keys of a
+    search in a sweep or of a sweep in a search, change nothing."""
     idle = "optimise." if is_sweep else "study."
     try:
         if not Path(spec_file).is_file():
@@ -38,5 +39,5 @@ def differing_keys(spec_file: str | Path, spec: MechanismSpec, is_sweep: bool) -
         there, here = flat_tables(document(load(spec_file))), flat_tables(document(spec))
     except SpecError as error:
         return [f"its spec cannot be read ({error})"]
-    keys = [key for key in dict.fromkeys([*there, *here]) if key != "title" and not key.startswith(idle)]
+    keys = [key for key in dict.fromkeys([*there, *here]) if key not in UNTOLD and not key.startswith(idle)]
     return [_row(key, there, here) for key in keys if not is_same_entry(there.get(key), here.get(key))]

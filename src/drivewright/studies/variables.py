@@ -1,6 +1,6 @@
 """What varies: a key of the spec with its levels or its distribution, in SI."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -31,6 +31,7 @@ class Variable:
     distribution: Distribution = None
     links: tuple[Link, ...] = ()  # keys that follow it
     bounds: tuple[float, float] = (-np.inf, np.inf)  # that its distribution keeps, also after rounding
+    readings: tuple[str, ...] = ()  # what is said of numbers whose unit is one of another kind
 
     @property
     def keys(self) -> tuple[str, ...]:
@@ -70,12 +71,13 @@ def variable(spec: MechanismSpec, vary: Vary, number: int) -> Variable:
     place = f"study.vary.{number}"
     kind, nominal = key_kind(spec, vary.key, f"{place}.key", vary.values), nominal_value(spec, vary.key)
     links = tuple(equal_link(spec, text, vary.key, kind, f"{place}.also.{n}", vary.values) for n, text in enumerate(vary.also))
+    readings = tuple(readings_of(kind, vary.key, [*vary.values, *(getattr(vary, name) for name in NUMBERS)]))
     if vary.values or vary.steps is not None:
         refuse_beside(vary, "levels", ("values",) if vary.values else ("lower", "upper", "steps"), place)
         levels = _levels(kind, vary, nominal, place)
         for n, link in enumerate(links):
             link.check(levels, f"{place}.also.{n}")
-        return Variable(vary.key, kind, nominal, levels, links=links)
+        return Variable(vary.key, kind, nominal, levels, links=links, readings=readings)
     if not kind.numeric or kind.name == "integer":
         raise SpecError(
             f"{vary.key} takes {READABLE.get(kind.name)}, so it varies over values only; give values, or lower, upper and steps", place
@@ -83,11 +85,20 @@ def variable(spec: MechanismSpec, vary: Vary, number: int) -> Variable:
     nominal = nominal if isinstance(nominal, (int, float)) else None
     distribution, bounds = _distribution(kind, vary, nominal, place)
     _refuse_idle(vary, place)
-    return Variable(vary.key, kind, nominal, distribution=distribution, links=links, bounds=bounds)
+    return Variable(vary.key, kind, nominal, distribution=distribution, links=links, bounds=bounds, readings=readings)
 
 
 _Given: TypeAlias = Mapping[str, Any]  # numbers of a [[study.vary]] entry in SI, None where one is not given
 VARY_KEYS = ("values", "lower", "upper", "steps", "distribution", "mean", "sigma", "mode", "tolerance")
+NUMBERS = ("lower", "upper", "mean", "sigma", "mode", "tolerance")  # those that are one number
+WIDTHS = ("sigma", "tolerance")  # those that are a difference, not a value of the key
+
+
+def readings_of(kind: KeyKind, key: str, numbers: Iterable[Any]) -> Iterator[str]:
+    """A remark for each of some numbers given for a key whose unit is one of another kind: "10 Hz" of an angular speed."""
+    for number in dict.fromkeys(number for number in numbers if isinstance(number, str)):
+        if reading := kind.reading(number):
+            yield f"{key}: {brief(number)} is read as {reading}"
 
 
 def refuse_beside(vary: Vary, what: str, wanted: Sequence[str], place: str) -> None:
@@ -153,7 +164,7 @@ def _bound(kind: KeyKind, vary: Vary, name: str, place: str, middle: Any = None,
         raise SpecError(f"a range of steps needs lower and upper; {name} is missing", f"{place}.{name}")
     if percentage(value):
         return _part_of(middle, vary, name, place)
-    number = None if value is None else kind.read(value, f"{place}.{name}")
+    number = None if value is None else (kind.difference if name in WIDTHS else kind).read(value, f"{place}.{name}")
     if kind.name == "quantity" and number is not None and (isinstance(number, str) or not np.isfinite(number)):
         raise SpecError(f"wants a number with a unit here, got {brief(value)}; list a word among values", f"{place}.{name}")
     return number
@@ -166,7 +177,7 @@ def _part_of(middle: Any, vary: Vary, name: str, place: str) -> float:
     if not isinstance(middle, (int, float)) or isinstance(middle, bool) or not 0 < abs(middle) < np.inf:
         state = "has no value in this spec" if middle is None else "is 0" if middle == 0 else f"is {brief(middle)}"
         raise SpecError(f"{vary.key} {state}, so {value} of it says nothing; give {name} as a number with its unit", f"{place}.{name}")
-    if name in ("sigma", "tolerance"):
+    if name in WIDTHS:
         return share * abs(middle)
     if not sign and share:
         raise SpecError(f'write "+{value}" or "-{value}": so much above or below the value in this spec', f"{place}.{name}")
@@ -178,7 +189,7 @@ def _distribution(kind: KeyKind, vary: Vary, nominal: float | None, place: str) 
     given = {name: _bound(kind, vary, name, place) for name in ("mean", "mode")}
     middle = next((number for number in (*given.values(), nominal) if number is not None), None)
     given |= {name: _bound(kind, vary, name, place, middle) for name in ("lower", "upper", "sigma", "tolerance")}
-    for name in ("sigma", "tolerance"):
+    for name in WIDTHS:
         if given[name] is not None and not given[name] > 0:
             raise SpecError(f"must be greater than 0, got {brief(getattr(vary, name))}", f"{place}.{name}")
     if given["tolerance"] is not None:

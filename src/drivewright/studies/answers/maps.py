@@ -52,7 +52,7 @@ def surveyed(arranged: Arranged, responses: Iterable[Response]) -> Part:
     responses, axes = tuple(responses), _axes(arranged.plan)
     if not responses or not axes:
         return Part()
-    panels, remark = _panels(arranged.plan, axes)
+    panels, remark = _panels(arranged.plan, axes, arranged.study.spec.units)
     return together([Part(findings=remark), *(_panel(arranged, responses, axes[:2], *panel) for panel in panels)])
 
 
@@ -66,7 +66,7 @@ def _numeric(variable):
     return variable.levels.dtype.kind in "iuf"
 
 
-def _panels(plan, axes):
+def _panels(plan, axes, system):
     """([(suffix of names, end of titles, combinations)], findings): all levels of the two axes for each combination of the further keys."""
     others = axes[2:]
     combined = list(product(*(range(plan.shape[n]) for n in others)))
@@ -74,7 +74,7 @@ def _panels(plan, axes):
     panels = []
     for number, places in enumerate(chosen, 1):
         fixed = dict(zip(others, places, strict=True))
-        suffix = "".join(f", {plan.grid[n].key} = {level_text(plan.grid[n], place)}" for n, place in fixed.items())
+        suffix = "".join(f", {plan.grid[n].key} = {level_text(plan.grid[n], place, system)}" for n, place in fixed.items())
         panels.append((f".{number}" if len(chosen) > 1 else "", suffix, _combinations(plan, axes[:2], fixed)))
     remark = (
         (

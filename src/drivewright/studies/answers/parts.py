@@ -17,6 +17,7 @@ from drivewright.studies.plan import Plan
 from drivewright.studies.statistics import LEVEL
 from drivewright.studies.study import Study
 from drivewright.studies.variables import Variable
+from drivewright.units import System
 from drivewright.view.text import quantity
 
 STATUSES = ("complete", "partial", "failed")
@@ -123,10 +124,10 @@ class Arranged:
         )
 
 
-def level_text(variable: Variable, place: int) -> str:
-    """A level as people read it."""
+def level_text(variable: Variable, place: int, system: System) -> str:
+    """A level as people read it in a system of units."""
     level = plain(variable.grid_levels)[place]
-    return str(level) if isinstance(level, str) else quantity(level, variable.kind.unit)
+    return str(level) if isinstance(level, str) else quantity(level, variable.kind.unit, system=system)
 
 
 def plain(column: NDArray[Any]) -> NDArray[Any]:

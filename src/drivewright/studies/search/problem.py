@@ -20,6 +20,7 @@ from drivewright.execution.outputs import CHECK, OutputInfo, case_outputs
 from drivewright.result import HIGH, LOW
 from drivewright.spec import MechanismSpec, Optimise, document, from_document, set_key
 from drivewright.spec.fields import field_at, type_of
+from drivewright.studies.variables import readings_of
 
 HOPELESS = 1e3  # violation of a design that has no solution at all, in units of the limits
 
@@ -38,6 +39,7 @@ class Problem:
     scales: Floats
     about: dict[str, OutputInfo]
     analyses: tuple[str, ...]
+    readings: tuple[str, ...] = ()  # what is said of bounds and limits whose unit is one of another kind
 
     @property
     def search(self) -> Optimise:
@@ -128,7 +130,17 @@ def prepare(spec: MechanismSpec) -> Problem:
         scales=np.array([abs(limit) or sizes[name] or 1.0 for name, _, limit in limits]),
         about={name: known[name].about for name in names},
         analyses=tuple(analysis for analysis in dict.fromkeys(givers.values()) if any(givers[name] == analysis for name in names)),
+        readings=tuple(_readings(search, kinds, known)),
     )
+
+
+def _readings(search, kinds, known):
+    """A remark for each bound and limit whose unit is one of another kind: "10 Hz" of an angular speed."""
+    for kind, unknown in zip(kinds, search.unknowns, strict=True):
+        yield from readings_of(kind, unknown.key, (unknown.lower, unknown.upper))
+    for each in search.requirements:
+        kind = KeyKind("quantity", units.BY_UNIT.get(known[each.value].unit))
+        yield from readings_of(kind, each.value, (each.at_least, each.at_most))
 
 
 def _with_settings(spec):
