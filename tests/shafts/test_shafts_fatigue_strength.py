@@ -18,7 +18,7 @@ from drivewright.shafts.fatigue_strength import (
     notch_sensitivity,
     strength_at,
 )
-from drivewright.shafts.haigh import HAIGH, haigh_table, strength_table, strength_values
+from drivewright.shafts.haigh import haigh_plots, haigh_table, strength_table, strength_values
 from drivewright.shafts.notches import (
     CrossHole,
     Keyway,
@@ -324,21 +324,30 @@ def test_values_of_the_shaft_and_of_every_notch():
 def test_the_haigh_diagram_holds_the_sections_under_the_lower_line():
     steel = materials.strength("42CrMo4", 0.045)
     table = haigh_table(rows(), steel)
-    name, mean, amplitude = (table[each].data for each in ("section", "mean", "amplitude"))
+    mean = table["mean"].data
     limit = min(row.endurance_limit for row in rows())
-    goodman, langer = name == "Goodman line", name == "yield line"
-    assert amplitude[goodman] / limit + mean[goodman] / steel.tensile == pytest.approx(np.ones(goodman.sum()))
-    assert amplitude[langer] + mean[langer] == pytest.approx(np.full(langer.sum(), steel.yield_strength))
-    assert mean[goodman].min() == 0 and amplitude[langer].min() == pytest.approx(0)
-    assert mean[goodman].max() == mean[langer].min() and amplitude[goodman].min() == pytest.approx(amplitude[langer].max())
-    pin = next(row for row in rows() if row.name == "pin")
-    assert (mean[name == "pin"], amplitude[name == "pin"]) == (pin.mean, pin.amplitude) and np.sum(name == "smooth places") == 4
-    assert {HAIGH.x, *HAIGH.y, HAIGH.by} == {column.name for column in table.columns} and table.name == HAIGH.table
+    amplitude = {name: table[name].data[np.isfinite(table[name].data)] for name in ("weakest", "notches", "smooth", "goodman", "yield")}
+    place = {name: mean[np.isfinite(table[name].data)] for name in amplitude}
+    assert amplitude["goodman"] / limit + place["goodman"] / steel.tensile == pytest.approx(np.ones(len(place["goodman"])))
+    assert amplitude["yield"] + place["yield"] == pytest.approx(np.full(len(place["yield"]), steel.yield_strength))
+    assert place["goodman"].min() == 0 and amplitude["yield"].min() == pytest.approx(0)
+    assert place["goodman"].max() == place["yield"].min() and amplitude["goodman"].min() == pytest.approx(amplitude["yield"].max())
+    worst = min(rows(), key=lambda row: row.safety)
+    assert (place["weakest"], amplitude["weakest"]) == (worst.mean, worst.amplitude)
+    others = [row for row in rows() if row is not worst and row.name != worst.name]
+    notches = sorted((row.mean, row.amplitude) for row in others if row.kind != "smooth")
+    assert sorted(zip(place["notches"], amplitude["notches"], strict=True)) == notches
+    assert len(place["smooth"]) == sum(row.kind == "smooth" for row in others)
+    (plot,) = haigh_plots({"haigh": table})
+    assert {plot.x, *plot.y} == {column.name for column in table.columns} and not list(haigh_plots({}))
+    gaps = np.flatnonzero(np.isfinite(table["notches"].data))
+    assert np.all(np.diff(gaps) > 1)  # no line joins two sections
 
 
 def test_the_yield_line_alone_where_it_is_lower_everywhere():
     soft = Strength(1000 * MPA, 200 * MPA, STEEL.source)
     row = judge(section(bending=10), PLAIN, 400 * MPA, soft, Service())
     table = haigh_table([row], soft)
-    assert np.all(table["mean"].data[table["section"].data == "Goodman line"] == 0)
-    assert table["mean"].data[table["section"].data == "yield line"][[0, -1]] == pytest.approx([0, 200 * MPA])
+    place = {name: table["mean"].data[np.isfinite(table[name].data)] for name in ("goodman", "yield")}
+    assert np.all(place["goodman"] == 0)
+    assert place["yield"][[0, -1]] == pytest.approx([0, 200 * MPA])

@@ -48,7 +48,7 @@ _WHERE = {
     ),
     "fatigue_strength": ("SectionStrength", "Service", "StrengthSection", "endurance_limit", "notch_sensitivity", "strength_at"),
     "strength_sections": ("assumed_fillets", "shaft_sections"),
-    "haigh": ("HAIGH", "haigh_table", "strength_table", "strength_values"),
+    "haigh": ("haigh_plots", "haigh_table", "strength_table", "strength_values"),
     "supports": ("SupportStiffness", "bearing_displacement", "is_idle", "rolling_support", "spring_support", "support_stiffness"),
     "vibration": ("CriticalSpeeds", "Modes", "critical_speeds", "lowest_excited", "modes", "torsional_modes"),
     "rotor": ("Rotor", "is_round", "reduced_rotor"),

@@ -1,7 +1,7 @@
 """The strength of a shaft's sections as tables and values of a result, and their Haigh diagram."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -11,17 +11,6 @@ from drivewright.result import Column, Plot, Table, Value
 from drivewright.shafts.fatigue_strength import SectionStrength
 
 ON_A_LINE = 41  # points
-HAIGH = Plot(
-    "haigh",
-    "Haigh diagram of the sections",
-    "haigh",
-    "mean",
-    ("amplitude",),
-    style="points",
-    by="section",
-    meaning="von Mises amplitude over mean stress at the notches; below the Goodman line of the weakest section life is endless, left "
-    "of the yield line nothing yields in the first revolution",
-)
 
 
 def strength_table(rows: Sequence[SectionStrength]) -> Table:
@@ -36,18 +25,18 @@ def strength_table(rows: Sequence[SectionStrength]) -> Table:
 _QUANTITIES = (
     ("position", "m", "distance from the left end"),
     ("diameter", "m", "diameter of the net section"),
-    ("sigma_a", "Pa", "nominal amplitude by bending"),
-    ("sigma_m", "Pa", "nominal mean stress by an axial force"),
-    ("tau_a", "Pa", "nominal amplitude by torsion"),
-    ("tau_m", "Pa", "nominal mean stress by torsion"),
+    ("sigma_a", "Pa", "nominal bending stress amplitude"),
+    ("sigma_m", "Pa", "nominal mean axial stress"),
+    ("tau_a", "Pa", "nominal torsional stress amplitude"),
+    ("tau_m", "Pa", "nominal mean torsional stress"),
     ("kf_tension", "-", "fatigue notch factor in tension"),
     ("kf_bending", "-", "fatigue notch factor in bending"),
     ("kf_torsion", "-", "fatigue notch factor in torsion"),
-    ("amplitude", "Pa", "von Mises amplitude at the notch"),
+    ("amplitude", "Pa", "von Mises stress amplitude at the notch"),
     ("mean", "Pa", "von Mises mean stress at the notch"),
     ("endurance_limit", "Pa", "endurance limit of the smooth section"),
-    ("fatigue_safety", "-", "safety against fatigue (Goodman)"),
-    ("static_safety", "-", "safety against yield at the shock load"),
+    ("fatigue_safety", "-", "fatigue safety, by the modified Goodman line"),
+    ("static_safety", "-", "yield safety, at the shock load"),
 )
 
 
@@ -59,7 +48,7 @@ def strength_values(rows: Sequence[SectionStrength]) -> dict[str, Value]:
     weakest = min(stressed, key=lambda row: row.safety)
     values = {
         "strength.min_safety": Value(weakest.safety, "-", f"least safety of the shaft, at {weakest.name}"),
-        "strength.min_safety.at": Value(weakest.position, "m", f"place of the least safety, {weakest.name}"),
+        "strength.min_safety.at": Value(weakest.position, "m", f"place of the least safety, at {weakest.name}"),
         **_safeties("strength", "of the shaft", *(min(getattr(row, name) for row in stressed) for name in _SAFETIES)),
     }
     for row in stressed:
@@ -79,20 +68,44 @@ def _safeties(name: str, where: str, fatigue: float, static: float) -> dict[str,
 
 
 def haigh_table(rows: Sequence[SectionStrength], strength: Strength) -> Table:
-    """Points (mean, amplitude) of the sections, and of the lower one of the Goodman line of the least endurance limit and the yield line,
-    for `HAIGH`; smooth places share a name."""
+    """`haigh`: stress amplitude over mean stress, a column each for the weakest section, other notches and smooth places, their points
+    apart, and for the lower one of the Goodman line of the least endurance limit and the yield line."""
     limit = min(row.endurance_limit for row in rows)
     goodman, langer = _border(limit, strength)
-    names = ["smooth places" if row.kind == "smooth" else row.name for row in rows]
-    names += ["Goodman line"] * len(goodman) + ["yield line"] * len(langer)
-    mean = np.concatenate([_numbers(rows, "mean"), goodman, langer])
-    amplitude = np.concatenate([_numbers(rows, "amplitude"), limit * (1 - goodman / strength.tensile), strength.yield_strength - langer])
-    columns = (
-        _texts("section", "section or line", names),
-        Column("mean", "Pa", "mean stress, von Mises", mean),
-        Column("amplitude", "Pa", "stress amplitude, von Mises", amplitude),
-    )
-    return Table("haigh", "Haigh diagram of the sections", columns)
+    weakest, *others = sorted(rows, key=lambda row: row.safety)
+    groups = [
+        ("weakest", f"weakest section, {weakest.name}", *_points([weakest])),
+        ("notches", "other notches", *_points([row for row in others if row.kind != "smooth"])),
+        ("smooth", "smooth places", *_points([row for row in others if row.kind == "smooth"])),
+        ("goodman", "Goodman line", goodman, limit * (1 - goodman / strength.tensile)),
+        ("yield", "yield line", langer, strength.yield_strength - langer),
+    ]
+    columns, start = [Column("mean", "Pa", "mean stress, von Mises", np.concatenate([mean for _, _, mean, _ in groups]))], 0
+    for name, words, mean, amplitude in groups:
+        data = np.full(len(columns[0].data), np.nan)
+        data[start : start + len(mean)] = amplitude
+        start += len(mean)
+        columns.append(Column(name, "Pa", f"stress amplitude, {words}", data, words[0].upper() + words[1:]))
+    return Table("haigh", "Haigh diagram of the sections", tuple(columns), "a section has no place in the rows of the others")
+
+
+def _points(rows: Sequence[SectionStrength]) -> tuple[Floats, Floats]:
+    """(mean, amplitude) of the sections, each followed by a row without amplitude: points that no line joins."""
+    mean = np.repeat(_numbers(rows, "mean"), 2)
+    amplitude = np.full(len(mean), np.nan)
+    amplitude[::2] = _numbers(rows, "amplitude")
+    return mean, amplitude
+
+
+def haigh_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
+    """The Haigh diagram among the tables of a result."""
+    if "haigh" in tables:
+        names = tuple(column.name for column in tables["haigh"].columns[1:])
+        meaning = (
+            "von Mises amplitude over mean stress at the notches; below the Goodman line of the weakest section life is endless, left of "
+            "the yield line nothing yields in the first revolution"
+        )
+        yield Plot("haigh", "Haigh diagram of the sections", "haigh", "mean", names, meaning=meaning)
 
 
 def _border(limit: float, strength: Strength) -> tuple[Floats, Floats]:

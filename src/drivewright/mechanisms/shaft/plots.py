@@ -4,7 +4,7 @@ from drivewright.bearings.tables import bearing_plots
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.result import Plot, Result
 from drivewright.shafts.force_results import vector_plots
-from drivewright.shafts.haigh import HAIGH
+from drivewright.shafts.haigh import haigh_plots
 from drivewright.shafts.plots import SURFACE, shaft_plots
 from drivewright.shafts.rotor_results import rotor_plots
 
@@ -13,7 +13,7 @@ def plots(result: Result[ShaftSpec]) -> tuple[Plot, ...]:
     """All plots whose table the result has."""
     spec, at = result.spec, places(result.spec)
     turning = rotor_plots(result.tables, spec.drive.speed if spec.drive else None, at)
-    every = (*shaft_plots(result, at), *turning, HAIGH, *vector_plots(result.tables), *bearing_plots(result.tables), SURFACE)
+    every = (*shaft_plots(result, at), *turning, *haigh_plots(result.tables), *vector_plots(result.tables), *bearing_plots(result.tables), SURFACE)
     return tuple(plot for plot in every if plot.table in result.tables)
 
 

@@ -20,7 +20,7 @@ SAMPLES = 241  # along the shaft, besides the nodes
 
 def statics(model: ShaftModel, done: Answers) -> Answer:
     """Equilibrium under all loads; `data` is the `LoadedShaft` for the analyses that start from it."""
-    loaded = shafts.apply_loads(model.shaft, model.loads)
+    loaded = shafts.apply_loads(model.shaft, model.loads, [notch.position for notch in model.spec.notches])
     values, checks = _linear_stiffness(model), tuple(_slenderness(model))
     if not model.loaded:
         findings = ("there are no loads: deflections and stresses are absent, flexibility is that of the unloaded shaft",)
@@ -40,8 +40,8 @@ def _linear_stiffness(model: ShaftModel) -> dict[str, Value]:
     for support, bearing in zip(model.shaft.supports, model.spec.bearings, strict=True):
         if not is_rolling(bearing) and bearing.radial_stiffness not in (None, np.inf) and not bearing.radial_clearance:
             stiffness, name = support.stiffness[0], f"bearings.{support.name}.stiffness"
-            words = f"radial force over displacement of bearing {support.name!r}, at any load"
-            values |= {f"{name}.tangent": Value(stiffness, "N/m", f"change of {words}"), f"{name}.secant": Value(stiffness, "N/m", words)}
+            words = f"stiffness of bearing {support.name!r}, radial, the same at any load"
+            values |= {f"{name}.{way}": Value(stiffness, "N/m", f"{way} {words}") for way in ("tangent", "secant")}
     return values
 
 
@@ -68,9 +68,9 @@ def _force_vectors(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Table
 def _slenderness(model: ShaftModel) -> Iterator[Check]:
     """Whether a length may have been given in a wrong unit."""
     ratio = model.shaft.length / min(min(s.start, s.end) for s in model.shaft.sections)
-    limits, message = model.spec.limits, "length of the shaft over its least diameter; far off, a unit may have slipped"
-    yield Check("slenderness", ratio, limits.slenderness, "<=", "-", message, ("shaft",))
-    yield Check("stockiness", ratio, limits.stockiness, ">=", "-", message, ("shaft",))
+    limits, words = model.spec.limits, "length over least diameter; far off, a unit may have slipped"
+    yield Check("slenderness", ratio, limits.slenderness, "<=", "-", f"slenderness of the shaft, {words}", ("shaft",))
+    yield Check("stockiness", ratio, limits.stockiness, ">=", "-", f"stockiness of the shaft, {words}", ("shaft",))
 
 
 def _checks(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram) -> Iterator[Check]:
@@ -79,18 +79,21 @@ def _checks(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram
     under, beyond = f", at {shock:g} times the load" if shock > 1 else "", "beyond it the linear theory does not hold"
     stress = float(along.von_mises.max())
     if model.yield_strength and stress > 0:
-        message = f"yield strength over the largest nominal stress{under}"
+        message = f"nominal yield safety, yield strength over the largest von Mises stress{under}"
         yield Check("yield_safety", model.yield_strength / (shock * stress), limits.yield_safety, ">=", "-", message, own)
-    message = "forces and moments on the shaft that do not balance, over the sum of all"
+    message = "equilibrium of the shaft, forces and moments out of balance over the sum of all"
     yield Check("equilibrium", shafts.imbalance(loaded, model.loads), BALANCED, "<=", "-", message, own)
-    farthest, message = shafts.largest_displacement(loaded, along), f"largest deflection over the length of the shaft: {beyond}"
+    farthest, message = (
+        shafts.largest_displacement(loaded, along),
+        f"relative deflection, the largest over the length of the shaft: {beyond}",
+    )
     yield Check("small_deflections", farthest / model.shaft.length, limits.largest_deflection, "<=", "-", message, own)
     slope = float(np.hypot(*along.slope.T).max())
     yield Check("small_slopes", slope, limits.largest_slope, "<=", "rad", f"largest slope: {beyond}", own)
     pressed = along.axial.min() < -NO_FORCE * np.abs(loaded.force).max(initial=0)
     factor = shafts.buckling_factor_under(model.shaft, model.loads) if pressed else None
     if factor is not None:
-        message = f"axial force at which the shaft buckles over the axial force{under}"
+        message = f"buckling safety, axial force at buckling over axial force{under}"
         yield Check("buckling", factor / shock, limits.buckling, ">=", "-", message, own)
     if limits.deflection:
         for station in model.shaft.stations:
@@ -117,6 +120,6 @@ def _bearing_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium, bearing
         yield Check(f"slope.{bearing.name}", slope, limits.slope, "<=", "rad", message, own)
     if bearing.static_rating and force > 0:  # of a rolling bearing beside the check of its pressure
         name = "static_rating" if bearing.name in model.rolling else "static_safety"
-        message = f"static rating of bearing {bearing.name!r} over its radial force{under}"
+        message = f"static safety C0/Fr of bearing {bearing.name!r}, static rating over radial force{under}"
         safety = bearing.static_rating / (limits.shock_factor * force)
         yield Check(f"{name}.{bearing.name}", safety, limits.static_safety, ">=", "-", message, own)
