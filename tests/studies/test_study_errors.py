@@ -79,6 +79,7 @@ def test_nothing_that_varies():
         ("bodies.arm.at.2", "bodies.arm.at has 0, 1"),
         ("mechanism", "mechanism cannot vary: it says what the study is of"),
         ("format", "format cannot vary"),
+        ("units", "units cannot vary: it says what results are shown in"),
         ("study.seed", "study.seed cannot vary"),
         ("optimise.seed", "optimise.seed cannot vary"),
         ("table", "table is a table or a file, not one value; name a key in it"),
@@ -90,7 +91,7 @@ def test_keys_that_cannot_vary(key, words):
 
 
 def test_what_an_unknown_key_offers_is_only_what_can_vary():
-    assert not {"format", "mechanism", "study", "optimise"} & set(
+    assert not {"format", "mechanism", "study", "optimise", "units"} & set(
         re.findall(r"\w+", str(refused({"zzz": [1]}, "known there")).partition(";")[2])
     )
 
