@@ -19,6 +19,7 @@ from drivewright.report.optimised import write_optimised
 from drivewright.report.study import study_content, varied, write_answers
 from drivewright.result import Check, Column, Table
 from drivewright.spec import from_document
+from drivewright.spec.fields import Field
 from drivewright.studies.answers import Answers, analyse_study
 from drivewright.studies.plan import make_plan
 from drivewright.studies.spec_differences import differing_keys
@@ -110,7 +111,7 @@ def test_what_varied_in_inches():
 class Warm(Toy):
     """A toy with a temperature."""
 
-    warmth: Temperature = "70 degC"
+    warmth: Temperature = Field("70 degC", description="temperature")
 
 
 def test_the_standard_deviation_of_a_temperature_is_a_difference():

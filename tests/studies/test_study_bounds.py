@@ -7,7 +7,6 @@ import numpy as np
 import pyarrow as pa
 import pytest
 from pyarrow import parquet
-from pydantic import Field
 from study_toy import TOY, Toy, install
 
 import drivewright as dw
@@ -16,6 +15,7 @@ from drivewright.execution.keys import key_kind
 from drivewright.registry import Analysis
 from drivewright.result import Answer, Value
 from drivewright.spec import from_document
+from drivewright.spec.fields import Field
 from drivewright.studies.answers import analyse_study
 from drivewright.studies.plan import make_plan
 from drivewright.studies.search.problem import prepare
