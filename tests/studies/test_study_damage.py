@@ -113,10 +113,8 @@ def test_a_sweep_computes_damaged_parts_again_and_nothing_else(study, whole, cou
     flip(file)
     again = run(study)
     assert again.table.equals(whole[1]) and counted == gone
-    assert again.notices == (
-        f"{len(gone)} cases in 1 part are computed again: {file.name}, cases {gone[0]} to {gone[-1]}: its bytes are not those that were "
-        "written",
-    )
+    count, which = (f"{len(gone)} cases", f"cases {gone[0]} to {gone[-1]}") if len(gone) > 1 else ("1 case", f"case {gone[0]}")
+    assert again.notices == (f"{count} in 1 part are computed again: {file.name}, {which}: its bytes are not those that were written",)
     assert dw.open_study(study).table.equals(whole[1]) and not run(study).notices
 
 
