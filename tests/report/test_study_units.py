@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pyarrow as pa
 import pytest
 from study_toy import Toy, install
 from typer.testing import CliRunner
@@ -214,6 +215,21 @@ def row_of(capsys, check, units="mm"):
     show.checks([check], units)
     (line,) = [line for line in capsys.readouterr().out.splitlines() if " k " in line]
     return re.split(r"\s{2,}", line.strip())[2:5]
+
+
+def test_least_and_greatest_are_in_one_unit(capsys):
+    study = studied({"size": ["1 mm", "2 mm"]})
+    life = pa.array([1800.0, 3.6e7])
+    spread = {"area.low": pa.array([900.0, 1.8e7]), "area.high": pa.array([2700.0, 5.4e7])}
+    table = study.table
+    for name, data in {"area": life, **spread}.items():
+        about = {"unit": "s", "meaning": "life"} | ({"bounds": "area"} if name != "area" else {})
+        field = pa.field(name, pa.float64(), metadata=about)
+        place = table.column_names.index(name) if name in table.column_names else None
+        table = table.append_column(field, data) if place is None else table.set_column(place, field, data)
+    show.study(replace(study, table=table))
+    (row,) = [line for line in capsys.readouterr().out.splitlines() if line.strip().startswith("area ")]
+    assert re.split(r"\s{2,}", row.strip())[1:3] == ["0.50 (0.25 to 0.75) h", "10000 (5000 to 15000) h"]
 
 
 HOURS = 3600.0

@@ -312,12 +312,13 @@ def study(study: "Study", answers: "Answers | None" = None) -> None:
 
 
 def _ends(study: "Study", name: str) -> list[str]:
-    """Least and greatest of a column, each with the interval that it has in its case."""
+    """Least and greatest of a column in one unit, each with the interval that it has in its case."""
     import numpy as np
 
-    column, bounds = study[name], study.bounds(name) or ()
+    column, bounds = study[name], study.bounds(name)
     rows = np.nanargmin(column), np.nanargmax(column)
-    return [number(column[row], study.unit(name), *(end[row] for end in bounds), system=study.spec.units) for row in rows]
+    shown = units.scale(study.unit(name), system=study.spec.units, size=max(abs(column[row]) for row in rows))
+    return [_on_scale(column[row], bounds and (bounds[0][row], bounds[1][row]), shown) for row in rows]
 
 
 def _headline_columns(study: "Study") -> list[str]:
