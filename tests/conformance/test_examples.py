@@ -35,6 +35,23 @@ PINNED = {
         "bearings.C.reference_life": 34034277,
         "bearings.C.stiffness.tangent": 118615240,
     },
+    "gearbox_shaft": {
+        "gears.pinion.misalignment": 1.10910298e-05,
+        "bearings.A.basic_life.time": 39240748.7,
+        "bearings.B.modified_life.time": 187219620,
+        "strength.min_safety": 2.62186124,
+    },
+    "two_disc_rotor": {
+        "whirl.forward.1": 89.7875645,
+        "whirl.backward.2": 243.95576,
+        "critical_speeds.damped.2": 89.6911214,
+        "unbalance.small.amplitude": 8.37291605e-06,
+    },
+    "spindle_duty": {
+        "bearings.front_2.basic_life.time": 75645281,
+        "bearings.front_2.mean_load": 2432.14828,
+        "strength.min_safety": 14.2421113,
+    },
     "spindle": {"stations.nose.deflection": 5.50790965e-06, "critical_speeds.forward.1": 5509.45005},
     "pin_indexer": {
         "profile.area": 0.0381221101584,

@@ -33,7 +33,7 @@ _WHERE = {
     "drawing": ("bearing_section",),
     "ball": ("BallBearing", "BallLaw"),
     "dynamic_rating": ("basic_dynamic_rating",),
-    "life": ("basic_life", "equivalent_radial_load", "life_duration", "life_exponent", "static_rating"),
+    "life": ("basic_life", "life_duration", "life_exponent", "static_rating"),
     "equivalent_loads": (
         "EquivalentLoad",
         "LoadFactors",

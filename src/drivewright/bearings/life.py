@@ -3,15 +3,12 @@
 The reference life stands with each kind of bearing.
 """
 
-from collections.abc import Sequence
 
 import numpy as np
 
-from drivewright._typing import Floats
 from drivewright.bearings.solving import RollingBearing, basic_static_rating, contact_of
 from drivewright.errors import InputError
 
-AXIAL_SHARE = 0.19  # least e of ISO 281: axial over radial force up to which P = Fr in every deep-groove bearing
 REVOLUTIONS = 1e6  # to which ratings refer
 
 
@@ -36,15 +33,6 @@ def basic_life(bearing: RollingBearing, load: float) -> float | None:
     if bearing.dynamic_rating is None:
         return None
     return REVOLUTIONS * (bearing.dynamic_rating / load) ** power
-
-
-def equivalent_radial_load(force: Sequence[float] | Floats, contact_angle: float = 0.0) -> float | None:
-    """P [N] of ISO 281 under a force (Fx, Fy, Fz, ...) [N] where it is the radial force itself; None where X and Y would count.
-
-    So it is without a contact angle and with |Fz| <= e Fr, e = 0.19 being the least of all deep-groove bearings.
-    """
-    radial, axial = float(np.hypot(force[0], force[1])), abs(force[2])
-    return None if contact_angle or not radial > 0 or axial > AXIAL_SHARE * radial else radial
 
 
 def life_duration(revolutions: float, speed: float) -> float:
