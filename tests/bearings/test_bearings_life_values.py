@@ -17,7 +17,7 @@ from drivewright.bearings import (
 )
 from drivewright.bearings.tables import duty_table
 from drivewright.bearings.values import DutyCase, bearing_findings, life_values, load_values, spectrum_values, system_values
-from drivewright.labels import faults, label_of
+from drivewright.labels import duplicates, faults, label_of
 
 BALLS = BallBearing(balls=9, ball_diameter="11.9 mm", pitch_diameter="60 mm", outer_conformity=0.52, dynamic_rating="29.1 kN")
 ROLLERS = RollerBearing(rollers=14, roller_diameter="10 mm", roller_length="8.5 mm", pitch_diameter="54 mm", dynamic_rating="56 kN")
@@ -154,6 +154,20 @@ def test_a_duty_cycle_is_the_miner_sum_of_its_cases():
         np.cbrt((30 * heavy["equivalent_load"] ** 3 + 100 * light["equivalent_load"] ** 3) / 130), rel=1e-12
     )
     assert got["basic_life"] == pytest.approx(1e6 * (29100 / got["mean_load"]) ** 3, rel=1e-12)
+
+
+@pytest.mark.interface
+def test_lives_say_what_they_are_counted_by():
+    """At the speed of the shaft, or over the duty cycle - never one for the other."""
+    one, cycle = life_values("A", COMBINED, SPEED), spectrum_values("A", [DutyCase(0.5, SPEED, COMBINED), DutyCase(0.5, SPEED, LIGHT)])
+    for life, symbol in zip(LIVES, ("L10", "L10r", "Lnm"), strict=True):
+        single, total = one[f"bearings.A.{life}.time"].meaning, cycle[f"bearings.A.{life}.time"].meaning
+        assert single.endswith(f", {symbol}h at the shaft's speed") and total.endswith(f", {symbol}h over the duty cycle")
+        assert cycle[f"bearings.A.{life}"].meaning.endswith(", over the duty cycle")
+        assert "duty cycle" not in one[f"bearings.A.{life}"].meaning
+    for values in (one, cycle):
+        labels = [label_of(value.meaning) for value in values.values()]
+        assert duplicates(labels) == () and not any(faults(label) for label in labels)
 
 
 @pytest.mark.property

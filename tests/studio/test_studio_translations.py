@@ -26,7 +26,8 @@ EXAMPLES = SOURCE.parents[1] / "examples"
 KINDS = [kind for kind in registry.kinds() if (registry.mechanism(kind).folder / "zh.toml").is_file()]
 CHINESE = re.compile(r"[\u4e00-\u9fff]")
 SAME = {"* · *", "*（*）", "*／*", "LuGre", "Ambrósio", "Kelvin-Voigt"}  # texts that are the same in both languages
-LATIN = {"mm", "kN", "Hz", "arcmin", "von", "Mises", "Hy", "Vo", "max", "ds", "cos"}  # units and names inside Chinese texts
+# units, symbols and names inside Chinese texts; r/min, L10rh, Lnmh, C0/Fr
+LATIN = {"mm", "kN", "Hz", "arcmin", "min", "rh", "Lnmh", "Fr", "von", "Mises", "Hy", "Vo", "max", "ds", "cos"}
 OURS = {"cam", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"}
 
 

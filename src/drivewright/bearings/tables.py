@@ -42,7 +42,7 @@ def load_curve_table(curve: LoadCurve, name: str) -> Table:
         Column("tangent", "N/m", "tangent stiffness", curve.tangent),
         Column("secant", "N/m", "secant stiffness", curve.secant),
     )
-    return Table(f"curve.{name}", f"Bearing {name} over its load", columns)
+    return Table(f"curve.{name}", f"Stiffness of bearing {name} over load", columns)
 
 
 def load_curve_tables(state: BearingEquilibrium, name: str, factors: Floats) -> Iterator[Table]:
@@ -65,10 +65,10 @@ def duty_table(cases: Sequence[DutyCase], name: str, lubrication: Lubrication | 
     shares = np.array([case.share for case in cases])
     columns = (
         Column("share", "-", "share of the time", shares),
-        Column("speed", "rad/s", "speed", np.array([case.speed for case in cases])),
+        Column("speed", "rad/s", "speed of the shaft", np.array([case.speed for case in cases])),
         Column("equivalent_load", "N", "equivalent load P", np.array(loads)),
         *(
-            Column(f"{kind}_damage", "-", f"share of the damage, by the {kind} life", _damage_shares(shares, np.array(column)))
+            Column(f"{kind}_damage", "-", f"damage share by {kind} life", _damage_shares(shares, np.array(column)))
             for kind, column in zip(("basic", "reference", "modified"), zip(*times, strict=True), strict=True)
         ),
     )
@@ -93,9 +93,9 @@ def bearing_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     for name, table in tables.items():
         kind, _, bearing = name.partition(".")
         if kind == "elements":
-            yield Plot(name, f"Load on the rolling elements of bearing {bearing}", name, "angle", ("load",), style="polar")
+            yield Plot(name, f"Load distribution of bearing {bearing}", name, "angle", ("load",), style="polar")
             angled = ("contact_angle",) if any(table["contact_angle"].data) else ()
             columns = (*angled, "inner_pressure", "outer_pressure")
-            yield Plot(f"contact.{bearing}", f"Contact angle and pressure in bearing {bearing}", name, "angle", columns)
+            yield Plot(f"contact.{bearing}", f"Contacts in bearing {bearing}", name, "angle", columns)
         if kind == "curve":
-            yield Plot(name, f"Bearing {bearing} over its load", name, "load", ("displacement", "tangent", "secant"))
+            yield Plot(name, f"Stiffness of bearing {bearing} over load", name, "load", ("displacement", "tangent", "secant"))

@@ -15,13 +15,14 @@ from drivewright.bearings.solving import BearingEquilibrium, RollingBearing, con
 from drivewright.result import Value
 
 REVOLUTIONS = "rev"  # unit of a life
+SPEED, CYCLE = "at the shaft's speed", "over the duty cycle"  # what a life in time is counted by
 NOTICED = 1.25  # ratio of the loads behind L10r and L10 from which a finding tells: a factor of two in the life of balls
 SLIDING = 1e-6  # axial over radial force below which a cylindrical roller bearing counts as loaded radially alone
-# kind of life: words, symbol, what it is of
+# kind of life: words, symbol, what it comes from
 LIVES = {
-    "basic_life": ("basic life", "L10", "revolutions under the equivalent load P, ISO 281"),
-    "reference_life": ("reference life", "L10r", "revolutions by the load on every rolling element, ISO/TS 16281"),
-    "modified_life": ("modified life", "Lnm", "revolutions a1 a_ISO L10r: lubricant, contamination and reliability, ISO 281"),
+    "basic_life": ("basic life", "L10", "by the equivalent load P, ISO 281"),
+    "reference_life": ("reference life", "L10r", "by the load on every rolling element, ISO/TS 16281"),
+    "modified_life": ("modified life", "Lnm", "a1 a_ISO L10r by lubricant, contamination and reliability, ISO 281"),
 }
 
 
@@ -38,20 +39,28 @@ def load_values(name: str, state: BearingEquilibrium) -> dict[str, Value]:
     of, key = f"of bearing {name!r}", f"bearings.{name}"
     loaded = int(np.sum(state.element_loads > 0))
     values = {
-        f"{key}.max_element_load": Value(float(state.element_loads.max()), "N", f"load of the most loaded rolling element {of}"),
-        f"{key}.max_pressure": Value(float(state.pressures.max()), "Pa", f"largest Hertz pressure {of}"),
-        f"{key}.loaded_elements": Value(float(loaded), "-", f"rolling elements under load {of}"),
+        f"{key}.max_element_load": Value(
+            float(state.element_loads.max()), "N", f"peak element load {of}, on its most loaded rolling element"
+        ),
+        f"{key}.max_pressure": Value(float(state.pressures.max()), "Pa", f"Hertz pressure {of}, the largest of its contacts"),
+        f"{key}.loaded_elements": Value(float(loaded), "-", f"loaded elements {of}, number of rolling elements that carry"),
     }
     if loaded:
-        values[f"{key}.static_safety"] = Value(state.static_safety, "-", f"load at the permissible static pressure over the load {of}")
+        values[f"{key}.static_safety"] = Value(
+            state.static_safety, "-", f"static safety {of}, its load at the permissible contact pressure over its load"
+        )
     return values | _rating_values(name, state.bearing) | _static_rating_values(name, state)
 
 
 def _rating_values(name, bearing):
     """C and C0 that the lives and safeties count with."""
-    values = {f"bearings.{name}.static_rating": Value(static_rating(bearing), "N", f"basic static load rating C0 of bearing {name!r}")}
+    values = {
+        f"bearings.{name}.static_rating": Value(
+            static_rating(bearing), "N", f"static rating C0 of bearing {name!r}, basic static load rating"
+        )
+    }
     if bearing.dynamic_rating is not None:
-        meaning = f"basic dynamic load rating C of bearing {name!r}"
+        meaning = f"dynamic rating C of bearing {name!r}, basic dynamic load rating"
         values[f"bearings.{name}.dynamic_rating"] = Value(bearing.dynamic_rating, "N", meaning)
     return values
 
@@ -61,7 +70,7 @@ def _static_rating_values(name, state):
     static = equivalent_static_load(state.bearing, state.force)
     if static is None or not static.load > 0:
         return {}
-    meaning = f"static safety C0/P0 of bearing {name!r}, its static rating over the equivalent static load, ISO 76"
+    meaning = f"static safety C0/P0 of bearing {name!r}, static rating over equivalent static load, ISO 76"
     return {f"bearings.{name}.static_rating_safety": Value(static_rating(state.bearing) / static.load, "-", meaning)}
 
 
@@ -76,15 +85,17 @@ def life_values(
         values[f"{key}.equivalent_load"] = Value(lives.equivalent.load, "N", f"equivalent load P {of}, {_factor_text(lives)}")
     values |= _life_pairs(name, lives, speed)
     if lives.viscosity_ratio is not None:
-        values[f"{key}.viscosity_ratio"] = Value(lives.viscosity_ratio, "-", f"viscosity ratio kappa {of}, viscosity over the needed one")
+        values[f"{key}.viscosity_ratio"] = Value(
+            lives.viscosity_ratio, "-", f"viscosity ratio {of}, kappa: operating over reference viscosity"
+        )
     if lives.modification is not None:
-        values[f"{key}.a_iso"] = Value(lives.modification, "-", f"life modification factor {of}, a_ISO of ISO 281")
+        values[f"{key}.a_iso"] = Value(lives.modification, "-", f"factor a_ISO {of}, life modification factor of ISO 281")
     return values
 
 
 def _factor_text(lives: RatingLives) -> str:
     given = lives.equivalent
-    return f"X Fr + Y Fa by {given.source}" if given is not None and given.Y else "here the radial force itself"
+    return f"X Fr + Y Fa by {given.source}" if given is not None and given.Y else "the radial force itself"
 
 
 def _life_pairs(name: str, lives: RatingLives, speed: float | None) -> dict[str, Value]:
@@ -92,16 +103,17 @@ def _life_pairs(name: str, lives: RatingLives, speed: float | None) -> dict[str,
     values = {}
     for kind, life in (("basic_life", lives.basic), ("reference_life", lives.reference), ("modified_life", lives.modified)):
         if life is not None and np.isfinite(life):
-            values |= _life_pair(name, kind, life, life_duration(life, speed) if speed else None)
+            values |= _life_pair(name, kind, life, life_duration(life, speed) if speed else None, SPEED)
     return values
 
 
-def _life_pair(name: str, kind: str, revolutions: float, time: float | None) -> dict[str, Value]:
-    """One life in revolutions and, where it is known, in time [s]."""
+def _life_pair(name: str, kind: str, revolutions: float, time: float | None, basis: str) -> dict[str, Value]:
+    """One life in revolutions and, where it is known, in time [s], at a speed or over a cycle."""
     key, (words, symbol, source) = f"bearings.{name}.{kind}", LIVES[kind]
-    values = {key: Value(float(revolutions), REVOLUTIONS, f"{words} {symbol} of bearing {name!r}, {source}")}
+    over = f", {basis}" if basis == CYCLE else ""
+    values = {key: Value(float(revolutions), REVOLUTIONS, f"{symbol} revolutions of bearing {name!r}, {words} {source}{over}")}
     if time is not None:
-        values[f"{key}.time"] = Value(float(time), "s", f"{words} {symbol}h of bearing {name!r}, at the shaft's speed")
+        values[f"{key}.time"] = Value(float(time), "s", f"{words} of bearing {name!r}, {symbol}h {basis}")
     return values
 
 
@@ -118,7 +130,7 @@ def spectrum_values(name: str, cases: Sequence[DutyCase], lubrication: Lubricati
     for kind, column in zip(LIVES, zip(*((each.basic, each.reference, each.modified) for each in lives), strict=True), strict=True):
         time = _spectrum_time(shares, speeds, column)
         if time is not None and np.isfinite(time):
-            values |= _life_pair(name, kind, time * mean_speed(shares, speeds) / (2 * np.pi), time)
+            values |= _life_pair(name, kind, time * mean_speed(shares, speeds) / (2 * np.pi), time, CYCLE)
     return values
 
 
@@ -128,7 +140,11 @@ def _mean_load_values(name, cases, lives):
         return {}
     columns = [case.share for case in cases], [case.speed for case in cases], [each.equivalent.load for each in lives]
     load = mean_load(*columns, life_exponent(cases[0].state.bearing))
-    return {f"bearings.{name}.mean_load": Value(load, "N", f"mean load of bearing {name!r}, the constant load of the same basic life")}
+    return {
+        f"bearings.{name}.mean_load": Value(
+            load, "N", f"mean load of bearing {name!r}, the constant load with the basic life of the duty cycle"
+        )
+    }
 
 
 def _spectrum_time(shares, speeds, lives):
@@ -150,7 +166,7 @@ def system_values(bearings: Mapping[str, RollingBearing], values: Mapping[str, V
         single = [values.get(f"bearings.{name}.{kind}.time") for name in bearings]
         lives = [each.value for each in single if each is not None]
         if len(lives) == len(slopes):
-            meaning = f"{words} {symbol}h of all bearings together, Weibull's slopes {_slope_text(slopes)}"
+            meaning = f"{words} of all bearings together, {symbol}h by Weibull's slopes {_slope_text(slopes)}"
             found[f"shaft.system_{kind}.time"] = Value(system_life(lives, slopes), "s", meaning)
     return found
 

@@ -25,16 +25,15 @@ def seat_values(name: str, equilibrium: ShaftEquilibrium, load: ShaftLoad, face_
     """Deflection [m], slope [rad] and misalignment of the gear of this name, whose teeth load the shaft at a node."""
     key, of = f"gears.{name}", f"of the shaft at gear {name!r}"
     move, slope = equilibrium.displacement_at(load.position), equilibrium.slope_at(load.position)
-    across, meaning = slope_in_plane_of_action(slope, load), f"slope of gear {name!r} in the plane of action, signed as its tooth force"
+    across = slope_in_plane_of_action(slope, load)
+    meaning = f"mesh slope of gear {name!r}, in the plane of action, positive where it gives way to the right"
     values = {
         f"{key}.deflection": Value(float(np.hypot(*move)), "m", f"deflection {of}, magnitude"),
         f"{key}.slope": Value(float(np.hypot(*slope)), "rad", f"slope {of}, magnitude"),
-        f"{key}.mesh_slope": Value(
-            across, "rad", f"slope of gear {name!r} in the plane of action, above 0 where it gives way to the right"
-        ),
+        f"{key}.mesh_slope": Value(across, "rad", meaning),
     }
     if face_width:
-        meaning = f"misalignment over the face of gear {name!r}, in the plane of action, by this shaft alone"
+        meaning = f"face misalignment of gear {name!r}, in the plane of action, by this shaft alone"
         values[f"{key}.misalignment"] = Value(abs(across) * face_width, "m", meaning)
     return values
 
@@ -47,13 +46,13 @@ def vector_table(forces: Mapping[str, Floats]) -> Table:
     for n, name in enumerate(forces):
         data = np.full(len(tips), np.nan)
         data[2 * n : 2 * n + 2] = tips[2 * n : 2 * n + 2, 1]
-        columns.append(Column(name, "N", f"force of {name} along y (up)", data, name))
-    return Table("force_vectors", "Forces across the shaft", tuple(columns), "a force has no place in the rows of the others")
+        columns.append(Column(name, "N", f"force along y (up), {name}", data, name))
+    return Table("force_vectors", "Forces across the shaft", tuple(columns), "each force has rows of its own")
 
 
 def vector_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     """The forces as vectors in the plane across the axis: x and y as everywhere, z towards the eye."""
     if "force_vectors" in tables:
-        names, meaning = tuple(column.name for column in tables["force_vectors"].columns[1:]), "x to the right, y up, z towards the eye"
-        title = "Forces across the shaft, seen from its right end"
+        names, title = tuple(column.name for column in tables["force_vectors"].columns[1:]), "Forces across the shaft"
+        meaning = "seen from the right end of the shaft: x to the right, y up, z towards the eye"
         yield Plot("force_vectors", title, "force_vectors", "x", names, equal=True, whole=True, meaning=meaning)

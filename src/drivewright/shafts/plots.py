@@ -26,13 +26,11 @@ def shaft_plots(result: Result[Any], places: tuple[tuple[float, str], ...] = ())
     across = "_across" if "diagram" in result.tables and any(result.tables["diagram"]["moment_across"].data) else ""
     columns = [name for each in ("deflection", "slope", "shear", "moment") for name in dict.fromkeys((each, each + across))]
     rigid = tuple(f"{name}.rigid" for name in stations)
-    yield Plot("diagram", "Deflection, slope, shear force and bending moment", "diagram", "z", tuple(columns), places=places)
+    yield Plot("diagram", "Deflections and forces along the shaft", "diagram", "z", tuple(columns), places=places)
     yield Plot("stress", "Stress along the shaft", "diagram", "z", ("stress",), places=places)
-    yield Plot(
-        "unit_load", "Deflection by a unit force; dashed: bearings rigid", "unit_load", "z", stations, reference=rigid, places=places
-    )
+    yield Plot("unit_load", "Unit-force deflection; dashed: rigid", "unit_load", "z", stations, reference=rigid, places=places)
     parts = _labels(result, "flexibility.shares")
-    yield Plot("shares", "Who contributes what to the flexibility", "shares", "entry", parts, style="bars")
+    yield Plot("shares", "Flexibility contributions", "shares", "entry", parts, style="bars")
     if "modes" in result.tables:
         shapes = tuple(column.name for column in result.tables["modes"].columns[1:])
         yield Plot("modes", "Natural modes of bending", "modes", "z", shapes, places=places)

@@ -25,7 +25,7 @@ def whirl_values(modes: WhirlModes, damped: bool) -> dict[str, Value]:
             key, meaning = f"whirl.{name}.{n}", f"{name} whirl frequency {n}, {words}, {at}"
             values[key] = Value(float(modes.frequency[number]), "rad/s", meaning)
             if damped:
-                meaning = f"logarithmic decrement of {name} whirl {n}, {at}: above 0 the whirl dies away"
+                meaning = f"log decrement of {name} whirl {n}, {at}: above 0 the whirl decays"
                 values[f"{key}.log_decrement"] = Value(float(modes.log_decrement[number]), "-", meaning)
     return values
 
@@ -38,7 +38,7 @@ def critical_values(critical: Sequence[CriticalSpeed], damped: bool) -> dict[str
         key = f"critical_speeds.damped.{n}"
         values[key] = Value(each.speed, "rad/s", f"damped critical speed {n}, whirling {way} the shaft")
         if each.damping_ratio > 0:
-            meaning = f"amplification factor at damped critical speed {n}, 1/(2 damping ratio)"
+            meaning = f"amplification factor {n}, at damped critical speed {n}: 1/(2 damping ratio)"
             values[f"{key}.amplification"] = Value(0.5 / each.damping_ratio, "-", meaning)
     return values
 
@@ -46,9 +46,9 @@ def critical_values(critical: Sequence[CriticalSpeed], damped: bool) -> dict[str
 def stability_values(modes: WhirlModes, threshold: float | None) -> dict[str, Value]:
     """The least logarithmic decrement at the speed [-], and the speed [rad/s] from which a whirl grows, where there is one."""
     least = float(modes.log_decrement.min())
-    values = {"stability.log_decrement": Value(least, "-", "smallest logarithmic decrement, of all whirls at the speed of the shaft")}
+    values = {"stability.log_decrement": Value(least, "-", "smallest log decrement, of all whirls at the speed of the shaft")}
     if threshold is not None:
-        values["stability.threshold_speed"] = Value(threshold, "rad/s", "stability threshold speed, from which a whirl grows by itself")
+        values["stability.threshold_speed"] = Value(threshold, "rad/s", "stability threshold speed, above which a whirl grows by itself")
     return values
 
 
@@ -59,28 +59,27 @@ def campbell_table(diagram: Campbell) -> Table:
     for frequency, ratio, sense in zip(diagram.frequency.T, diagram.damping_ratio.T, diagram.sense.T, strict=True):
         way = "forward" if np.nansum(np.sign(sense)) > 0 else "backward"
         counted[way] += 1
-        name, label = f"{way}_{counted[way]}", f"{way.capitalize()} whirl {counted[way]}"
-        mixed = ", at some speeds the other way round" if np.nanmin(sense) * np.nanmax(sense) < 0 else ""
-        columns.append(Column(name, "Hz", f"frequency of {label.lower()}{mixed}", frequency * HERTZ, label))
-        columns.append(Column(f"{name}.damping_ratio", "-", f"damping ratio of {label.lower()}", ratio))
-        columns.append(Column(f"{name}.sense", "-", f"sense of {label.lower()}: 1 with the shaft, -1 against it, 0 on a line", sense))
+        name, label = f"{way}_{counted[way]}", f"{way} whirl {counted[way]}"
+        columns.append(Column(name, "Hz", label, frequency * HERTZ))
+        columns.append(Column(f"{name}.damping_ratio", "-", f"damping ratio of {label}", ratio))
+        columns.append(Column(f"{name}.sense", "-", f"sense of {label}: 1 with the shaft, -1 against it, 0 on a line", sense))
     columns.append(Column("synchronous", "Hz", "once per revolution", diagram.speeds * HERTZ))
-    gaps = "a whirl that is damped so much that it creeps back has no frequency"
+    gaps = "an overdamped whirl has no frequency"
     return Table("campbell", "Campbell diagram", tuple(columns), gaps if np.isnan(diagram.frequency).any() else "")
 
 
 def whirl_shape_table(modes: WhirlModes, z: Floats) -> Table:
     """`whirl_shapes`: the circle that goes round as the whirl does, scaled to 1."""
     columns = [Column("z", "m", "distance from the left end", z)]
-    for forward, name, words in SENSES:
+    for forward, name, _ in SENSES:
         for n, number in enumerate(modes.chosen(forward), 1):
             x, y = modes.shapes[:, :, number]
             radius = x + 1j * y if forward else np.conj(x - 1j * y)
             size = np.abs(radius)
             radius = radius * np.conj(radius[np.argmax(size > 0.5 * size.max())])  # the first large one points up
             radius = radius / np.abs(radius).max()
-            label = f"{name.capitalize()} whirl {n}, {modes.frequency[number] * HERTZ:.4g} Hz"
-            columns.append(Column(f"{name}_{n}", "-", f"shape of {name} whirl {n}, {words}", radius.real, label))
+            meaning = f"{name} whirl {n}, {modes.frequency[number] * HERTZ:.4g} Hz"
+            columns.append(Column(f"{name}_{n}", "-", meaning, radius.real))
     return Table("whirl_shapes", "Whirl shapes at the speed of the shaft", tuple(columns))
 
 
@@ -93,11 +92,13 @@ def orbit_values(orbits: Orbits, parts: Sequence[str], supports: Sequence[str]) 
     for name, amplitude, lag in zip(parts, orbits.amplitude[0], orbits.lag[0], strict=True):
         meaning = f"unbalance amplitude of {name!r}, major semi-axis of its orbit {at}"
         values[f"unbalance.{name}.amplitude"] = Value(float(amplitude), "m", meaning)
-        meaning = f"phase lag of {name!r} behind the unbalance at the angle 0, {at}"
+        meaning = f"phase lag of {name!r}, behind the unbalance at the angle 0, {at}"
         values[f"unbalance.{name}.phase_lag"] = Value(float(lag), "rad", meaning)
     for name, force in zip(supports, orbits.support_forces[0], strict=True):
         if np.isfinite(force):
-            values[f"bearings.{name}.unbalance_force"] = Value(float(force), "N", f"unbalance force on bearing {name!r}, rotating, {at}")
+            values[f"bearings.{name}.unbalance_force"] = Value(
+                float(force), "N", f"unbalance force on bearing {name!r}, major semi-axis of the rotating force {at}"
+            )
     return values
 
 
@@ -115,7 +116,7 @@ def orbit_table(orbits: Orbits, parts: Sequence[str]) -> Table:
     columns = [Column("speed", "rad/s", "speed of the shaft", orbits.speeds[kept])]
     for name, amplitude, lag in zip(parts, orbits.amplitude[kept].T, orbits.lag[kept].T, strict=True):
         columns.append(Column(name, "m", f"unbalance amplitude of {name!r}", amplitude))
-        columns.append(Column(f"{name}{LAG}", "rad", f"phase lag of {name!r} behind the unbalance", np.unwrap(lag)))
+        columns.append(Column(f"{name}{LAG}", "rad", f"phase lag behind the unbalance, {name!r}", np.unwrap(lag), f"phase lag of {name!r}"))
     return Table("unbalance_response", "Unbalance response over speed", tuple(columns))
 
 
@@ -128,7 +129,7 @@ def rotor_plots(tables: Mapping[str, Table], speed: float | None, places: tuple[
     if "campbell" in tables:
         ahead, back = _branches(tables["campbell"])
         yield Plot(
-            "campbell", "Campbell diagram; dashed: backward whirl", "campbell", "speed", (*ahead, "synchronous"), reference=back, places=at
+            "campbell", "Campbell diagram; dashed: backward", "campbell", "speed", (*ahead, "synchronous"), reference=back, places=at
         )
     if "whirl_shapes" in tables:
         ahead, back = _branches(tables["whirl_shapes"])

@@ -27,9 +27,9 @@ def diagram_table(along: Diagram, direction: Floats) -> Table:
         ("shear", along.shear, "N", "shear force"),
         ("moment", along.moment, "N m", "bending moment"),
     ):
-        columns.append(Column(name, unit, f"{meaning}, in the direction of the unit loads", data @ direction))
+        columns.append(Column(name, unit, f"{meaning}, along the unit loads", data @ direction, f"{meaning} along the unit loads"))
         across = data @ [direction[1], -direction[0]]
-        columns.append(Column(f"{name}_across", unit, f"{meaning}, square to it: a quarter of a turn clockwise", across))
+        columns.append(Column(f"{name}_across", unit, f"{meaning}, 90° clockwise from them", across, f"{meaning} across the unit loads"))
     columns += [
         Column("axial", "N", "axial force, tension positive", along.axial),
         Column("torque", "N m", "torque", along.torque),
@@ -43,12 +43,12 @@ def diagram_table(along: Diagram, direction: Floats) -> Table:
 def reaction_table(equilibrium: ShaftEquilibrium) -> Table:
     """A row for every support: reaction on the shaft and displacement in it."""
     keys, names = ("x", "y", "z", "tilt_x", "tilt_y"), [support.name for support in equilibrium.model.beam.shaft.supports]
-    words = ("along x", "along y", "along z", "moment about x", "moment about y")
+    words = ("along x", "along y", "along z", "about x", "about y")
     columns = [Column("bearing", "-", "bearing", np.array(names))]
-    for key, unit, of, data in zip(keys, ("N", "N", "N", "N m", "N m"), words, equilibrium.reactions.T, strict=True):
-        columns.append(Column(f"reaction_{key}", unit, f"reaction on the shaft, {of}", data))
-    for key, unit, data in zip(keys, ("m", "m", "m", "rad", "rad"), equilibrium.relative.T, strict=True):
-        columns.append(Column(f"displacement_{key}", unit, f"of the shaft against the seat, {key}", data))
+    for key, unit, way, data in zip(keys, ("N", "N", "N", "N m", "N m"), words, equilibrium.reactions.T, strict=True):
+        columns.append(Column(f"reaction_{key}", unit, f"reaction {way}, on the shaft", data))
+    for key, unit, way, data in zip(keys, ("m", "m", "m", "rad", "rad"), words, equilibrium.relative.T, strict=True):
+        columns.append(Column(f"displacement_{key}", unit, f"displacement {way}, of the shaft against the seat", data))
     return Table("reactions", "Bearings under load", tuple(columns))
 
 
@@ -58,7 +58,7 @@ def unit_load_table(equilibrium: ShaftEquilibrium, flexibility: Flexibility, nam
     z = np.linspace(0.0, shaft.length, SAMPLES)
     rigid = flexibility_on_rigid_bearings(shaft, [station.position for station in shaft.stations], direction)
     columns = [Column("z", "m", "distance from the left end", z)]
-    for words, suffix, at_rest, each in (("", "", equilibrium, flexibility), (", bearings rigid", ".rigid", *rigid)):
+    for words, suffix, at_rest, each in (("", "", equilibrium, flexibility), (" on rigid bearings", ".rigid", *rigid)):
         for name, unknowns in zip(names, each.unknowns.T, strict=True):
             deflection = unit_deflection(at_rest, unknowns, z, direction)
             columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", deflection))
@@ -80,17 +80,24 @@ def share_table(flexibility: Flexibility, names: Sequence[str]) -> Table:
     ]
     for name, share in zip(flexibility.names, flexibility.shares, strict=True):
         columns.append(Column(name, "m/N", name if name in PARTS else f"bearing {name}", np.array([share[p] for p in pairs])))
-    return Table("shares", "Who contributes what to the flexibility", tuple(columns))
+    return Table("shares", "Flexibility contributions", tuple(columns))
 
 
 def sensitivity_table(slopes: Iterable[FlexibilitySlope], names: Sequence[str]) -> Table:
     """A row for every parameter of `relative_flexibility_slopes`, a column for every entry of the flexibility."""
     pairs = station_pairs(names)
     parameters, held, relative = zip(*slopes, strict=True)
-    columns = [Column("parameter", "-", "parameter", np.array(parameters)), Column("held", "-", "what is held", np.array(held))]
+    columns = [Column("parameter", "-", "parameter", np.array(parameters)), Column("held", "-", "held quantities", np.array(held))]
     for i, j in pairs:
-        columns.append(Column(f"{names[i]}.{names[j]}", "-", f"of {names[i]}, {names[j]}", np.array([each[i, j] for each in relative])))
-    return Table("sensitivities", "Sensitivities of the flexibility, relative change over relative change", tuple(columns))
+        columns.append(
+            Column(
+                f"{names[i]}.{names[j]}",
+                "-",
+                f"sensitivity of {names[i]}/{names[j]}, relative change over relative change",
+                np.array([each[i, j] for each in relative]),
+            )
+        )
+    return Table("sensitivities", "Sensitivities of the flexibility", tuple(columns))
 
 
 def limit_table(limits: Mapping[str, Sequence[LimitLoad]], shock_factor: float) -> Table:
@@ -99,12 +106,12 @@ def limit_table(limits: Mapping[str, Sequence[LimitLoad]], shock_factor: float) 
     force = np.array([limit.force for _, limit, _ in rows])
     columns = (
         Column("station", "-", "station of the force", np.array([name for name, _, _ in rows])),
-        Column("part", "-", "what reaches its limit", np.array([limit.part for _, limit, _ in rows])),
-        Column("load", "N", "force at which it does", force),
-        Column("steady_load", "N", "the same over the shock factor", force / shock_factor),
-        Column("first", "-", "1 where it is the first", np.array([first for _, _, first in rows], float)),
+        Column("part", "-", "part at its limit", np.array([limit.part for _, limit, _ in rows])),
+        Column("load", "N", "force at the limit", force),
+        Column("steady_load", "N", "steady force, over the shock factor", force / shock_factor),
+        Column("first", "-", "first to fail, 1 where it is", np.array([first for _, _, first in rows], float)),
     )
-    return Table("failure", "What fails first", columns)
+    return Table("failure", "Limit loads at the stations", columns)
 
 
 def mode_table(equilibrium: ShaftEquilibrium, modes: Modes) -> Table:

@@ -26,12 +26,12 @@ def station_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str
     for station in equilibrium.model.beam.shaft.stations:
         move, slope = equilibrium.displacement_at(station.position), equilibrium.slope_at(station.position)
         name, at = f"stations.{station.name}", f"of station {station.name!r}"
-        along = "along the unit loads: positive with the load"
+        along = f"deflection of {station.name!r} along unit loads, positive with the load"
         values |= {
-            f"{name}.deflection": Value(float(np.dot(direction, move)), "m", f"deflection {at} {along}"),
+            f"{name}.deflection": Value(float(np.dot(direction, move)), "m", along),
             f"{name}.displacement": Value(float(np.hypot(*move)), "m", f"deflection {at}, magnitude"),
             f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {at} along x"),
-            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {at} along y (up)"),
+            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {at} along y, up"),
             f"{name}.slope": Value(float(np.dot(direction, slope)), "rad", f"slope {at}, positive where the deflection grows with z"),
         }
     return values
@@ -43,18 +43,20 @@ def support_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str
     supports = equilibrium.model.beam.shaft.supports
     for support, reaction, moved in zip(supports, equilibrium.reactions, equilibrium.relative, strict=True):
         name, at, inside = f"bearings.{support.name}", f"of bearing {support.name!r}", f"of the shaft in bearing {support.name!r}"
-        slope, against = float(np.hypot(*equilibrium.slope_at(support.position))), "along the unit loads, positive against the load"
+        slope, along = float(np.hypot(*equilibrium.slope_at(support.position))), f"of {support.name!r} along unit loads"
         radial, displacement = -float(np.dot(direction, reaction[:2])), float(np.dot(direction, moved[:2]))
         values |= {
-            f"{name}.reaction": Value(radial, "N", f"radial reaction {at} on the shaft {against}"),
-            f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} on the shaft along x"),
-            f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} on the shaft along y"),
+            f"{name}.reaction": Value(radial, "N", f"reaction {along}, on the shaft, positive against the load"),
+            f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} along x, on the shaft"),
+            f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} along y, on the shaft"),
             f"{name}.radial_force": Value(float(np.hypot(*reaction[:2])), "N", f"radial force {at}, magnitude"),
-            f"{name}.displacement": Value(displacement, "m", f"displacement {inside}, positive with the load"),
+            f"{name}.displacement": Value(
+                displacement, "m", f"displacement in bearing {support.name!r}, of the shaft against the seat, positive with the load"
+            ),
             f"{name}.slope": Value(slope, "rad", f"slope {inside}, magnitude"),
         }
         if abs(reaction[2]) > 0:
-            values[f"{name}.axial_force"] = Value(reaction[2], "N", f"axial reaction {at} on the shaft, positive to the right")
+            values[f"{name}.axial_force"] = Value(reaction[2], "N", f"axial reaction {at}, on the shaft, positive to the right")
         if np.any(np.abs(reaction[3:]) > NO_MOMENT * (1 + np.abs(reaction[:2]).max())):
             values[f"{name}.moment"] = Value(float(np.hypot(*reaction[3:])), "N m", f"moment {at} on the shaft, magnitude")
     return values
@@ -63,26 +65,31 @@ def support_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str
 def extreme_values(along: Diagram) -> dict[str, Value]:
     """The largest deflection [m], bending moment [N m] and stress [Pa] along the shaft, and where [m] they are."""
     values = {}
-    for name, data, unit, meaning in (
-        ("max_deflection", np.hypot(*along.deflection.T), "m", "largest deflection along the shaft"),
-        ("max_moment", np.hypot(*along.moment.T), "N m", "largest bending moment"),
-        ("max_stress", along.von_mises, "Pa", "largest von Mises stress, nominal: without notches"),
+    for name, data, unit, what, more in (
+        ("max_deflection", np.hypot(*along.deflection.T), "m", "largest deflection", " along the shaft"),
+        ("max_moment", np.hypot(*along.moment.T), "N m", "largest bending moment", ""),
+        ("max_stress", along.von_mises, "Pa", "largest von Mises stress", ", nominal: without notches"),
     ):
         at = int(np.argmax(data))
-        values[f"shaft.{name}"] = Value(float(data[at]), unit, meaning)
-        values[f"shaft.{name}.at"] = Value(float(along.z[at]), "m", f"where {name} is")
+        values[f"shaft.{name}"] = Value(float(data[at]), unit, what + more)
+        values[f"shaft.{name}.at"] = Value(float(along.z[at]), "m", f"place of the {what}")
     return values
 
 
 def stiffness_values(name: str, stiffness: SupportStiffness) -> dict[str, Value]:
     """The `SupportStiffness` of the support of this name, with the load behind it; nothing where there is no load."""
     rows = (
-        ("load", stiffness.load, "N", f"radial force of bearing {name!r} behind its stiffness"),
-        ("tangent", stiffness.tangent, "N/m", f"change of radial force over displacement of bearing {name!r}, all else held"),
-        ("secant", stiffness.secant, "N/m", f"radial force over displacement of bearing {name!r}, from the seat's axis"),
-        ("axial", stiffness.axial, "N/m", f"tangent stiffness of bearing {name!r}, axial"),
-        ("tilt_x", stiffness.tilt_x, "N m/rad", f"tangent stiffness of bearing {name!r}, tilt about x"),
-        ("tilt_y", stiffness.tilt_y, "N m/rad", f"tangent stiffness of bearing {name!r}, tilt about y"),
+        ("load", stiffness.load, "N", f"operating load of bearing {name!r}, the radial force at which its stiffness holds"),
+        (
+            "tangent",
+            stiffness.tangent,
+            "N/m",
+            f"tangent stiffness of bearing {name!r}, radial: change of force over displacement, all else held",
+        ),
+        ("secant", stiffness.secant, "N/m", f"secant stiffness of bearing {name!r}, radial: force over displacement from the seat's axis"),
+        ("axial", stiffness.axial, "N/m", f"axial stiffness of bearing {name!r}, tangent"),
+        ("tilt_x", stiffness.tilt_x, "N m/rad", f"tilt stiffness x of bearing {name!r}, tangent, about x"),
+        ("tilt_y", stiffness.tilt_y, "N m/rad", f"tilt stiffness y of bearing {name!r}, tangent, about y"),
     )
     values = {f"bearings.{name}.stiffness.{key}": Value(value, unit, meaning) for key, value, unit, meaning in rows if np.isfinite(value)}
     return values if stiffness.tangent > 0 else {}
@@ -113,8 +120,8 @@ def flexibility_arrays(found: Flexibility, stations: tuple[str, ...], supports: 
 def limit_values(station: str, limits: Sequence[LimitLoad], shock_factor: float) -> dict[str, Value]:
     """The least of the `LimitLoad`s of a force at a station of this name, and the steady force [N] that is allowed there."""
     first = min(limits, key=lambda limit: limit.force)
-    name, at_limit = f"stations.{station}", f"force at {station!r} alone at which {first.part} is at its limit"
-    allowed = f"steady force at {station!r} alone that is allowed, with the shock factor {shock_factor:g}"
+    name, at_limit = f"stations.{station}", f"limit force at {station!r}, acting alone, by {first.part}"
+    allowed = f"allowed force at {station!r}, steady and acting alone, with the shock factor {shock_factor:g}"
     return {
         f"{name}.limit_load": Value(first.force, "N", at_limit),
         f"{name}.allowed_load": Value(first.force / shock_factor, "N", allowed),
@@ -125,7 +132,7 @@ def sensitivity_values(slopes: Iterable[FlexibilitySlope], names: Sequence[str])
     """Every finite entry of `relative_flexibility_slopes` [-], by pair of stations and parameter."""
     return {
         f"sensitivity.{names[i]}.{names[j]}.{parameter}": Value(
-            float(slope[i, j]), "-", f"relative change of the flexibility over that of {parameter}; {held}"
+            float(slope[i, j]), "-", f"sensitivity {names[i]}/{names[j]} to {parameter}, relative change over relative change; {held}"
         )
         for parameter, held, slope in slopes
         for i, j in station_pairs(names)
@@ -141,9 +148,9 @@ def frequency_values(
     rows = (
         ("modes", ".frequency", "Hz", "natural frequency {n} of bending, at rest", bending),
         ("axial_modes", ".frequency", "Hz", "natural frequency {n} along the axis, at rest", axial),
-        ("critical_speeds.forward", "", "rad/s", "critical speed {n}, whirling with the shaft", critical.forward),
-        ("critical_speeds.backward", "", "rad/s", "critical speed {n}, whirling against the shaft", critical.backward),
-        ("torsional_modes", ".frequency", "Hz", "natural frequency {n} of torsion of the free shaft", torsional),
+        ("critical_speeds.forward", "", "rad/s", "forward critical speed {n}, whirling with the shaft", critical.forward),
+        ("critical_speeds.backward", "", "rad/s", "backward critical speed {n}, whirling against the shaft", critical.backward),
+        ("torsional_modes", ".frequency", "Hz", "natural frequency {n} of torsion, of the free shaft", torsional),
     )
     values = {
         f"{key}.{n}{suffix}": Value(float(number), unit, meaning.format(n=n))
@@ -151,9 +158,7 @@ def frequency_values(
         for n, number in enumerate(numbers, 1)
     }
     if lowest_excited:
-        meaning = (
-            "lowest critical speed that an unbalance excites: with the shaft, on bearings that are not the same all round also against it"
-        )
+        meaning = "lowest unbalance-excited critical speed: forward whirl, also backward whirl for anisotropic bearings"
         values["critical_speeds.lowest"] = Value(lowest_excited, "rad/s", meaning)
     return values
 
@@ -161,7 +166,7 @@ def frequency_values(
 def massless_values(frequencies: Floats) -> dict[str, Value]:
     """Natural frequencies [Hz] of `massless_frequencies`, numbered from 1."""
     return {
-        f"massless_modes.{n}.frequency": Value(float(each), "Hz", f"natural frequency {n} of the stations' masses on a massless shaft")
+        f"massless_modes.{n}.frequency": Value(float(each), "Hz", f"natural frequency {n} on a massless shaft, of the stations' masses")
         for n, each in enumerate(frequencies, 1)
     }
 

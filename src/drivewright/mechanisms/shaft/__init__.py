@@ -20,18 +20,26 @@ ANALYSES = (
     Analysis(
         "flexibility",
         influence.flexibility,
-        "flexibility and stiffness at the stations, and who contributes what",
+        "flexibility and stiffness at the stations, and the contributions to them",
         needs=("statics",),
         missing=influence.no_stations,
     ),
-    Analysis("failure", influence.failure, "what fails first", needs=("statics", "flexibility"), missing=influence.no_strength),
-    Analysis("strength", strength.strength, "fatigue and yield of every section", needs=("statics",), missing=strength.no_strength),
+    Analysis(
+        "failure",
+        influence.failure,
+        "limit loads at the stations, and what fails first",
+        needs=("statics", "flexibility"),
+        missing=influence.no_strength,
+    ),
+    Analysis("strength", strength.strength, "fatigue and yield safety of every section", needs=("statics",), missing=strength.no_strength),
     Analysis("modes", frequencies.frequencies, "natural frequencies and critical speeds", needs=("statics",), missing=frequencies.no_modes),
-    Analysis("whirl", rotation.whirl, "whirl at speed, Campbell diagram, stability", needs=("statics", "modes"), missing=rotation.no_whirl),
+    Analysis(
+        "whirl", rotation.whirl, "whirl at speed, Campbell diagram and stability", needs=("statics", "modes"), missing=rotation.no_whirl
+    ),
     Analysis(
         "unbalance",
         rotation.unbalance,
-        "unbalance response of the stations",
+        "unbalance response of stations and gears",
         needs=("statics", "modes", "whirl"),
         missing=rotation.no_unbalance,
     ),

@@ -47,24 +47,24 @@ class Bearing(Spec):
     name: Name = Field(description="name", examples=["A"])
     position: Length = Field(description="distance from the left end of the shaft", examples=["56.5 mm"])
     radial_stiffness: StiffnessOrRigid | None = Field(
-        None, description='across the shaft, all round; "rigid" does not yield', examples=["3e7 N/m"]
+        None, description='radial stiffness, the same all round; "rigid" does not yield', examples=["3e7 N/m"]
     )
     stiffness_xx: StiffnessOrRigid | None = Field(
-        None, description="along x instead, where stiffness_yy along y differs", examples=["5e7 N/m"]
+        None, description="stiffness along x instead, where stiffness_yy along y differs", examples=["5e7 N/m"]
     )
-    stiffness_yy: StiffnessOrRigid | None = Field(None, description="along y, beside stiffness_xx", examples=["7e7 N/m"])
+    stiffness_yy: StiffnessOrRigid | None = Field(None, description="stiffness along y, beside stiffness_xx", examples=["7e7 N/m"])
     stiffness_xy: Stiffness = Field("0 N/m", description="force along x that a displacement along y needs (cross-coupling)")
     stiffness_yx: Stiffness = Field("0 N/m", description="force along y that a displacement along x needs (cross-coupling)")
-    radial_damping: Damping = Field("0 N s/m", ge=0, description="damping across the shaft, all round", examples=["500 N s/m"])
+    radial_damping: Damping = Field("0 N s/m", ge=0, description="radial damping, the same all round", examples=["500 N s/m"])
     damping_xx: Damping | None = Field(None, ge=0, description="damping along x instead of radial_damping")
     damping_yy: Damping | None = Field(None, ge=0, description="damping along y instead of radial_damping")
     damping_xy: Damping = Field("0 N s/m", description="force along x that a velocity along y needs")
     damping_yx: Damping = Field("0 N s/m", description="force along y that a velocity along x needs")
     axial_stiffness: StiffnessOrRigid | None = Field(
-        None, description="along the shaft, beside radial_stiffness or a table", examples=["1e7 N/m"]
+        None, description="axial stiffness, beside radial_stiffness or a table", examples=["1e7 N/m"]
     )
     tilt_stiffness: RotationalStiffness | None = Field(
-        None, gt=0, description="against tilting, beside radial_stiffness or a table", examples=["2e4 N m/rad"]
+        None, gt=0, description="tilt stiffness, beside radial_stiffness or a table", examples=["2e4 N m/rad"]
     )
     table: DataFile | None = Field(
         None, description="CSV of the radial force over the radial displacement instead: displacement [um],force [N] from 0, 0"
@@ -75,29 +75,26 @@ class Bearing(Spec):
     envelope: Envelope | None = Field(None, description="a rolling bearing by its type, boundary dimensions and ratings alone instead")
     radial_clearance: Length | None = Field(
         None,
-        description="play across the diameter, counted as for rolling bearings: of a rolling "
-        "bearing instead of its own, of a spring twice the gap",
+        description="diametral clearance, as of rolling bearings: of a rolling bearing instead of its own, of a spring twice the gap",
         examples=["10 um"],
     )
     preload: Force = Field(
         "0 N",
         ge=0,
-        description="axial force that a rolling bearing is mounted with, on a shaft that does not yield; "
+        description="axial preload of a rolling bearing as mounted, on a shaft that does not yield; "
         "where it is free to slide, that of the spring behind it",
     )
     carries: Literal["right", "left"] | None = Field(
         None,
-        description="which axial force on the shaft an angular-contact or tapered bearing takes; unless given, such bearings take it "
-        "in turn from the left: right, left, right (a pair stands back to back)",
+        description="direction of the axial force on the shaft that an angular-contact or tapered bearing takes; unless given in turn "
+        "from the left: right, left, right (a pair stands back to back)",
     )
-    free: tuple[Literal["axial", "tilt"], ...] = Field(
-        (), description="freedoms that the seat of a rolling bearing leaves to its outer ring"
-    )
-    seat_offset: tuple[Length, Length] = Field(("0 mm", "0 mm"), description="the seat off the common axis, x and y")
-    seat_tilt: tuple[Angle, Angle] = Field(("0 deg", "0 deg"), description="the seat out of the common axis: turned about x and y")
-    housing_stiffness: StiffnessOrRigid = Field(RIGID, description="of the housing across the shaft, in series with the bearing")
-    housing_axial_stiffness: StiffnessOrRigid = Field(RIGID, description="of the housing along the shaft")
-    width: Length = Field("0 mm", ge=0, description="the reaction is spread evenly over it; 0: it acts at a point")
+    free: tuple[Literal["axial", "tilt"], ...] = Field((), description="freedoms of the outer ring of a rolling bearing in its seat")
+    seat_offset: tuple[Length, Length] = Field(("0 mm", "0 mm"), description="offset of the seat from the common axis, x and y")
+    seat_tilt: tuple[Angle, Angle] = Field(("0 deg", "0 deg"), description="tilt of the seat about x and y")
+    housing_stiffness: StiffnessOrRigid = Field(RIGID, description="radial stiffness of the housing, in series with the bearing")
+    housing_axial_stiffness: StiffnessOrRigid = Field(RIGID, description="axial stiffness of the housing")
+    width: Length = Field("0 mm", ge=0, description="width over which the reaction is spread evenly; 0: it acts at a point")
     dynamic_rating: Force | None = Field(
         None, gt=0, description="basic dynamic load rating C, instead of the rolling bearing's own", examples=["4.03 kN"]
     )

@@ -73,5 +73,5 @@ def _massless_frequencies(model: ShaftModel, done: Answers) -> Floats:
 def _speed_check(model: ShaftModel, lowest: float | None) -> Iterator[Check]:
     drive = model.spec.drive
     if drive is not None and lowest:
-        message = "lowest critical speed that an unbalance excites over the speed of the shaft"
+        message = "critical speed ratio, lowest unbalance-excited critical speed over the speed of the shaft"
         yield Check("critical_speed", lowest / drive.speed, model.spec.limits.critical_speed, ">=", "-", message, ("shaft",))

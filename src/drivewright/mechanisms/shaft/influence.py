@@ -26,13 +26,17 @@ def flexibility(model: ShaftModel, done: Answers) -> Answer:
         return Answer(findings=(f"flexibility and stiffness are absent: {error}",), outcome="left out")
     labels, names = model.names, tuple(support.name for support in model.shaft.supports)
     arrays = flexibility_arrays(found, labels, names)
-    values = pair_values("flexibility", labels, found.delta, "m/N", "displacement of {a!r} by a unit force at {b!r}")
+    values = pair_values(
+        "flexibility", labels, found.delta, "m/N", "flexibility {a!r}/{b!r}, displacement of {a!r} by a unit force at {b!r}"
+    )
     findings = []
     try:
         stiffness = shafts.stiffness(found.delta, labels)
         arrays["stiffness"] = station_array(labels, stiffness, "N/m")
-        values |= pair_values("stiffness", labels, stiffness, "N/m", "force at {a!r} by a unit displacement of {b!r}, others held")
-        values["condition_number"] = Value(found.condition, "-", "condition number of flexibility and stiffness")
+        values |= pair_values(
+            "stiffness", labels, stiffness, "N/m", "stiffness {a!r}/{b!r}, force at {a!r} by a unit displacement of {b!r}, others held"
+        )
+        values["condition_number"] = Value(found.condition, "-", "condition number of the flexibility, also of the stiffness")
     except InputError as error:
         findings.append(f"array 'stiffness' is absent: {error}")
     if any(support.law is not None for support in model.shaft.supports):
@@ -43,7 +47,7 @@ def flexibility(model: ShaftModel, done: Answers) -> Answer:
             "a curve on real bearings may lie below the one on rigid supports"
         )
     off = shafts.unit_imbalance(found, model.shaft, model.places, model.direction)
-    message = "forces and moments that do not balance under a unit force at a station, the largest"
+    message = "equilibrium under unit loads, forces and moments out of balance, the largest"
     check = Check("equilibrium.unit_loads", off, BALANCED, "<=", "-", message, ("shaft",))
     tables = (unit_load_table(at_rest, found, labels, model.direction), share_table(found, labels))
     return Answer(values, tables, (check,), tuple(findings), arrays, data=found)

@@ -120,7 +120,7 @@ def _static_checks(model: ShaftModel, name: str, state: BearingEquilibrium) -> I
     limits, shock = model.spec.limits, model.spec.limits.shock_factor
     if state.pressures.max() > 0:
         under = f", at {shock:g} times the load" if shock > 1 else ""
-        message = f"static load of bearing {name!r} by its contact pressure over its load{under}"
+        message = f"static safety of bearing {name!r}, by its contact pressure{under}"
         yield Check(f"static_safety.{name}", state.static_safety / shock, limits.static_safety, ">=", "-", message, (name,))
 
 
@@ -130,6 +130,5 @@ def _life_checks(model: ShaftModel, lives: Mapping[str, Value]) -> Iterator[Chec
         for name in model.rolling if limit else ():
             value = lives.get(f"bearings.{name}.{kind}.time")
             if value is not None and limit:
-                words = kind.replace("_", " ")
-                message = f"{words} of bearing {name!r}: {value.value / 3600:.4g} h of {limit / 3600:.4g} h"
+                message = f"{kind.replace('_', ' ')} of bearing {name!r}"
                 yield Check(f"{check}.{name}", value.value, limit, ">=", "s", message, (name,))

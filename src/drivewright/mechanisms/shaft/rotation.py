@@ -57,7 +57,7 @@ def _highest_speed(model: ShaftModel, lowest: float | None) -> float:
 def _stability_check(model: ShaftModel, values: dict[str, Value]) -> Iterator[Check]:
     least = values.get("stability.log_decrement")
     if least is not None:
-        message = "smallest logarithmic decrement of all whirls at the speed of the shaft; below 0 the whirl grows by itself"
+        message = "smallest log decrement, of all whirls at the speed of the shaft; below 0 a whirl grows by itself"
         yield Check("stability", least.value, model.spec.limits.log_decrement, ">=", "-", message, ("shaft",))
 
 
@@ -67,7 +67,7 @@ def _separation_check(model: ShaftModel, critical: Sequence[shafts.CriticalSpeed
     excited = [each.speed for each in critical if each.forward or not round_]
     if drive is not None and excited:
         nearest = min(abs(speed / drive.speed - 1) for speed in excited)
-        message = "separation margin: distance of the nearest critical speed that an unbalance excites, over the speed of the shaft"
+        message = "separation margin, distance of the nearest unbalance-excited critical speed over the speed of the shaft"
         yield Check("separation_margin", nearest, model.spec.limits.separation_margin, ">=", "-", message, ("shaft",))
 
 
@@ -88,7 +88,7 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
     given, findings = unbalances(model), []
     if not any(part.unbalance for part in model.turning_parts):
         findings.append(
-            f"nothing on the shaft has an unbalance: that which the balance grade {drive.balance_grade} permits at the speed of the shaft "
+            f"nothing on the shaft has an unbalance: the permissible one of balance grade {drive.balance_grade} at the speed of the shaft "
             "(ISO 21940-11) is shared among stations and gears by their masses, all at one angle"
         )
     stiffness = np.array([tangent[:2, :2] for tangent in vibration.equilibrium.tangent])
@@ -101,7 +101,7 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
     at_speed = orbits(np.array([drive.speed]))
     over = np.linspace(0.0, _highest_speed(model, vibration.lowest), RESPONSE_SPEEDS)[1:]
     table = results.orbit_table(orbits(_with_peaks(over, turning.critical)), names)
-    quality = Value(shafts.balance_quality(model.shaft, given, drive.speed), "m/s", "balance quality, eccentricity times speed")
+    quality = Value(shafts.balance_quality(model.shaft, given, drive.speed), "m/s", "balance quality, eccentricity times angular speed")
     values = {"unbalance.balance_quality": quality}
     if at_speed.resonant[0]:
         return Answer(values, (table,), (), (*findings, results.resonance_finding(at_speed)))

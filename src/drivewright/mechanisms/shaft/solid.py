@@ -21,7 +21,7 @@ def solid(model: ShaftModel, done: Answers) -> Answer:
         "solid.unknowns": Value(float(found.unknowns), "-", "unknowns of the finite elements"),
         "solid.seconds": Value(float(found.seconds), "s", "time to mesh and solve"),
     }
-    words = "displacement of {a!r} by a unit force at {b!r}, solid"
+    words = "solid flexibility {a!r}/{b!r}, displacement of {a!r} by a unit force at {b!r}"
     values |= pair_values("solid.flexibility", model.names, found.flexibility, "m/N", words)
     arrays = {
         "solid.flexibility": station_array(model.names, found.flexibility, "m/N"),

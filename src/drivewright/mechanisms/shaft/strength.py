@@ -52,15 +52,18 @@ def strength(model: ShaftModel, done: Answers) -> Answer:
 
 def _material_values(given: materials.Strength) -> dict[str, Value]:
     return {
-        "strength.tensile_strength": Value(given.tensile, "Pa", "tensile strength that the shaft is judged with"),
-        "strength.yield_strength": Value(given.yield_strength, "Pa", "yield strength that the shaft is judged with"),
+        "strength.tensile_strength": Value(given.tensile, "Pa", "tensile strength, used for the safeties"),
+        "strength.yield_strength": Value(given.yield_strength, "Pa", "yield strength, used for the safeties"),
     }
 
 
 def _checks(spec: ShaftSpec, values: dict[str, Value]) -> Iterator[Check]:
-    where = values["strength.min_safety"].meaning.partition(", at ")[2]
+    least = values["strength.min_safety"]
+    where = least.meaning.partition(", at ")[2]
     for key, limit, words in (
-        ("fatigue_safety", spec.limits.fatigue_safety, "least safety of a section against fatigue"),
-        ("static_safety", spec.limits.yield_safety, "least safety of a section against yield, with its notch factors, at the shock load"),
+        ("fatigue_safety", spec.limits.fatigue_safety, "least fatigue safety"),
+        ("static_safety", spec.limits.yield_safety, "least yield safety, under the shock load with the notch factors"),
     ):
-        yield Check.of(values[f"strength.{key}"], f"strength.{key}", limit, ">=", f"{words}; the weakest is {where}", ("shaft",))
+        value = values[f"strength.{key}"]
+        section = f"; weakest section: {where}" if value.value == least.value else ""
+        yield Check.of(value, f"strength.{key}", limit, ">=", words + section, ("shaft",))

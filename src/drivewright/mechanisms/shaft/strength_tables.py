@@ -1,4 +1,4 @@
-"""What the user says of the strength of a shaft: its notches, and what it goes through."""
+"""What the user says of the strength of a shaft: its notches, and its operating conditions."""
 
 from typing import Literal
 
@@ -27,12 +27,16 @@ class NotchTable(Spec):
     """A notch of the shaft beside its steps: groove, hole, keyway, press fit or spline."""
 
     name: Name = Field(description="name", examples=["ring"])
-    kind: NotchKind = Field(description="what it is", examples=["keyway"])
-    position: Length = Field(description="distance from the left end of the shaft; of what has a length its left end", examples=["100 mm"])
-    length: Length = Field("0 mm", ge=0, description="length of a keyway, press fit or spline: it is judged where the stress is largest")
+    kind: NotchKind = Field(description="kind of notch", examples=["keyway"])
+    position: Length = Field(
+        description="distance from the left end of the shaft; of a notch with a length that of its left end", examples=["100 mm"]
+    )
+    length: Length = Field("0 mm", ge=0, description="length of a keyway, press fit or spline, judged where the stress is largest")
     depth: Length | None = Field(None, gt=0, description="depth of a groove", examples=["1.5 mm"])
     width: Length | None = Field(None, gt=0, description="width of a retaining-ring groove", examples=["1.6 mm"])
-    radius: Length | None = Field(None, gt=0, description="radius of a groove's bottom, or of its corners", examples=["0.2 mm"])
+    radius: Length | None = Field(
+        None, gt=0, description="radius of a round groove's bottom, or of a retaining-ring groove's corners", examples=["0.2 mm"]
+    )
     diameter: Length | None = Field(None, gt=0, description="diameter of a cross hole", examples=["5 mm"])
     keys: Integer = Field(1, ge=1, le=2, description="number of keyways around the shaft")
     form: Literal["straight", "serrated", "involute"] = Field("involute", description="flanks of a spline")
@@ -67,10 +71,10 @@ class NotchTable(Spec):
 
 
 class StrengthTable(Spec):
-    """What the shaft goes through, for its fatigue."""
+    """Operating conditions for the fatigue strength."""
 
     torsion: Literal["constant", "pulsating", "alternating"] = Field(
-        "constant", description="how the torque acts; pulsating: from 0 to its value again and again, as where a drive starts and stops"
+        "constant", description="course of the torque over time; pulsating: between 0 and its value, as where a drive starts and stops"
     )
-    surface: Literal["ground", "machined", "hot-rolled", "forged"] = Field("machined", description="surface of the shaft")
+    surface: Literal["ground", "machined", "hot-rolled", "forged"] = Field("machined", description="surface finish of the shaft")
     reliability: Number = Field(0.99, ge=0.5, lt=1, description="reliability of the endurance limit")

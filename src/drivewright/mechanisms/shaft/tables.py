@@ -33,16 +33,16 @@ class Material(Spec):
     youngs_modulus: Pressure | None = Field(None, gt=0, description="Young's modulus; of the card, else 206 GPa", examples=["206 GPa"])
     poisson_ratio: Number | None = Field(None, gt=-1, lt=0.5, description="Poisson's ratio; of the card, else 0.3", examples=[0.3])
     density: Density | None = Field(
-        None, ge=0, description="density, 0 of a massless shaft; of the card, else 7850 kg/m^3", examples=["7850 kg/m^3"]
+        None, ge=0, description="density, 0 for a massless shaft; of the card, else 7850 kg/m^3", examples=["7850 kg/m^3"]
     )
     yield_strength: Pressure | None = Field(
         None, gt=0, description="yield strength, for stress checks; of the card, else none", examples=["355 MPa"]
     )
     tensile_strength: Pressure | None = Field(
-        None, gt=0, description="tensile strength, for fatigue; of the card by the bar's diameter, else none", examples=["600 MPa"]
+        None, gt=0, description="tensile strength, for fatigue; of the card by the diameter of the bar, else none", examples=["600 MPa"]
     )
     bar_diameter: Length | None = Field(
-        None, gt=0, description="diameter of the bar that was heat-treated; the largest of the shaft unless given", examples=["60 mm"]
+        None, gt=0, description="diameter of the heat-treated bar; the largest of the shaft unless given", examples=["60 mm"]
     )
 
 
@@ -52,7 +52,7 @@ class Segment(Spec):
     length: Length = Field(gt=0, description="length along the shaft", examples=["340 mm"])
     diameter: Length = Field(gt=0, description="outer diameter, at the left end where it is a cone", examples=["20 mm"])
     end_diameter: Length | None = Field(None, gt=0, description="outer diameter at the right end of a cone", examples=["24 mm"])
-    bore: Length = Field("0 mm", ge=0, description="diameter of the hole through it")
+    bore: Length = Field("0 mm", ge=0, description="diameter of the bore")
     fillet_radius: Length | None = Field(
         None,
         gt=0,
@@ -62,17 +62,19 @@ class Segment(Spec):
 
 
 class Carried(Spec):
-    """What sits on the shaft at a place."""
+    """What sits on the shaft at a position."""
 
     name: Name = Field(description="name", examples=["m1"])
     position: Length = Field(description="distance from the left end of the shaft", examples=["0 mm"])
     mass: Mass = Field("0 kg", ge=0, description="mass on the shaft")
-    polar_inertia: Inertia = Field("0 kg m^2", ge=0, description="its moment of inertia about the shaft's axis")
-    diametral_inertia: Inertia = Field("0 kg m^2", ge=0, description="its moment of inertia about a diameter")
+    polar_inertia: Inertia = Field("0 kg m^2", ge=0, description="moment of inertia about the shaft's axis")
+    diametral_inertia: Inertia = Field("0 kg m^2", ge=0, description="moment of inertia about a diameter")
     unbalance: Unbalance | None = Field(
-        None, description="mass times eccentricity; drive.balance_grade where nothing on the shaft has one", examples=["50 g mm"]
+        None,
+        description="unbalance, mass times eccentricity; by drive.balance_grade where nothing on the shaft has one",
+        examples=["50 g mm"],
     )
-    unbalance_angle: Angle = Field("0 deg", description="place of the unbalance on the shaft, from x towards y")
+    unbalance_angle: Angle = Field("0 deg", description="angle of the unbalance on the shaft, from x towards y")
 
 
 class Station(Carried):
@@ -91,17 +93,17 @@ class PointLoad(Spec):
     force: Force = Field("0 N", description="force across the shaft", examples=["500 N"])
     angle: Angle = Field(DOWN, description="direction of the force, from x towards y; -90 deg is down, along -y")
     axial_force: Force = Field("0 N", description="force along the shaft, to the right")
-    torque: Torque = Field("0 N m", description="about the axis, x towards y")
-    moment: Torque = Field("0 N m", description="that bends the shaft", examples=["10 N m"])
-    moment_angle: Angle = Field("0 deg", description="direction of the axis of the moment, from x towards y, right-handed")
+    torque: Torque = Field("0 N m", description="torque about the axis, x towards y")
+    moment: Torque = Field("0 N m", description="bending moment", examples=["10 N m"])
+    moment_angle: Angle = Field("0 deg", description="direction of the moment vector, from x towards y, right-handed")
 
 
 class LineLoad(Spec):
     """A load spread along the shaft."""
 
     name: Name | None = Field(None, description="name", examples=["felt"])
-    start: Length = Field(description="its left end", examples=["100 mm"])
-    end: Length = Field(description="its right end", examples=["200 mm"])
+    start: Length = Field(description="position of the left end", examples=["100 mm"])
+    end: Length = Field(description="position of the right end", examples=["200 mm"])
     force: LineForce = Field(description="force per length at the left end, and all along unless end_force is given", examples=["5 N/mm"])
     end_force: LineForce | None = Field(None, description="force per length at the right end", examples=["8 N/mm"])
     angle: Angle = Field(DOWN, description="direction, from x towards y")
@@ -111,111 +113,119 @@ class Gear(Carried):
     """A gear on the shaft: its tooth forces follow from the torque."""
 
     name: Name = Field(description="name", examples=["gear"])
-    pitch_diameter: Length = Field(gt=0, description="diameter of the (working) pitch circle", examples=["60 mm"])
-    torque: Torque = Field(description="that the teeth exert on the shaft about its axis, x towards y", examples=["30 N m"])
-    mesh_angle: Angle = Field("0 deg", description="where the mate touches, from x towards y")
+    pitch_diameter: Length = Field(gt=0, description="diameter of the (operating) pitch circle", examples=["60 mm"])
+    torque: Torque = Field(description="torque of the teeth on the shaft about its axis, x towards y", examples=["30 N m"])
+    mesh_angle: Angle = Field("0 deg", description="direction of the mating gear, from x towards y")
     pressure_angle: Angle = Field("20 deg", ge=0, lt=1.0, description="normal pressure angle")
-    helix_angle: Angle = Field("0 deg", gt=-1.2, lt=1.2, description="positive: with a positive torque the axial force points to the right")
-    face_width: Length | None = Field(None, gt=0, description="width of the teeth, for the misalignment over the face", examples=["20 mm"])
+    helix_angle: Angle = Field(
+        "0 deg", gt=-1.2, lt=1.2, description="helix angle; positive: with a positive torque the axial force points to the right"
+    )
+    face_width: Length | None = Field(None, gt=0, description="face width, for the misalignment over it", examples=["20 mm"])
 
 
 BalanceGrade = Literal["G 0.4", "G 1", "G 2.5", "G 6.3", "G 16", "G 40", "G 100", "G 250", "G 630", "G 1600", "G 4000"]
 
 
 class Drive(Spec):
-    """The turning of the shaft."""
+    """The rotation of the shaft."""
 
     speed: Speed = Field(gt=0, description="speed of the shaft, for whirl, unbalance and the life in hours", examples=["1500 rpm"])
     balance_grade: BalanceGrade = Field(
-        "G 6.3", description="balance quality grade of ISO 21940-11 behind the unbalance response where no station has an unbalance"
+        "G 6.3", description="balance quality grade of ISO 21940-11, for the unbalance response where nothing on the shaft has an unbalance"
     )
 
 
 class DutyCase(Spec):
-    """A part of the duty cycle."""
+    """A case of the duty cycle."""
 
     name: Name | None = Field(None, description="name", examples=["roughing"])
-    share: Number = Field(gt=0, le=1, description="share of the time; all together are 1", examples=[1.0])
-    load: Number = Field(1.0, ge=0, description="factor on all loads and gears; weight and preload stay")
+    share: Number = Field(gt=0, le=1, description="share of the time; all cases together are 1", examples=[1.0])
+    load: Number = Field(1.0, ge=0, description="factor on all loads and gear torques; weight and preload stay")
     speed: Speed | None = Field(None, ge=0, description="speed of the shaft; that of [drive] unless given", examples=["3000 rpm"])
 
 
 class Analysis(Spec):
-    """How it is computed."""
+    """Settings of the computation."""
 
     theory: Literal["timoshenko", "rayleigh", "euler-bernoulli"] = Field(
         "timoshenko", description="beam with shear and rotary inertia, with rotary inertia alone, or with neither"
     )
-    shear_coefficient: Literal["cowper"] | Number = Field("cowper", description='"cowper", or a number for a section of your own')
+    shear_coefficient: Literal["cowper"] | Number = Field(
+        "cowper", description='shear coefficient: "cowper", or a number for a section of your own'
+    )
     direction: Angle | None = Field(
         None,
-        description="of the unit loads behind flexibility and stiffness, from x towards y; that of the "
+        description="direction of the unit loads for flexibility and stiffness, from x towards y; that of the "
         "loads where they share a plane, else down",
         examples=["-90 deg"],
     )
-    modes: Integer = Field(3, ge=0, le=50, description="natural frequencies to find")
+    modes: Integer = Field(3, ge=0, le=50, description="number of natural frequencies")
     element_length: Length | None = Field(
         None, gt=0, description="longest element for the modes; a fortieth of the shaft unless given", examples=["10 mm"]
     )
     campbell_speed: Speed | None = Field(
         None,
         gt=0,
-        description="highest speed of Campbell diagram and unbalance response; that which shows the speed of the shaft and the first "
-        "critical speed unless given",
+        description="highest speed of Campbell diagram and unbalance response; unless given beyond the speed of the shaft and the first "
+        "critical speed",
         examples=["10000 rpm"],
     )
-    solid_band: Length = Field("2 mm", gt=0, description="width of the bearing bands of the solid check; a bearing's own width goes first")
+    solid_band: Length = Field(
+        "2 mm", gt=0, description="width of the bearing bands of the solid check, for bearings without a width of their own"
+    )
 
 
 class Limits(Spec):
     """Requirements; each becomes a check."""
 
-    deflection: Length | None = Field(None, gt=0, description="of every station and gear", examples=["0.1 mm"])
-    gear_slope: Angle | None = Field(None, gt=0, description="of the shaft at every gear", examples=["2 arcmin"])
-    slope: Angle | None = Field(None, gt=0, description="of the shaft at every bearing", examples=["4 arcmin"])
+    deflection: Length | None = Field(None, gt=0, description="deflection of every station and gear", examples=["0.1 mm"])
+    gear_slope: Angle | None = Field(None, gt=0, description="slope of the shaft at every gear", examples=["2 arcmin"])
+    slope: Angle | None = Field(None, gt=0, description="slope of the shaft at every bearing", examples=["4 arcmin"])
     yield_safety: Number = Field(1.0, gt=0, description="yield strength over the largest von Mises stress, nominal and at notches")
-    fatigue_safety: Number = Field(1.2, gt=0, description="of every section against fatigue")
+    fatigue_safety: Number = Field(1.2, gt=0, description="fatigue safety of every section")
     static_safety: Number = Field(
         1.0, gt=0, description="static rating of a bearing over its load; of a rolling bearing by its contact pressure"
     )
     life: Time | None = Field(None, gt=0, description="reference life of every rolling bearing", examples=["20000 h"])
     modified_life: Time | None = Field(None, gt=0, description="modified life of every rolling bearing", examples=["20000 h"])
     shock_factor: Number = Field(1.0, ge=1, description="shock over steady load, for yield, static safety and what fails first")
-    buckling: Number = Field(3.0, gt=0, description="axial force at which the shaft buckles over the axial force")
+    buckling: Number = Field(3.0, gt=0, description="buckling safety, axial force at buckling over axial force")
     largest_slope: Angle = Field(
-        "0.1 rad", gt=0, description="anywhere along the shaft: beyond it the linear theory of beams does not hold"
+        "0.1 rad", gt=0, description="slope anywhere along the shaft, beyond which the linear theory of beams does not hold"
     )
     largest_deflection: Number = Field(
-        0.1, gt=0, description="anywhere along the shaft, over its length: beyond it the linear theory does not hold"
+        0.1, gt=0, description="deflection anywhere over the length of the shaft, beyond which the linear theory does not hold"
     )
-    critical_speed: Number = Field(1.25, gt=0, description="first critical speed over the speed of the shaft")
-    separation_margin: Number = Field(0.15, ge=0, description="distance of the nearest critical speed over the speed of the shaft")
-    log_decrement: Number = Field(0.0, description="least logarithmic decrement of all whirls at speed, where bearings damp")
-    unbalance: Length | None = Field(None, gt=0, description="unbalance amplitude of every station", examples=["20 um"])
+    critical_speed: Number = Field(1.25, gt=0, description="lowest unbalance-excited critical speed over the speed of the shaft")
+    separation_margin: Number = Field(
+        0.15, ge=0, description="distance of the nearest unbalance-excited critical speed over the speed of the shaft"
+    )
+    log_decrement: Number = Field(0.0, description="smallest log decrement of all whirls at the speed of the shaft, where bearings damp")
+    unbalance: Length | None = Field(None, gt=0, description="unbalance amplitude of every station and gear", examples=["20 um"])
     slenderness: Number = Field(1000.0, gt=0, description="length of the shaft over its least diameter; beyond it a unit may have slipped")
-    stockiness: Number = Field(0.1, gt=0, description="the same, at least")
+    stockiness: Number = Field(0.1, gt=0, description="length of the shaft over its least diameter, at least")
 
 
 class ShaftTables(MechanismSpec):
     """All tables of a shaft."""
 
     mechanism: Literal["shaft"] = Field("shaft", description="kind of drive")
-    catalogue: DataFile | None = Field(None, description="a catalogue of rolling bearings of your own (TOML), beside ours")
+    catalogue: DataFile | None = Field(None, description="catalogue of rolling bearings of your own (TOML), beside the built-in one")
     gravity: tuple[Acceleration, Acceleration, Acceleration] = Field(
         ("0 m/s^2", "0 m/s^2", "0 m/s^2"), description="acceleration of free fall along x, y, z; down is [0, -9.81, 0]"
     )
     material: Material = Field(Material(), description="material")
     segments: tuple[Segment, ...] = Field(min_length=1, description="segments, left to right")
     bearings: tuple[Bearing, ...] = Field(min_length=1, description="bearings")
-    stations: tuple[Station, ...] = Field((), description="places of interest")
-    loads: tuple[PointLoad, ...] = Field((), description="loads at places")
-    line_loads: tuple[LineLoad, ...] = Field((), description="loads along the shaft")
+    stations: tuple[Station, ...] = Field((), description="stations: places of interest")
+    loads: tuple[PointLoad, ...] = Field((), description="point loads")
+    line_loads: tuple[LineLoad, ...] = Field((), description="line loads")
     gears: tuple[Gear, ...] = Field((), description="gears")
-    drive: Drive | None = Field(None, description="turning of the shaft")
+    drive: Drive | None = Field(None, description="rotation of the shaft")
     duty: tuple[DutyCase, ...] = Field((), description="duty cycle of loads and speeds, for the lives of the bearings")
     lubrication: Lubrication = Field(Lubrication(), description="lubricant of the rolling bearings")
     notches: tuple[NotchTable, ...] = Field((), description="notches beside the steps")
-    strength: StrengthTable = Field(StrengthTable(), description="what the shaft goes through, for its fatigue")
+    strength: StrengthTable = Field(StrengthTable(), description="operating conditions for the fatigue strength")
     analysis: Analysis = Field(Analysis(), description="analysis")
     limits: Limits = Field(Limits(), description="requirements")
 
