@@ -143,7 +143,7 @@ def test_it_is_a_bearing_like_any_other():
 @pytest.mark.error
 def test_impossible_envelopes(changes, message):
     with pytest.raises(SpecError, match=message):
-        Envelope(**{**SIZE, **changes})
+        bearing_of_envelope(Envelope(**{**SIZE, **changes}))
 
 
 @pytest.mark.parametrize(

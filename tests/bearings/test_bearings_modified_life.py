@@ -13,6 +13,7 @@ from drivewright.bearings import (
     operating_viscosity,
     reference_load,
     reference_viscosity,
+    refuse_said_twice,
     reliability_factor,
     walther_viscosity,
 )
@@ -248,7 +249,7 @@ def test_what_is_assumed_is_told():
 )
 def test_refused_lubricants(keys, words):
     with pytest.raises(SpecError, match=words):
-        Lubrication(**keys)
+        refuse_said_twice(Lubrication(**keys))
 
 
 @pytest.mark.error

@@ -386,3 +386,14 @@ def test_followers_do_not_count_as_dimensions():
     vary = {"parts.p0.width": uniform("1 mm", "2 mm")} | {f"parts.p{n}.width": linked(f"{n} * parts.p0.width") for n in range(1, 31)}
     plan, cases = columns(vary, spec, method="corners")
     assert len(plan) == 2 and cases["parts.p30.width"] == pytest.approx([30e-3, 60e-3], rel=1e-14)
+
+
+def test_one_follower_needs_no_list_and_a_relation_may_begin_with_its_sign(tmp_path):
+    """`also = "-KEY"` and `link = "= -1 * KEY"` say what `also = ["-KEY"]` does."""
+    path, columns = tmp_path / "gears.toml", []
+    vary = '[[study.vary]]\nkey = "gears.pinion.torque"\nlower = "20 N m"\nupper = "40 N m"\nsteps = 3\n'
+    linked_entry = '[[study.vary]]\nkey = "gears.wheel.torque"\nlink = "= -1 * gears.pinion.torque"\n'
+    for text in ('also = ["-gears.wheel.torque"]\n', 'also = "-gears.wheel.torque"\n', linked_entry):
+        path.write_text(GEARS + vary + text, encoding="utf-8")
+        columns.append(make_plan(dw.load(path)).cases(0, 3)["gears.wheel.torque"].tolist())
+    assert columns[0] == columns[1] == columns[2] == pytest.approx([-20.0, -30.0, -40.0])

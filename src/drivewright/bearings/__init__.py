@@ -34,14 +34,7 @@ _WHERE = {
     "ball": ("BallBearing", "BallLaw"),
     "dynamic_rating": ("basic_dynamic_rating",),
     "life": ("basic_life", "life_duration", "life_exponent", "static_rating"),
-    "equivalent_loads": (
-        "EquivalentLoad",
-        "LoadFactors",
-        "ball_load_factors",
-        "equivalent_load",
-        "equivalent_static_load",
-        "load_factors",
-    ),
+    "equivalent_loads": ("EquivalentLoad", "LoadFactors", "ball_load_factors", "equivalent_load", "equivalent_static_load", "load_factors"),
     "modified_life": ("fatigue_limit_load", "life_modification_factor", "reference_load", "reference_viscosity", "reliability_factor"),
     "lubricant": (
         "Lubrication",
@@ -49,6 +42,7 @@ _WHERE = {
         "grade_viscosity",
         "lubrication_findings",
         "operating_viscosity",
+        "refuse_said_twice",
         "walther_viscosity",
     ),
     "lives": ("RatingLives", "life_load_ratio", "rating_lives"),

@@ -71,19 +71,19 @@ class Envelope(Spec):
             )
         return self
 
-    @model_validator(mode="after")
-    def _has_an_angle_of_its_type(self):
-        if self.contact_angle is None:
-            return self
-        if self.type not in ANGLE_LIMITS:
-            raise SpecError(f"a {self.type} bearing has none; leave it out, or take another type", key="contact_angle")
-        least, most = ANGLE_LIMITS[self.type]
-        if not least <= np.degrees(self.contact_angle) <= most + 1e-9:
-            raise SpecError(
-                f"{np.degrees(self.contact_angle):.4g} deg is outside the {least} to {most} deg of {self.type} bearings",
-                key="contact_angle",
-            )
-        return self
+
+def _refuse_other_angle(envelope: Envelope) -> None:
+    """SpecError where the contact angle is not of the bearing's type."""
+    if envelope.contact_angle is None:
+        return
+    if envelope.type not in ANGLE_LIMITS:
+        raise SpecError(f"a {envelope.type} bearing has none; leave it out, or take another type", key="contact_angle")
+    least, most = ANGLE_LIMITS[envelope.type]
+    if not least <= np.degrees(envelope.contact_angle) <= most + 1e-9:
+        raise SpecError(
+            f"{np.degrees(envelope.contact_angle):.4g} deg is outside the {least} to {most} deg of {envelope.type} bearings",
+            key="contact_angle",
+        )
 
 
 class GivenRatings(NamedTuple):
@@ -96,8 +96,9 @@ class GivenRatings(NamedTuple):
 def bearing_of_envelope(envelope: Envelope) -> BallBearing | RollerBearing:
     """The `BallBearing` or `RollerBearing` that fits an envelope and meets its ratings best; ratings not given are of its geometry.
 
-    SpecError names the rating that no inner geometry within the envelope comes near.
+    SpecError names the rating that no inner geometry within the envelope comes near, or an angle that is none of the type.
     """
+    _refuse_other_angle(envelope)
     angle, given = envelope.nominal_angle, GivenRatings(envelope.dynamic_rating, envelope.static_rating)
     size = envelope.bore, envelope.outer_diameter, envelope.width
     geometry = estimate_inner_geometry(envelope.type, *size, angle)

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from typing import Literal
 
 import numpy as np
-from pydantic import model_validator
 
 from drivewright.errors import InputError, SpecError, UnknownName
 from drivewright.spec import Number, Spec
@@ -93,13 +92,13 @@ class Lubrication(Spec):
     )
     reliability: Number = Field(0.9, ge=0.9, le=0.9995, description="probability of survival that the modified life is asked for")
 
-    @model_validator(mode="after")
-    def _says_each_thing_once(self):
-        for one, others in (("viscosity", ("grade", "temperature")), ("contamination_factor", ("contamination",))):
-            twice = [key for key in others if getattr(self, one) is not None and getattr(self, key) is not None]
-            if twice:
-                raise SpecError(f"stands in place of {' and '.join(twice)}, which would count for nothing; give one of the two", key=one)
-        return self
+
+def refuse_said_twice(lubrication: Lubrication) -> None:
+    """SpecError for the first key that stands in place of others which are given too."""
+    for one, others in (("viscosity", ("grade", "temperature")), ("contamination_factor", ("contamination",))):
+        twice = [key for key in others if getattr(lubrication, one) is not None and getattr(lubrication, key) is not None]
+        if twice:
+            raise SpecError(f"stands in place of {' and '.join(twice)}, which would count for nothing; give one of the two", key=one)
 
 
 def walther_viscosity(temperature: float, warm: float, hot: float) -> float:

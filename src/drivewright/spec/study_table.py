@@ -3,7 +3,7 @@
 import re
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import WrapValidator
+from pydantic import BeforeValidator, WrapValidator
 
 from drivewright.spec.base import Spec
 from drivewright.spec.fields import Bound, DataFile, Field, Flag, Integer, PlainValue, Text
@@ -22,11 +22,14 @@ def percentage(value: object) -> tuple[str, float] | None:
 RelativeBound: TypeAlias = Annotated[Bound, WrapValidator(lambda value, read: value if percentage(value) else read(value))]
 
 
+OneOrMany: TypeAlias = Annotated[tuple[Text, ...], BeforeValidator(lambda value: (value,) if isinstance(value, str) else value)]
+
+
 class Vary(Spec):
     """A key of this spec that varies: over levels (`values`, or `lower`, `upper` and `steps`), or as a random number."""
 
     key: Text = Field(description="dotted key of this spec")
-    also: tuple[Text, ...] = Field((), description="further keys that always have the same value; -KEY for one with the negative value")
+    also: OneOrMany = Field((), description="further keys that always have the same value; -KEY for one with the negative value")
     link: Text | None = Field(
         None, description='instead of all below: follows another key, "-2 * KEY" or "0.5 * KEY + 3 mm"', examples=["-2 * loads.0.force"]
     )

@@ -15,7 +15,7 @@ from drivewright.spec import MechanismSpec, read_value
 NUMBER = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"
 KEY = r"[^\W\d][\w-]*(?:\.[\w-]+)*"
 FORM = re.compile(
-    rf"\s*(?P<sign>[+-])?\s*(?:(?P<factor>{NUMBER})\s*\*\s*)?(?P<source>{KEY})(?:\s+(?P<side>[+-])\s*(?P<offset>[0-9.].*?))?\s*"
+    rf"\s*=?\s*(?P<sign>[+-])?\s*(?:(?P<factor>{NUMBER})\s*\*\s*)?(?P<source>{KEY})(?:\s+(?P<side>[+-])\s*(?P<offset>[0-9.].*?))?\s*"
 )
 HOW = 'NUMBER * KEY + QUANTITY, such as "-2 * gears.pinion.torque" or "0.5 * segments.0.length + 3 mm"'
 WHOLE = 1e-9  # of a whole number: rounding

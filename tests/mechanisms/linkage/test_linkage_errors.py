@@ -92,7 +92,7 @@ CASES = [
         "wants a rotational damping, got '0.1 N s/rad'; write N m s/rad, a torque per angular speed",
     ),
     ("joints.B.link_damping", "0.1 N s/m", "joints.2.link_damping", "(damping); write N m s/rad"),
-    ("joints.B.viscosity", "40 mm^2/s", "joints.2.viscosity", "wants a viscosity, got '40 mm^2/s' (kinematic viscosity); write Pa s, the dynamic viscosity"),
+    ("joints.B.viscosity", "40 mm^2/s", "joints.2.viscosity", "wants a viscosity, got '40 mm^2/s' (kinematic viscosity); write Pa s"),
     ("joints.B.diametral_clearance", "0.2 mm", "joints.2.diametral_clearance", "unknown key; known here: name, kind, "),
     ("drive.joint", "o4", "drive.joint", "no joint is called 'o4' (did you mean 'O4'?); there are: O2, A, B, O4"),
     ("drive.joint", "B", "drive.joint", "'B' has play (model = 'dry'); drive an ideal joint"),

@@ -269,7 +269,6 @@ def test_a_notch_weakens_a_shaft_and_a_shock_its_yield(gearbox):
     [
         ({"kind": "retaining-ring", "depth": "1 mm"}, "width: is missing"),
         ({"kind": "keyway", "depth": "1 mm"}, "depth: does not belong to a keyway"),
-        ({"kind": "cross-hole", "diameter": "5 mm", "keys": 2}, "keys: belongs to a keyway"),
         ({"kind": "cross-hole", "diameter": "5 mm", "position": "300 mm"}, "300 mm is off the shaft"),
     ],
 )
@@ -279,9 +278,20 @@ def test_notches_without_a_meaning_are_refused(notch, told):
 
 
 @pytest.mark.error
+def test_a_lubricant_says_each_thing_once():
+    with pytest.raises(SpecError, match=r"lubrication\.viscosity: stands in place of grade"):
+        dw.build(shaft(lubrication={"viscosity": "20 mm^2/s", "grade": "ISO VG 68"}))
+
+
+@pytest.mark.error
 def test_what_strength_lacks_is_said():
-    found = dw.run(shaft(material={"yield_strength": "355 MPa"}))
+    found = dw.run(shaft(material={"youngs_modulus": "206 GPa"}))
     assert any("'strength'" in finding and "tensile strength" in finding for finding in found.findings)
+    by_yield = dw.run(shaft(material={"yield_strength": "355 MPa"}), only=("strength",))
+    assert any("stands for it" in finding and "tensile_strength" in finding for finding in by_yield.findings)
+    whole = dw.run(shaft(material={"yield_strength": "355 MPa", "tensile_strength": "510 MPa"}), only=("strength",))
+    assert by_yield["strength.fatigue_safety"] < whole["strength.fatigue_safety"]
+    assert not any("stands for it" in finding for finding in whole.findings)
     deep = {"name": "g", "kind": "round-groove", "position": "50 mm", "depth": "25 mm", "radius": "2 mm"}
     cut = dw.run(shaft(notches=[deep]))
     assert any(finding.startswith("strength is absent") and "g" in finding for finding in cut.findings)

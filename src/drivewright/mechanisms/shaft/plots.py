@@ -13,7 +13,8 @@ def plots(result: Result[ShaftSpec]) -> tuple[Plot, ...]:
     """All plots whose table the result has."""
     spec, at = result.spec, places(result.spec)
     turning = rotor_plots(result.tables, spec.drive.speed if spec.drive else None, at)
-    every = (*shaft_plots(result, at), *turning, *haigh_plots(result.tables), *vector_plots(result.tables), *bearing_plots(result.tables), SURFACE)
+    of_tables = (plots for kind in (haigh_plots, vector_plots, bearing_plots) for plots in kind(result.tables))
+    every = (*shaft_plots(result, at), *turning, *of_tables, SURFACE)
     return tuple(plot for plot in every if plot.table in result.tables)
 
 

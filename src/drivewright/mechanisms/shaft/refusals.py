@@ -1,8 +1,10 @@
 """What has no meaning, refused by name; what can be computed is left to the checks."""
 
 from drivewright.bearings.load_spectrum import WHOLE
+from drivewright.bearings.lubricant import refuse_said_twice
 from drivewright.errors import SpecError, nearest
 from drivewright.mechanisms.shaft.bearing_table import Bearing
+from drivewright.mechanisms.shaft.strength_tables import WANTED
 from drivewright.mechanisms.shaft.tables import DutyCase, ShaftTables
 
 NEAR = 1e-9  # of the shaft's length: the same place
@@ -21,7 +23,7 @@ def refuse_nonsense(spec: ShaftTables) -> None:
 
 def refuse_contradictions(spec: ShaftTables) -> None:
     """SpecError for the first two keys that contradict each other, or one that lacks another."""
-    for check in (_segments, _bearings, _places_of_loads):
+    for check in (_segments, _bearings, _places_of_loads, _notches, _lubrication):
         check(spec)
 
 
@@ -146,6 +148,23 @@ def _analysis(spec):
     given = spec.analysis.shear_coefficient
     if not isinstance(given, str) and not 0 < given <= 1:
         raise SpecError(f'must lie above 0 and at most 1, got {given:g}; or write "cowper"', "analysis.shear_coefficient")
+
+
+def _notches(spec):
+    for notch in spec.notches:
+        wanted, where = WANTED.get(notch.kind, ()), f"notches.{notch.name}"
+        for key in ("depth", "width", "radius", "diameter"):
+            if key in wanted and getattr(notch, key) is None:
+                raise SpecError(f"is missing: a {notch.kind} wants {', '.join(wanted)}", f"{where}.{key}")
+            if key not in wanted and getattr(notch, key) is not None:
+                raise SpecError(f"does not belong to a {notch.kind}; leave it out", f"{where}.{key}")
+
+
+def _lubrication(spec):
+    try:
+        refuse_said_twice(spec.lubrication)
+    except SpecError as error:
+        raise error.located(f"lubrication.{error.key}") from None
 
 
 def _duty(spec):

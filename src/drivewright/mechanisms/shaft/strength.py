@@ -16,9 +16,28 @@ def no_strength(spec: ShaftSpec) -> str | None:
 
 
 def _given(spec):
-    """(card, diameter of the bar [m], tensile and yield strength [Pa] as given)."""
+    """(card, diameter of the bar [m], tensile and yield strength [Pa]): as given; without card and tensile strength the yield strength
+    stands for both, which is the least that the tensile strength can be."""
     material = spec.material
-    return material.card, bar_diameter(spec), material.tensile_strength, material.yield_strength
+    tensile = material.yield_strength if _by_yield_alone(spec) else material.tensile_strength
+    return material.card, bar_diameter(spec), tensile, material.yield_strength
+
+
+def _by_yield_alone(spec):
+    material = spec.material
+    return material.card is None and material.tensile_strength is None and material.yield_strength is not None
+
+
+def _assumptions(spec, sections):
+    """What the strength takes for want of a word in the spec."""
+    if _by_yield_alone(spec):
+        yield (
+            "the tensile strength is not given: the yield strength, which is less, stands for it, so that fatigue safeties are low; "
+            "give material.tensile_strength or a card"
+        )
+    fillets = shafts.assumed_fillets(sections)
+    if fillets:
+        yield fillets
 
 
 def bar_diameter(spec: ShaftSpec) -> float:
@@ -45,9 +64,8 @@ def strength(model: ShaftModel, done: Answers) -> Answer:
     if not values:
         return Answer(findings=("strength is absent: the loads do not stress the shaft",))
     values |= _material_values(given)
-    assumed = shafts.assumed_fillets(sections)
     tables = (shafts.strength_table(rows), shafts.haigh_table(rows, given))
-    return Answer(values, tables, tuple(_checks(spec, values)), (assumed,) if assumed else ())
+    return Answer(values, tables, tuple(_checks(spec, values)), tuple(_assumptions(spec, sections)))
 
 
 def _material_values(given: materials.Strength) -> dict[str, Value]:
@@ -60,10 +78,15 @@ def _material_values(given: materials.Strength) -> dict[str, Value]:
 def _checks(spec: ShaftSpec, values: dict[str, Value]) -> Iterator[Check]:
     least = values["strength.min_safety"]
     where = least.meaning.partition(", at ")[2]
-    for key, limit, words in (
-        ("fatigue_safety", spec.limits.fatigue_safety, "least fatigue safety"),
-        ("static_safety", spec.limits.yield_safety, "least yield safety, under the shock load with the notch factors"),
+    for key, limit, label, words in (
+        ("fatigue_safety", spec.limits.fatigue_safety, "fatigue safety", "least fatigue safety"),
+        (
+            "static_safety",
+            spec.limits.yield_safety,
+            "yield safety at notches",
+            "least yield safety, under the shock load with the notch factors",
+        ),
     ):
         value = values[f"strength.{key}"]
         section = f"; weakest section: {where}" if value.value == least.value else ""
-        yield Check.of(value, f"strength.{key}", limit, ">=", words + section, ("shaft",))
+        yield Check.of(value, f"strength.{key}", limit, ">=", words + section, ("shaft",), label)

@@ -2,25 +2,17 @@
 
 from typing import Literal
 
-from pydantic import model_validator
-
 from drivewright import shafts
-from drivewright.errors import SpecError
 from drivewright.spec import Integer, Name, Number, Spec
 from drivewright.spec.fields import Field
 from drivewright.units import Length
 
 NotchKind = Literal["round-groove", "retaining-ring", "cross-hole", "keyway", "press-fit", "spline"]
-WANTED: dict[str, tuple[str, ...]] = {
+WANTED: dict[str, tuple[str, ...]] = {  # keys that a kind wants, and no other has
     "round-groove": ("depth", "radius"),
     "retaining-ring": ("depth", "width", "radius"),
     "cross-hole": ("diameter",),
-    "keyway": (),
-    "press-fit": (),
-    "spline": (),
 }
-LONG = ("keyway", "press-fit", "spline")  # kinds with a length
-OWN = {"keys": ("keyway",), "form": ("spline",), "length": LONG}  # keys of some kinds that have a default
 
 
 class NotchTable(Spec):
@@ -40,19 +32,6 @@ class NotchTable(Spec):
     diameter: Length | None = Field(None, gt=0, description="diameter of a cross hole", examples=["5 mm"])
     keys: Integer = Field(1, ge=1, le=2, description="number of keyways around the shaft")
     form: Literal["straight", "serrated", "involute"] = Field("involute", description="flanks of a spline")
-
-    @model_validator(mode="after")
-    def _has_what_its_kind_wants(self):
-        for key in ("depth", "width", "radius", "diameter"):
-            wanted = key in WANTED[self.kind]
-            if wanted and getattr(self, key) is None:
-                raise SpecError(f"is missing: a {self.kind} wants {', '.join(WANTED[self.kind])}", key)
-            if not wanted and getattr(self, key) is not None:
-                raise SpecError(f"does not belong to a {self.kind}; leave it out", key)
-        for key, kinds in OWN.items():
-            if key in self.model_fields_set and self.kind not in kinds:
-                raise SpecError(f"belongs to a {' or '.join(kinds)}, not to a {self.kind}; leave it out", key)
-        return self
 
     def notch(self) -> shafts.Notch:
         """The notch in plain data."""
