@@ -46,7 +46,7 @@ def vector_table(forces: Mapping[str, Floats]) -> Table:
     for n, name in enumerate(forces):
         data = np.full(len(tips), np.nan)
         data[2 * n : 2 * n + 2] = tips[2 * n : 2 * n + 2, 1]
-        columns.append(Column(name, "N", f"force along y (up), {name}", data, name))
+        columns.append(Column(name, "N", f"force along y, {name}", data, name))
     return Table("force_vectors", "Forces across the shaft", tuple(columns), "each force has rows of its own")
 
 

@@ -86,7 +86,7 @@ def haigh_table(rows: Sequence[SectionStrength], strength: Strength) -> Table:
         data[start : start + len(mean)] = amplitude
         start += len(mean)
         columns.append(Column(name, "Pa", f"stress amplitude, {words}", data, words[0].upper() + words[1:]))
-    return Table("haigh", "Haigh diagram of the sections", tuple(columns), "a section has no place in the rows of the others")
+    return Table("haigh", "Haigh diagram of the sections", tuple(columns), "each group has rows of its own")
 
 
 def _points(rows: Sequence[SectionStrength]) -> tuple[Floats, Floats]:
@@ -102,8 +102,8 @@ def haigh_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     if "haigh" in tables:
         names = tuple(column.name for column in tables["haigh"].columns[1:])
         meaning = (
-            "von Mises amplitude over mean stress at the notches; below the Goodman line of the weakest section life is endless, left of "
-            "the yield line nothing yields in the first revolution"
+            "von Mises stress amplitude over mean stress at the notches: below the Goodman line of the least endurance limit the life is "
+            "infinite, below the yield line nothing yields in the first revolution"
         )
         yield Plot("haigh", "Haigh diagram of the sections", "haigh", "mean", names, meaning=meaning)
 
