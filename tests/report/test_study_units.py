@@ -21,10 +21,12 @@ from drivewright.report.study import study_content, varied, write_answers
 from drivewright.result import Check, Column, Table
 from drivewright.spec import from_document
 from drivewright.spec.fields import Field
+from drivewright.studies import verification
 from drivewright.studies.answers import Answers, analyse_study
 from drivewright.studies.plan import make_plan
 from drivewright.studies.spec_differences import differing_keys
 from drivewright.studies.variation import linked, linspace, normal, tolerance, triangular, uniform, with_variation
+from drivewright.studies.verification import Comparison
 from drivewright.units import Temperature
 from drivewright.view.panels import panels
 
@@ -255,15 +257,21 @@ def test_a_margin_that_is_rounding_is_none(capsys, value, sense):
 def test_small_margins_and_margins_of_nothing(capsys):
     assert row_of(capsys, Check("k", 0.0, 0.0, "<=", "-", "wall")) == ["0", "<= 0", "0"]
     assert row_of(capsys, Check("k", 1e-12, 0.0, ">=", "m", "wall"))[2] == "1e-09 mm"
+    assert row_of(capsys, Check("k", 5.0, np.inf, "<=", "-", "wall"))[2] == "inf"
     assert row_of(capsys, Check("k", 0.3 * (1 + 1e-8), 0.3, "<=", "m", "wall"))[2] == "-3e-06 mm"
 
 
 def test_a_comparison_in_inches(capsys):
-    from drivewright.studies.verification import Comparison
-
     show.comparison((Comparison("tip", 0.0254, 0.0508, "m", 1e-3, "by hand"),), "inch")
     words = capsys.readouterr().out
     assert "2 in" in words and "0.03937 in" in words and "mm" not in words
+
+
+def test_verify_takes_the_units_of_the_spec(tmp_path, monkeypatch):
+    row = Comparison("tip", 0.0254, 0.0254, "m", 1e-3, "by hand")
+    monkeypatch.setattr(verification, "verify", lambda spec: (row,))
+    Toy(units="inch").write(tmp_path / "toy.toml")
+    assert "1 in" in told("verify", tmp_path / "toy.toml")
 
 
 def test_json_of_the_answers_stays_in_si(tmp_path):

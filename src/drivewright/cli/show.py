@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 MAX_STUDY_ROWS = 12  # of a study's values
 MOST_REASONS = 3  # why its cases are not complete
 LONGEST_REASON = 300  # characters
-ROUNDING = 1e-9  # of a limit or a value: a margin that is none
+ROUNDING = 1e-9  # of a limit: a margin that is none
 SELDOM = 30.0  # seconds between two lines on how far a command is, where no bar can be drawn
 
 
@@ -275,7 +275,7 @@ def _check_numbers(check: "Check", system: units.System) -> tuple[str, str, str]
 
 def _margin(check: "Check", shown: units.Scale) -> str:
     """With the digits that the check's value has; 0 where it is no more than rounding."""
-    if abs(check.margin) <= ROUNDING * max(abs(check.limit), abs(check.value)) < math.inf:
+    if abs(check.margin) <= ROUNDING * abs(check.limit) < math.inf:
         return _with_unit("0", shown.unit)
     margin, *ends = (shown.factor * each for each in (check.margin, *(check.margin_bounds or ())))
     return _with_unit(digits.plain(margin, *ends)[0], shown.unit)
