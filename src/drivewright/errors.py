@@ -24,6 +24,7 @@ import difflib
 import reprlib
 from collections.abc import Iterable
 from datetime import date, time
+from os.path import commonprefix
 from typing import Any, Self
 
 DEBUG = "DRIVEWRIGHT_DEBUG"  # in the environment: show the traceback of a fault of the program on stderr, where a run keeps going
@@ -117,8 +118,16 @@ def nearest(name: object, known: Iterable[str]) -> str:
     """Hint ' (did you mean ...?)' when a known name is close, capitals aside, else ''."""
     by_lower = {str(k).lower(): k for k in known}
     text = (name if isinstance(name, str) else brief(name)).lower()[:80]
-    close = difflib.get_close_matches(text, list(by_lower), n=1, cutoff=0.65)
-    return f" (did you mean {by_lower[close[0]]!r}?)" if close else ""
+    close = difflib.get_close_matches(text, list(by_lower), n=3, cutoff=0.65)
+    if not close:
+        return ""
+    alike = [each for each in close if _likeness(text, each) == _likeness(text, close[0])]
+    best = max(alike, key=lambda each: len(commonprefix([text, each])))
+    return f" (did you mean {by_lower[best]!r}?)"
+
+
+def _likeness(one: str, other: str) -> float:
+    return difflib.SequenceMatcher(None, other, one).ratio()
 
 
 def brief(value: object) -> str:

@@ -32,7 +32,7 @@ from drivewright.validation.source import (
     Row,
     counts,
 )
-from drivewright.view.text import SUPERSCRIPT, number, numbers, sentence, shown_unit, with_unit
+from drivewright.view.text import SUPERSCRIPT, number, numbers, sentence, shown_scale, with_unit
 
 Content: TypeAlias = dict[str, Any]
 STATES = {AGREES: "good", EXPLAINED: "warn", OPEN: "bad", NOT_COMPARED: "none"}
@@ -228,7 +228,7 @@ def ours_texts(row: Row) -> tuple[str, str]:
     """(our number in the unit people read, its 95 % interval or ""); of a number near the print as many digits as that has."""
     if row.ours is None:
         return "–", ""
-    factor, unit = shown_unit(row.unit, row.printed.unit)
+    factor, unit = shown_scale(row.unit, row.printed.unit)[:2]
     low, high = (None if end is None else end * factor for end in (row.low, row.high))
     middle, *ends = numbers(row.ours * factor, low, high, _digits(row))
     return with_unit(middle, unit), f"{ends[0]} to {ends[1]}" if ends[0] else ""
@@ -250,7 +250,7 @@ def deviation_text(row: Row) -> str:
         return ""
     if row.verdict == AGREES and abs(row.deviation) <= ROUNDING * abs(row.ours):
         return "0"
-    factor, unit = shown_unit(row.unit, row.printed.unit)
+    factor, unit = shown_scale(row.unit, row.printed.unit)[:2]
     text = with_unit(number(row.deviation * factor, 3), unit)
     return text if text.startswith("−") else f"+{text}"
 

@@ -71,11 +71,13 @@ def bearing_load_values(
     mean = max(equivalent_load(np.abs(force), bearings.life_exponent(rolling)) for force in forces.values())
     life = bearings.basic_life(rolling, mean) if mean > 0 else None
     if life is not None:
-        words = f"basic life L10 (ISO 281) of the worst {group} bearing, turns of the input"
-        values[f"{group}.equivalent_load"] = Value(mean, "N", f"load of constant size with the same life, worst {group} bearing")
-        values[f"{group}.basic_life"] = Value(float(life), "-", words)
+        worst = f"worst {group} bearing"
+        values[f"{group}.equivalent_load"] = Value(mean, "N", f"equivalent load of the {worst}, of constant size and with the same life")
+        values[f"{group}.basic_life"] = Value(float(life), "rev", f"basic life of the {worst}, L10 of ISO 281 in turns of the input")
         if speed:
-            values[f"{group}.basic_life.time"] = Value(bearings.life_duration(life, speed), "s", "the same at the input's speed")
+            values[f"{group}.basic_life.time"] = Value(
+                bearings.life_duration(life, speed), "s", f"basic life in time of the {worst}, L10h at the input's speed"
+            )
     return values
 
 
