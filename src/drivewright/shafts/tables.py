@@ -29,7 +29,9 @@ def diagram_table(along: Diagram, direction: Floats) -> Table:
     ):
         columns.append(Column(name, unit, f"{meaning}, along the unit loads", data @ direction, f"{meaning} along the unit loads"))
         across = data @ [direction[1], -direction[0]]
-        columns.append(Column(f"{name}_across", unit, f"{meaning}, 90° clockwise from them", across, f"{meaning} across the unit loads"))
+        columns.append(
+            Column(f"{name}_across", unit, f"{meaning}, across the unit loads (90° clockwise)", across, f"{meaning} across the unit loads")
+        )
     columns += [
         Column("axial", "N", "axial force, tension positive", along.axial),
         Column("torque", "N m", "torque", along.torque),
