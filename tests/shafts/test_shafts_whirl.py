@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from rotors import CASES, matrix, our_rotor
+from rotors import CASES, matrix, our_rotor, our_shaft
 
 from drivewright import shafts
 from drivewright.errors import InputError
@@ -234,6 +234,30 @@ def test_a_threshold_on_a_speed_and_between_two_is_found(at):
 def test_a_shaft_without_any_mass_is_refused():
     with pytest.raises(InputError, match="nothing that can move has a mass"):
         rigid(discs=[[HALF, 0.0, 0.0, 0.0]])
+
+
+@pytest.mark.error
+@pytest.mark.parametrize(
+    "keys, what", [({"damping": matrix(1e12)}, "damping"), ({"stiffness": matrix(STIFF, cross=1e14)}, "cross-coupling")]
+)
+def test_what_drowns_all_else_is_refused(keys, what):
+    with pytest.raises(InputError, match=rf"the {what} of its bearings is .* times the stiffness"):
+        rigid(**keys)
+
+
+@pytest.mark.property
+def test_dampers_that_hardly_move_hold_a_shaft_like_rigid_bearings():
+    """The slow creep of the dampers hides no whirl."""
+    case, found = CASES["isotropic"], []
+    for damping in (1e6, 1e8):
+        bearings = [[place, stiffness, matrix(damping)] for place, stiffness, _ in case["bearings"]]
+        found.append(shafts.whirl_modes(our_rotor(case | {"bearings": bearings})[1], 100.0, 1))
+    shaft = our_shaft(case)
+    rigid_supports = tuple(support._replace(stiffness=(np.inf, np.inf, 0.0, 0.0, 0.0)) for support in shaft.supports)
+    rest = shafts.apply_loads(shaft._replace(supports=rigid_supports), shafts.ShaftLoads()).equilibrium
+    wanted = shafts.whirl_modes(shafts.reduced_rotor(shafts.refined_equilibrium(rest, 0.025)), 100.0, 1).frequency
+    assert found[1].frequency == pytest.approx(wanted, rel=1e-5)
+    assert found[1].damping_ratio == pytest.approx(found[0].damping_ratio / 100, rel=1e-2)
 
 
 @pytest.mark.property

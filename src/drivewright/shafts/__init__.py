@@ -20,7 +20,7 @@ as those of a result; `solid_check` the shaft as a solid beside the beam.
 from importlib import import_module
 from typing import Any
 
-from drivewright.shafts.model import COWPER, EULER_BERNOULLI, Damping, LineLoad, Section, Shaft, ShaftLoad, Station, Support
+from drivewright.shafts.model import COWPER, EULER_BERNOULLI, LineLoad, PlaneMatrix, Section, Shaft, ShaftLoad, Station, Support
 
 # Their modules hold kernels, and the first kernel imports numba: loaded when first used.
 _WHERE = {
@@ -64,7 +64,7 @@ _WHERE = {
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}
 
-__all__ = ["COWPER", "EULER_BERNOULLI", "Damping", "LineLoad", "Section", "Shaft", "ShaftLoad", "Station", "Support", *sorted(_MODULE)]
+__all__ = ["COWPER", "EULER_BERNOULLI", "LineLoad", "PlaneMatrix", "Section", "Shaft", "ShaftLoad", "Station", "Support", *sorted(_MODULE)]
 
 
 def __getattr__(name: str) -> Any:

@@ -50,13 +50,20 @@ class Mount(NamedTuple):
         return slice(self.springs.stop, self.springs.stop + len(self.seated))
 
     @property
+    def coupling(self) -> Floats:
+        """(5, 5) [N/m] of the support between x and y."""
+        whole = np.zeros((5, 5))
+        whole[:2, :2] = self.support.coupling
+        return whole
+
+    @property
     def turn(self) -> Floats:
         """Signs (5,) from the support's axes to the shaft's."""
         return MIRROR if self.support.mirrored else np.ones(5)
 
 
 class ShaftSystem(NamedTuple):
-    """Beam and mounts; unknowns v: those of the beam, then rings, whose displacements are basis v.  The shaft pulls with `linear` v.
+    """Beam and mounts; unknowns v: those of the beam, then rings, whose displacements are basis v.  Shaft and couplings have `linear` v.
 
     Springs and seats are stated by their compliance, and their forces m (c,) are unknowns too: constraints v - compliance m = given.
     So nothing is large where a support is stiff, and rigid is the compliance 0.
@@ -95,6 +102,7 @@ def assemble(shaft: Shaft, places: Iterable[float] = ()) -> ShaftSystem:
         mounts.append(_mount(beam, support, basis, start, len(rows)))
         start += len(mounts[-1].ring)
         rows += _constraints(mounts[-1])
+        linear += mounts[-1].rows.T @ mounts[-1].coupling @ mounts[-1].rows
     free = not any(carries_axially(support, way) for support in shaft.supports for way in (1, -1))
     pinned = (AXIAL, TWIST) if free else (TWIST,)
     rows += [(np.eye(1, size, freedom)[0], 0.0, 0.0) for freedom in pinned]
@@ -184,6 +192,11 @@ def nodal_forces(model: ShaftSystem, loads: Iterable[ShaftLoad]) -> Floats:
     for mount in model.mounts:
         total[mount.ring] += [mount.support.push[i] for i in mount.ring_freedoms]
     return total
+
+
+def seat_couplings(model: ShaftSystem) -> Floats:
+    """(size,) the forces on the unknowns by couplings whose seat is off the axis."""
+    return sum((mount.rows.T @ mount.coupling @ mount.support.offset for mount in model.mounts), np.zeros(model.size))
 
 
 def refuse_unbalanced(model: ShaftSystem, force: Floats) -> None:

@@ -15,7 +15,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.bearings.response import evaluate_response
 from drivewright.errors import InputError, SolverError
-from drivewright.shafts.assembly import AXIAL, ShaftSystem, refuse_unbalanced, regularisation
+from drivewright.shafts.assembly import AXIAL, ShaftSystem, refuse_unbalanced, regularisation, seat_couplings
 from drivewright.shafts.beam import FREEDOMS
 
 TOLERANCE = 1e-11  # of the residual over the forces at work
@@ -64,7 +64,7 @@ class ShaftEquilibrium(NamedTuple):
 def solve(model: ShaftSystem, force: Floats) -> ShaftEquilibrium:
     """The `ShaftEquilibrium` under the forces (size,) on nodes and rings; SolverError where it is not found."""
     refuse_unbalanced(model, force)
-    load = model.basis.T @ force
+    load = model.basis.T @ force + seat_couplings(model)
     v, held = _first_guess(model, load)
     change, small = v, regularisation(model)
     for step in range(1, MAX_STEPS + 1):
@@ -240,6 +240,7 @@ def _equilibrium(model, v, held, steps):
         own, force, law = mount.rows @ v - support.offset, np.zeros(5), np.zeros((5, 5))
         if support.law is not None:
             _, force, law = evaluate_response(support.law, own)
+        force, law = force + mount.coupling @ own, law + mount.coupling
         force[sprung] += held[mount.springs]
         own[sprung] = model.compliance[mount.springs] * held[mount.springs]
         law = mount.turn[:, None] * law * mount.turn

@@ -6,7 +6,7 @@ from drivewright.errors import counted
 from drivewright.shafts.assembly import assemble, nodal_forces
 from drivewright.shafts.curves import LinearSupport
 from drivewright.shafts.equilibrium import ShaftEquilibrium, solve
-from drivewright.shafts.model import Shaft
+from drivewright.shafts.model import NOTHING, Shaft
 
 MOST_ELEMENTS = 5000  # of a shaft: its matrices have a tenth of a gigabyte
 
@@ -16,7 +16,7 @@ def tangent_shaft(equilibrium: ShaftEquilibrium) -> Shaft:
     shaft, supports = equilibrium.model.beam.shaft, []
     for support, contact in zip(shaft.supports, equilibrium.contact, strict=True):
         if support.law is not None:
-            support = support._replace(law=LinearSupport(contact), mirrored=False)
+            support = support._replace(law=LinearSupport(contact), mirrored=False, coupling=NOTHING)
         supports.append(support._replace(offset=(0.0,) * 5, push=(0.0,) * 5))
     return shaft._replace(supports=tuple(supports))
 

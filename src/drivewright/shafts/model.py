@@ -12,8 +12,8 @@ from drivewright._typing import Floats
 
 COWPER, EULER_BERNOULLI = 0.0, -1.0  # special values of the shear coefficient
 RIGID = (np.inf,) * 5
-Damping: TypeAlias = tuple[tuple[float, float], tuple[float, float]]  # ((cxx, cxy), (cyx, cyy)) [N s/m]
-UNDAMPED: Damping = ((0.0, 0.0), (0.0, 0.0))
+PlaneMatrix: TypeAlias = tuple[tuple[float, float], tuple[float, float]]  # ((xx, xy), (yx, yy)): the force along the first of the second
+NOTHING: PlaneMatrix = ((0.0, 0.0), (0.0, 0.0))
 
 
 class Section(NamedTuple):
@@ -31,8 +31,8 @@ class Support(NamedTuple):
     Five stiffnesses (x, y, z, tilt_x, tilt_y; inf is rigid, 0 is free) and beside them a `law`, a NamedTuple with a formula under
     `bearings.response`.  `mirrored`: the law's own axis points to the left.  `offset` (5,): where the seat stands, of a law in the
     law's own axes.  `seat` (5,): stiffness of the seat under the law, in series (inf is none, 0 slides freely), with the forces
-    `push` (5,) on the ring that sits there.  The reaction is spread evenly over `width`.  `damping` acts beside springs
-    and law, between the shaft and the ring.
+    `push` (5,) on the ring that sits there.  The reaction is spread evenly over `width`.  `coupling` [N/m] between x
+    and y acts beside the springs and `damping` [N s/m] beside springs and law, both between the shaft and the ring.
     """
 
     name: str
@@ -44,7 +44,8 @@ class Support(NamedTuple):
     seat: tuple[float, ...] = RIGID
     push: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0, 0.0)
     width: float = 0.0
-    damping: Damping = UNDAMPED
+    coupling: PlaneMatrix = NOTHING
+    damping: PlaneMatrix = NOTHING
 
 
 class Station(NamedTuple):

@@ -21,7 +21,7 @@ from drivewright.shafts.assembly import AXIAL, Mount, regularisation
 from drivewright.shafts.beam import FREEDOMS
 from drivewright.shafts.equilibrium import ShaftEquilibrium
 from drivewright.shafts.influence import REGULARISATION_FACTOR
-from drivewright.shafts.model import UNDAMPED
+from drivewright.shafts.model import NOTHING
 from drivewright.shafts.vibration import (
     ROUND,
     UNHELD,
@@ -34,6 +34,7 @@ from drivewright.shafts.vibration import (
 )
 
 KEPT = 12  # modes in each plane: four for each of the three that are shown as a rule
+IMMENSE = 1e6  # times the stiffness: damping or cross-coupling beside which damping ratios have ten digits
 DEPENDENT = 1e-8  # of a static shape: what the modes and the shapes before it leave of one that they contain
 
 
@@ -75,7 +76,7 @@ class Rotor(NamedTuple):
 def reduced_rotor(equilibrium: ShaftEquilibrium, places: Sequence[float] = (), kept: int = KEPT) -> Rotor:
     """The `Rotor` of a shaft at rest, with `kept` modes in each plane and exact under slow forces at `places` [m].
 
-    InputError where the shaft is not held or has no mass.
+    InputError where the shaft is not held or has no mass, or where damping or cross-coupling is so large that all else drowns.
     """
     stiff, inertia, gyroscopic, _ = lateral_system(equilibrium)
     model, whirls = equilibrium.model, is_round(equilibrium)
@@ -88,13 +89,15 @@ def reduced_rotor(equilibrium: ShaftEquilibrium, places: Sequence[float] = (), k
 
     nodes = (model.basis[: model.beam.size, chosen] @ coordinates).reshape(-1, FREEDOMS, coordinates.shape[1])
     felt = np.array([mount.rows[:2][:, chosen] @ coordinates for mount in model.mounts])
+    couplings = np.array([_cross_coupling(contact) for contact in equilibrium.contact])
     damping = np.array([mount.support.damping for mount in model.mounts])
+    _refuse_immense(frequency, _pressed(felt, damping, whirls), _pressed(felt, couplings, whirls))
     return Rotor(
         whirls,
         reduced(inertia),
         _pressed(felt, damping, whirls),
         reduced(turning),
-        _pressed(felt, np.array([_cross_coupling(contact) for contact in equilibrium.contact]), whirls),
+        _pressed(felt, couplings, whirls),
         model.beam.z,
         _both_planes(nodes[:, 0], nodes[:, 1], whirls),
         _axial_mass(inertia, chosen, coordinates),
@@ -102,6 +105,16 @@ def reduced_rotor(equilibrium: ShaftEquilibrium, places: Sequence[float] = (), k
         damping,
         frequency,
     )
+
+
+def _refuse_immense(frequency, damping, circulatory):
+    """Both are in units of the stiffness here."""
+    for what, size in (("damping", frequency * np.abs(damping).max()), ("cross-coupling", np.abs(circulatory).max())):
+        if not size < IMMENSE:
+            raise InputError(
+                f"shaft: the {what} of its bearings is {size:.2g} times the stiffness that a mode feels, and the digits of the rest are "
+                "lost beside it; check the unit, or make a bearing that does not give way rigid"
+            )
 
 
 def _axial_mass(inertia, chosen, coordinates):
@@ -158,7 +171,7 @@ def _static_forces(equilibrium, places, whirls):
 
 
 def _acts(mount: Mount, contact: Floats) -> bool:
-    return mount.support.damping != UNDAMPED or bool(_cross_coupling(contact).any())
+    return mount.support.damping != NOTHING or bool(_cross_coupling(contact).any())
 
 
 def _coordinates(equilibrium, matrices, chosen, forces, kept):

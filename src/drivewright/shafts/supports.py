@@ -8,9 +8,9 @@ import numpy as np
 from drivewright import bearings
 from drivewright._typing import Floats
 from drivewright.bearings.solving import RollingBearing
-from drivewright.shafts.curves import LinearSupport, RadialCurve
+from drivewright.shafts.curves import RadialCurve
 from drivewright.shafts.equilibrium import ShaftEquilibrium
-from drivewright.shafts.model import UNDAMPED, Damping, Support
+from drivewright.shafts.model import NOTHING, PlaneMatrix, Support
 
 CENTRED = (0.0,) * 5
 RIGID_HOUSING = (np.inf, np.inf)
@@ -30,7 +30,7 @@ def spring_support(
     tilt: float = 0.0,
     *,
     cross: tuple[float, float] = (0.0, 0.0),
-    damping: Damping = UNDAMPED,
+    damping: PlaneMatrix = NOTHING,
     housing: tuple[float, float] = RIGID_HOUSING,
     offset: tuple[float, ...] = CENTRED,
     width: float = 0.0,
@@ -46,19 +46,11 @@ def spring_support(
         seat = (housing[0], housing[0], housing[1], np.inf, np.inf)
         return Support(name, position, (0.0, 0.0, axial, tilt, tilt), radial, seat=seat, offset=offset, width=width, damping=damping)
     x, y = radial if isinstance(radial, tuple) else (radial, radial)
-    if any(cross) or damping != UNDAMPED:  # they act on the bearing alone, which so is kept apart from its housing
-        seat = (housing[0], housing[0], housing[1], np.inf, np.inf)
-        law = LinearSupport(_cross_coupled(cross)) if any(cross) else None
-        return Support(name, position, (x, y, axial, tilt, tilt), law, seat=seat, offset=offset, width=width, damping=damping)
+    if any(cross) or damping != NOTHING:  # they act on the bearing alone, which so is kept apart from its housing
+        seat, coupling = (housing[0], housing[0], housing[1], np.inf, np.inf), ((0.0, cross[0]), (cross[1], 0.0))
+        return Support(name, position, (x, y, axial, tilt, tilt), seat=seat, offset=offset, width=width, coupling=coupling, damping=damping)
     x, y, axial = (series_stiffness(own, seat) for own, seat in zip((x, y, axial), (housing[0], *housing), strict=True))
     return Support(name, position, (x, y, axial, tilt, tilt), offset=offset, width=width)
-
-
-def _cross_coupled(cross):
-    """(5, 5): nothing but the two entries between x and y."""
-    stiffness = np.zeros((5, 5))
-    stiffness[0, 1], stiffness[1, 0] = cross
-    return stiffness
 
 
 def rolling_support(
@@ -72,7 +64,7 @@ def rolling_support(
     housing: tuple[float, float] = RIGID_HOUSING,
     offset: tuple[float, ...] = CENTRED,
     width: float = 0.0,
-    damping: Damping = UNDAMPED,
+    damping: PlaneMatrix = NOTHING,
 ) -> Support:
     """A `Support` with the law of a rolling bearing; InputError where a preload is given and it takes no axial force.
 

@@ -18,7 +18,7 @@ from drivewright.numerics.roots import roots_in_brackets
 from drivewright.shafts.rotor import Rotor
 
 LEAST = 1e-3  # of the magnitude of an eigenvalue: with less the motion creeps back and is no vibration
-NEGLIGIBLE = 1e-6  # of the largest inverse eigenvalue: where there is no mass rounding makes one
+NEGLIGIBLE = 1e-6  # of the largest inverse eigenvalue of a vibration: where there is no mass rounding makes one
 LINE = 1e-6  # sense of an ellipse that is a line: neither with the shaft nor against it
 NOISE = 1e-9  # damping ratio that is rounding
 
@@ -67,7 +67,8 @@ def _eigenpairs(rotor, speeds):
 def _sorted(rotor, speed, inverse, vectors, count):
     """The `WhirlModes` among the eigenpairs of one speed."""
     inverse, vectors = inverse[0], vectors[0]
-    moves = (np.abs(inverse.imag) > LEAST * np.abs(inverse)) & (np.abs(inverse) > NEGLIGIBLE * np.abs(inverse).max())
+    moves = np.abs(inverse.imag) > LEAST * np.abs(inverse)
+    moves &= np.abs(inverse) > NEGLIGIBLE * np.abs(inverse[moves]).max(initial=0.0)
     chosen = np.flatnonzero(moves if rotor.whirls else moves & (inverse.imag < 0))
     chosen = chosen[np.argsort(-np.abs(inverse[chosen]), kind="stable")]
     value, vector = rotor.reference / inverse[chosen], vectors[:, chosen]
@@ -145,7 +146,7 @@ def _continued(rows, before, after):
 
 def _likeness(one, other):
     """(m, m') 1 where two modes have the same shape (modal assurance criterion)."""
-    a, b = (modes.shapes.reshape(-1, len(modes.frequency)) for modes in (one, other))
+    a, b = (np.concatenate(modes.shapes) for modes in (one, other))
     mixed = np.abs(a.conj().T @ b) ** 2
     return mixed / np.outer(np.sum(np.abs(a) ** 2, axis=0), np.sum(np.abs(b) ** 2, axis=0))
 

@@ -350,20 +350,24 @@ def test_cross_coupling_turns_the_deflection():
         }
         for name, place in (("A", "0 mm"), ("B", "200 mm"))
     ]
-    found = dw.run(
-        dw.Shaft(
-            material={"youngs_modulus": "1e9 GPa"},
-            segments=[{"length": "200 mm", "diameter": "40 mm"}],
-            bearings=bearings,
-            stations=[{"name": "m", "position": "100 mm"}],
-            loads=[{"station": "m", "force": "100 N", "angle": "0 deg"}, {"station": "m", "force": "400 N"}],
-        ),
-        only=("statics", "flexibility"),
-    )
+    tables = {
+        "material": {"youngs_modulus": "1e9 GPa"},
+        "segments": [{"length": "200 mm", "diameter": "40 mm"}],
+        "bearings": bearings,
+        "stations": [{"name": "m", "position": "100 mm"}],
+        "loads": [{"station": "m", "force": "100 N", "angle": "0 deg"}, {"station": "m", "force": "400 N"}],
+    }
+    found = dw.run(dw.Shaft(**tables), only=("statics", "flexibility"))
     wanted = np.linalg.solve(k, load)
     assert [found["stations.m.deflection_x"], found["stations.m.deflection_y"]] == pytest.approx(wanted.tolist(), rel=1e-6)
     assert found["bearings.A.reaction_x"] == pytest.approx(-load[0] / 2, rel=1e-9)
     down = np.array([0.0, -1.0])
+    assert found.check("equilibrium").ok and found.check("equilibrium.unit_loads").ok
+    assert not any("not linear" in finding for finding in found.findings)
+    offset = [bearing | {"seat_offset": ["0.1 mm", "0 mm"]} for bearing in bearings]
+    moved = dw.run(dw.Shaft(**(tables | {"bearings": offset})), only=("statics",))
+    assert moved["stations.m.deflection_x"] == pytest.approx(wanted[0] + 1e-4, rel=1e-6)
+    assert moved["stations.m.deflection_y"] == pytest.approx(wanted[1], rel=1e-6) and moved.check("equilibrium").ok
     assert found["flexibility.m.m"] == pytest.approx(down @ np.linalg.inv(k) @ down, rel=1e-6)
 
 

@@ -10,7 +10,7 @@ from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import UnitError
 from drivewright.spec import DataFile, Name, Spec
 from drivewright.spec.fields import Field
-from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Length, RotationalStiffness, Stiffness
+from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Length, RotationalStiffness
 
 RIGID = "rigid"
 
@@ -41,6 +41,9 @@ class _StiffnessOrRigid(Dimension):
 StiffnessOrRigid = Annotated[float, _StiffnessOrRigid('stiffness, or "rigid"', "N/m", "N/m", largest=math.inf)]
 
 
+CrossStiffness = Annotated[float, Dimension("stiffness", "N/m", "N/mm")]  # which has no rigid limit
+
+
 class Bearing(Spec):
     """What carries the shaft at a place: springs, a table, or a rolling bearing with its inner geometry."""
 
@@ -53,8 +56,8 @@ class Bearing(Spec):
         None, description="stiffness along x instead, where stiffness_yy along y differs", examples=["5e7 N/m"]
     )
     stiffness_yy: StiffnessOrRigid | None = Field(None, description="stiffness along y, beside stiffness_xx", examples=["7e7 N/m"])
-    stiffness_xy: Stiffness = Field("0 N/m", description="force along x that a displacement along y needs (cross-coupling)")
-    stiffness_yx: Stiffness = Field("0 N/m", description="force along y that a displacement along x needs (cross-coupling)")
+    stiffness_xy: CrossStiffness = Field("0 N/m", description="force along x that a displacement along y needs (cross-coupling)")
+    stiffness_yx: CrossStiffness = Field("0 N/m", description="force along y that a displacement along x needs (cross-coupling)")
     radial_damping: Damping = Field("0 N s/m", ge=0, description="radial damping, the same all round", examples=["500 N s/m"])
     damping_xx: Damping | None = Field(None, ge=0, description="damping along x instead of radial_damping")
     damping_yy: Damping | None = Field(None, ge=0, description="damping along y instead of radial_damping")

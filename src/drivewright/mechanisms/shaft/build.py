@@ -136,7 +136,7 @@ def _support(bearing: Bearing, rolling: BallBearing | RollerBearing | None, mirr
     )
 
 
-def _damping(bearing: Bearing) -> shafts.Damping:
+def _damping(bearing: Bearing) -> shafts.PlaneMatrix:
     xx, yy = (bearing.radial_damping if own is None else own for own in (bearing.damping_xx, bearing.damping_yy))
     return (xx, bearing.damping_xy), (bearing.damping_yx, yy)
 

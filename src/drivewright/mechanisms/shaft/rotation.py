@@ -7,6 +7,7 @@ import numpy as np
 
 from drivewright import shafts
 from drivewright._typing import Floats
+from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.frequencies import no_modes
 from drivewright.mechanisms.shaft.spec import ShaftSpec
@@ -36,7 +37,10 @@ def whirl(model: ShaftModel, done: Answers) -> Answer:
     if vibration is None or model.spec.drive is None:
         return Answer(findings=("whirl is absent: the shaft has no natural frequencies",), outcome="left out")
     speed, count = model.spec.drive.speed, model.spec.analysis.modes
-    rotor = shafts.reduced_rotor(vibration.equilibrium, [part.position for part in model.turning_parts])
+    try:
+        rotor = shafts.reduced_rotor(vibration.equilibrium, [part.position for part in model.turning_parts])
+    except InputError as error:
+        return Answer(findings=(f"whirl is absent: {error}",), outcome="left out")
     modes = shafts.whirl_modes(rotor, speed, count)
     diagram = shafts.campbell(rotor, np.linspace(0.0, _highest_speed(model, vibration.lowest), SPEEDS), count)
     damped, critical = not rotor.is_conservative, shafts.damped_critical_speeds(rotor, diagram)
