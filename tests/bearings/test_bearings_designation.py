@@ -258,7 +258,7 @@ def test_what_is_estimated_is_told():
     card = entry("6306")
     (text,) = catalogue_findings("A", "6306-2RS1", card)
     assert text.startswith("bearing 'A' (6306-2RS1): deep-groove ball bearing; its inner geometry is estimated from its dimensions")
-    assert "and with it C = 29.4 kN and C0 = 16.4 kN, about which makers' ratings scatter by +-8 %" in text
+    assert "and with it C = 29.4 kN and C0 = 16.4 kN, about which makers' ratings scatter by ±8 %" in text
     assert text.endswith("give dynamic_rating and static_rating of the maker")
     (text,) = catalogue_findings("A", "6306", card, dynamic_rating_given=True)
     assert "C0 = 16.4 kN" in text and "C = " not in text and text.endswith("give static_rating of the maker")

@@ -37,7 +37,7 @@ def catalogue_findings(
     if missing:
         yield (
             f"{start}, and with it {' and '.join(numbers[key] for key in missing)}, about which makers' ratings scatter by "
-            f"+-{SCATTER[kind]} % and today's lie up to 15 % higher; give {' and '.join(missing)} of the maker"
+            f"±{SCATTER[kind]} % and today's lie up to 15 % higher; give {' and '.join(missing)} of the maker"
         )
     else:
         yield f"{start}; its stiffness and load distribution follow that geometry"

@@ -110,14 +110,23 @@ def resonance_finding(orbits: Orbits) -> str:
     )
 
 
-def orbit_table(orbits: Orbits, parts: Sequence[str]) -> Table:
-    """`unbalance_response`: amplitude [m] and lag [rad] of every part over the speed; rows at resonance without damping left out."""
+def orbit_table(orbits: Orbits, parts: Sequence[str], damped: bool) -> Table:
+    """`unbalance_response`: amplitude [m] of every part over the speed, where supports damp its lag [rad] too; rows at resonance without
+    damping left out."""
     kept = ~orbits.resonant
     columns = [Column("speed", "rad/s", "speed of the shaft", orbits.speeds[kept])]
     for name, amplitude, lag in zip(parts, orbits.amplitude[kept].T, orbits.lag[kept].T, strict=True):
         columns.append(Column(name, "m", f"unbalance amplitude of {name!r}", amplitude))
-        columns.append(Column(f"{name}{LAG}", "rad", f"phase lag behind the unbalance, {name!r}", np.unwrap(lag), f"phase lag of {name!r}"))
+        if damped:
+            meaning, label = f"phase lag behind the unbalance, {name!r}", f"phase lag of {name!r}"
+            columns.append(Column(f"{name}{LAG}", "rad", meaning, _continuous(lag), label))
     return Table("unbalance_response", "Unbalance response over speed", tuple(columns))
+
+
+def _continuous(lag: Floats) -> Floats:
+    """The angle without jumps, from within half a turn of 0 on."""
+    whole = np.unwrap(lag)
+    return whole - 2 * np.pi * np.round(whole[:1] / (2 * np.pi))
 
 
 # -- to look at ----------------------------------------------------------------------------------------------------------------
@@ -139,7 +148,8 @@ def rotor_plots(tables: Mapping[str, Table], speed: float | None, places: tuple[
         amplitudes, lags = (tuple(name for name in names if name.endswith(LAG) == lag) for lag in (False, True))
         table = "unbalance_response"
         yield Plot(table, "Unbalance response over speed", table, "speed", amplitudes, log=True, places=at)
-        yield Plot("unbalance_lag", "Phase lag behind the unbalance", table, "speed", lags, places=at)
+        if lags:
+            yield Plot("unbalance_lag", "Phase lag behind the unbalance", table, "speed", lags, places=at)
 
 
 def _branches(table: Table) -> tuple[tuple[str, ...], tuple[str, ...]]:

@@ -72,11 +72,11 @@ def bearing_load_values(
     life = bearings.basic_life(rolling, mean) if mean > 0 else None
     if life is not None:
         worst = f"worst {group} bearing"
-        values[f"{group}.equivalent_load"] = Value(mean, "N", f"equivalent load of the {worst}, of constant size and with the same life")
-        values[f"{group}.basic_life"] = Value(float(life), "rev", f"basic life of the {worst}, L10 of ISO 281 in turns of the input")
+        values[f"{group}.equivalent_load"] = Value(mean, "N", f"{worst}'s equivalent load, of constant size and with the same life")
+        values[f"{group}.basic_life"] = Value(float(life), "rev", f"{worst}'s basic life, L10 of ISO 281 in turns of the input")
         if speed:
             values[f"{group}.basic_life.time"] = Value(
-                bearings.life_duration(life, speed), "s", f"basic life in time of the {worst}, L10h at the input's speed"
+                bearings.life_duration(life, speed), "s", f"{worst}'s life, L10h at the input's speed"
             )
     return values
 

@@ -78,8 +78,6 @@ HEADLINE = (
     "bearings.*.basic_life.time",
     "bearings.*.reference_life.time",
     "bearings.*.modified_life.time",
-    "bearings.*.basic_life",
-    "bearings.*.reference_life",
     "shaft.system_*.time",
     "strength.min_safety",
     "solid.deviation",

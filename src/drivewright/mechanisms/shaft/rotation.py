@@ -104,7 +104,7 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
 
     at_speed = orbits(np.array([drive.speed]))
     over = np.linspace(0.0, _highest_speed(model, vibration.lowest), RESPONSE_SPEEDS)[1:]
-    table = results.orbit_table(orbits(_with_peaks(over, turning.critical)), names)
+    table = results.orbit_table(orbits(_with_peaks(over, turning.critical)), names, not turning.rotor.is_conservative)
     quality = Value(shafts.balance_quality(model.shaft, given, drive.speed), "m/s", "balance quality, eccentricity times angular speed")
     values = {"unbalance.balance_quality": quality}
     if at_speed.resonant[0]:
