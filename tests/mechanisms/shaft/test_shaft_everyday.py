@@ -412,3 +412,48 @@ def test_the_examples_of_every_day_pass_their_checks():
     for name in ("gearbox_shaft", "two_disc_rotor", "spindle_duty"):
         result = dw.run(dw.load(EXAMPLES / f"{name}.toml"))
         assert result.outcome == "complete" and all(check.ok for check in result.checks), name
+
+
+# -- tables and words of a rotor -----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.property
+def test_the_campbell_diagram_meets_whirl_and_critical_speeds(rotor):
+    table, speed = rotor.tables["campbell"], 4000 * np.pi / 30
+    assert table["speed"].data[0] == 0
+    assert table["synchronous"].data == pytest.approx(table["speed"].data / (2 * np.pi))
+    for name in ("forward_1", "backward_1", "forward_2", "backward_2"):
+        at_speed = np.interp(speed, table["speed"].data, table[name].data)
+        assert 2 * np.pi * at_speed == pytest.approx(rotor[f"whirl.{name.replace('_', '.')}"], rel=1e-4)
+        assert np.sign(table[f"{name}.sense"].data[-1]) == (1 if name.startswith("forward") else -1)
+    critical = [rotor[f"critical_speeds.damped.{n}"] for n in (1, 2, 3, 4)]
+    excited = [each for each in critical if each in (critical[1], critical[3])]  # forward, on bearings that are the same all round
+    margin = min(abs(each / speed - 1) for each in excited)
+    assert rotor.check("separation_margin").value == pytest.approx(margin, rel=1e-9)
+    speeds = rotor.tables["unbalance_response"]["speed"].data
+    for number, each in enumerate(critical, 1):
+        ratio = 0.5 / rotor[f"critical_speeds.damped.{number}.amplification"]
+        for flank in (-4, -1, -0.5, 0, 0.5, 1, 2, 4):
+            assert np.min(np.abs(speeds / each - 1 - flank * ratio)) < 1e-9
+    assert np.all(np.diff(speeds) > 0) and speeds[0] > 0 and speeds[-1] == pytest.approx(table["speed"].data[-1])
+
+
+@pytest.mark.interface
+def test_whirl_shapes_and_words_of_a_rotor(rotor):
+    shapes = rotor.tables["whirl_shapes"]
+    for column in shapes.columns[1:]:
+        assert np.abs(column.data).max() == pytest.approx(1, rel=1e-4)
+    assert np.all(shapes["forward_1"].data > 0) and np.any(shapes["forward_2"].data < 0) and shapes["forward_2"].data[0] > 0.5
+    hertz = rotor["whirl.forward.1"] / (2 * np.pi)
+    assert f"{hertz:.4g} Hz" in shapes["forward_1"].label
+    assert "at 4000 rpm" in rotor.values["whirl.forward.1"].meaning and "at 4000 rpm" in rotor.values["unbalance.d1.amplitude"].meaning
+    lags = rotor.tables["unbalance_response"]["d1.lag"].data
+    assert abs(lags[0]) < np.pi and np.all(np.abs(np.diff(lags)) < np.pi)
+
+
+@pytest.mark.error
+def test_what_drowns_the_stiffness_leaves_whirl_and_response_out():
+    found = dw.run(shaft(changed(ROTOR, "bearings", 0, radial_damping="1e30 N s/m")))
+    assert any(finding.startswith("whirl is absent") and "damping" in finding for finding in found.findings)
+    assert any("'unbalance'" in finding and "left out" in finding for finding in found.findings)
+    assert found.outcome == "complete" and "whirl.forward.1" not in found.values
