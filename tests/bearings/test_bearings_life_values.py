@@ -173,7 +173,7 @@ def test_lives_say_what_they_are_counted_by():
 @pytest.mark.property
 def test_the_table_of_a_duty_cycle_shares_the_damage():
     cases = [DutyCase(0.3, 100.0, COMBINED), DutyCase(0.2, 0.0, COMBINED), DutyCase(0.5, -200.0, LIGHT)]
-    table, values = duty_table(cases, "A"), spectrum_values("A", cases)
+    table, values = duty_table(cases, "A", [str(n) for n, _ in enumerate(cases)]), spectrum_values("A", cases)
     assert (table.name, list(table["speed"].data), table["share"].data.sum()) == ("duty.A", [100.0, 0.0, -200.0], 1.0)
     assert table["equivalent_load"].data[2] == pytest.approx(0.56 * 500 + 2.3 * 100)
     for kind, life in zip(("basic", "reference", "modified"), LIVES, strict=True):
@@ -181,10 +181,10 @@ def test_the_table_of_a_duty_cycle_shares_the_damage():
         single = life_values("A", LIGHT, 200.0)[f"bearings.A.{life}.time"].value
         assert damage[2] == pytest.approx(0.5 / single * values[f"bearings.A.{life}.time"].value, rel=1e-12)
         assert damage[1] == 0.0 and damage.sum() == pytest.approx(1.0, rel=1e-12)
-    idle = duty_table([DutyCase(1.0, 0.0, COMBINED)], "A")
+    idle = duty_table([DutyCase(1.0, 0.0, COMBINED)], "A", ["idle"])
     assert list(idle["basic_damage"].data) == [0.0]
     bare = solve(BALLS.replace(dynamic_rating=None), force=[2000, 0, 1500, 0, 0])
-    assert np.isnan(duty_table([DutyCase(1.0, 9.0, bare)], "A")["basic_damage"].data).all()
+    assert np.isnan(duty_table([DutyCase(1.0, 9.0, bare)], "A", ["bare"])["basic_damage"].data).all()
 
 
 @pytest.mark.property

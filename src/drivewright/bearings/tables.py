@@ -57,13 +57,14 @@ def load_curve_tables(state: BearingEquilibrium, name: str, factors: Floats) -> 
     yield load_curve_table(curve, name)
 
 
-def duty_table(cases: Sequence[DutyCase], name: str, lubrication: Lubrication | None = None) -> Table:
+def duty_table(cases: Sequence[DutyCase], name: str, names: Sequence[str], lubrication: Lubrication | None = None) -> Table:
     """`duty.NAME` of the bearing of this name: a row for every case of its duty cycle; nan where unknown."""
     lives = [rating_lives(case.state, case.speed, lubrication) for case in cases]
     loads = [np.nan if each.equivalent is None else each.equivalent.load for each in lives]
     times = [_case_times(case, each) for case, each in zip(cases, lives, strict=True)]
     shares = np.array([case.share for case in cases])
     columns = (
+        Column("case", "-", "case of the duty cycle", np.array(names)),
         Column("share", "-", "share of the time", shares),
         Column("speed", "rad/s", "speed of the shaft", np.array([case.speed for case in cases])),
         Column("equivalent_load", "N", "equivalent load P", np.array(loads)),

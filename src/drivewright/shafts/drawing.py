@@ -21,6 +21,12 @@ def radius_at(shaft: Shaft, z: float, side: Literal["left", "right"] = "right") 
     return float(0.5 * (start + (end - start) * (z - ends[at]) / length))
 
 
+def diameters_at(shaft: Shaft, z: float) -> tuple[float, ...]:
+    """The outer diameter [m] at a place z [m], at a step those of both sides."""
+    inside = min(max(z, 0.0), shaft.length)
+    return tuple(sorted({2 * radius_at(shaft, inside, side) for side in ("left", "right")}))
+
+
 def silhouette(shaft: Shaft) -> Iterator[Shape]:
     """The outline of the shaft at rest, thin, and its axis."""
     upper = [

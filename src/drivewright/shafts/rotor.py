@@ -84,7 +84,7 @@ def reduced_rotor(equilibrium: ShaftEquilibrium, places: Sequence[float] = (), k
     turning = -1j * polar_moments(equilibrium, gyroscopic) if whirls else gyroscopic
     coordinates, frequency = _coordinates(equilibrium, (stiff, inertia), chosen, _static_forces(equilibrium, places, whirls), kept)
 
-    def reduced(whole: Floats) -> Floats:
+    def reduced(whole: Any) -> Any:
         return coordinates.T @ whole[np.ix_(chosen, chosen)] @ coordinates
 
     nodes = (model.basis[: model.beam.size, chosen] @ coordinates).reshape(-1, FREEDOMS, coordinates.shape[1])

@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.result import Column, Plot, Table, Value
-from drivewright.shafts.unbalance import RESONANCE, Orbits
+from drivewright.shafts.unbalance import RESONANCE, Orbits, Unbalance
 from drivewright.shafts.whirl import Campbell, CriticalSpeed, WhirlModes
 
 LAG = ".lag"  # behind the name of a part
@@ -100,6 +100,14 @@ def orbit_values(orbits: Orbits, parts: Sequence[str], supports: Sequence[str]) 
                 float(force), "N", f"unbalance force on bearing {name!r}, major semi-axis of the rotating force {at}"
             )
     return values
+
+
+def moment_values(unbalances: Mapping[str, Unbalance]) -> dict[str, Value]:
+    """`unbalance.NAME.moment` [kg m] of the parts by name."""
+    return {
+        f"unbalance.{name}.moment": Value(unbalance.moment, "kg m", f"unbalance of {name!r}, mass times eccentricity")
+        for name, unbalance in unbalances.items()
+    }
 
 
 def resonance_finding(orbits: Orbits) -> str:

@@ -9,10 +9,21 @@ from drivewright.errors import InputError
 from drivewright.shafts.fatigue_strength import NominalStress, StrengthSection
 from drivewright.shafts.loaded import Diagram
 from drivewright.shafts.model import Shaft
-from drivewright.shafts.notches import Notch, ShoulderFillet, SmoothPlace, net_diameter
+from drivewright.shafts.notches import (
+    Keyway,
+    Notch,
+    PressFit,
+    RectangularGroove,
+    ShoulderFillet,
+    SmoothPlace,
+    Spline,
+    net_diameter,
+    stress_concentration,
+)
 from drivewright.shafts.sections import area, second_moment
 
 ASSUMED_FILLET = 0.02  # radius over the smaller diameter of a step without one: the worst that Shigley (9th ed., p. 373) reckons with
+MEASURED = (Keyway, PressFit, Spline, RectangularGroove)  # whose factors are measured
 SAME = 1e-9  # relative: diameters and places that are the same
 SIDE = 3e-9  # of the shaft's length: from a place to either side of the node there (`loaded.diagram`)
 
@@ -33,6 +44,23 @@ def shaft_sections(
     stresses = _nominal_stresses(along, places, net, bore, SIDE * shaft.length)
     rows = zip(every, outer.tolist(), net.tolist(), bore.tolist(), stresses, strict=True)
     return tuple(StrengthSection(*row) for row in rows)
+
+
+def refuse_impossible_notch(shaft: Shaft, notch: Notch) -> None:
+    """InputError where a notch leaves the shaft, is deeper than it, or has a radius that does not go into it."""
+    length = getattr(notch, "length", 0.0)
+    for place in (notch.position, notch.position + length) if length else (notch.position,):
+        if not -SAME * shaft.length <= place <= shaft.length * (1 + SAME):
+            raise InputError(f"ends at {place * 1e3:.4g} mm, off the shaft, which ends at {shaft.length * 1e3:.4g} mm; make it shorter")
+    outer, bore = section_at(shaft, notch.position)
+    _check_net(notch, net_diameter(notch, outer), bore)
+    if isinstance(notch, RectangularGroove) and notch.radius > min(notch.depth, notch.width / 2):
+        raise InputError(
+            f"corners of {notch.radius * 1e3:.4g} mm do not go into a groove {notch.depth * 1e3:.4g} mm deep and "
+            f"{notch.width * 1e3:.4g} mm wide; make the radius smaller"
+        )
+    if not isinstance(notch, MEASURED):
+        stress_concentration(notch, outer, bore)
 
 
 def section_at(shaft: Shaft, position: float) -> tuple[float, float]:

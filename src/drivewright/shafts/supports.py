@@ -8,6 +8,7 @@ import numpy as np
 from drivewright import bearings
 from drivewright._typing import Floats
 from drivewright.bearings.solving import RollingBearing
+from drivewright.shafts.assembly import AXIAL
 from drivewright.shafts.curves import RadialCurve
 from drivewright.shafts.equilibrium import ShaftEquilibrium
 from drivewright.shafts.model import NOTHING, PlaneMatrix, Support
@@ -111,6 +112,11 @@ def support_stiffness(equilibrium: ShaftEquilibrium, number: int, direction: Flo
     moved = float(way @ displacement)
     secant = load / moved if load > 0 and moved > 0 else np.nan
     return SupportStiffness(load, float(way @ tangent[:2, :2] @ way), secant, *map(float, np.diag(tangent)[2:]))
+
+
+def slides_freely(equilibrium: ShaftEquilibrium) -> bool:
+    """Whether no support holds the shaft along its axis."""
+    return AXIAL in equilibrium.model.pinned
 
 
 def is_idle(equilibrium: ShaftEquilibrium, number: int) -> bool:

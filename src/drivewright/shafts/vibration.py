@@ -187,7 +187,7 @@ def _axial_share(shapes, inertia):
     return np.sum(parts[along], axis=0) / np.sum(parts, axis=0)
 
 
-def lateral_system(equilibrium):
+def lateral_system(equilibrium: ShaftEquilibrium) -> tuple[Floats, Floats, Floats, Ints]:
     """(K, M, G, numbers of the freedoms) of the vibration across the shaft, K the symmetric part; rings have no mass of their own."""
     model = equilibrium.model
     beam = model.beam
@@ -267,7 +267,7 @@ def lowest_excited(equilibrium: ShaftEquilibrium, critical: CriticalSpeeds) -> f
     return float(speeds.min()) if len(speeds) else None
 
 
-def polar_moments(equilibrium, gyroscopic):
+def polar_moments(equilibrium: ShaftEquilibrium, gyroscopic: Floats) -> Floats:
     """P of z = x + iy among the freedoms of the plane of x: the gyroscopic moments couple it with that of y."""
     x, y = (plane_freedoms(equilibrium.model.beam, plane) for plane in (0, 1))
     polar = np.zeros_like(gyroscopic)

@@ -81,6 +81,11 @@ def build(spec: ShaftSpec) -> ShaftModel:
     )
     loads = shafts.ShaftLoads(tuple(_points(spec)), tuple(_lines(spec)), tuple(spec.gravity))
     shafts.refuse_mechanism(shaft)
+    for notch in spec.notches:
+        try:
+            shafts.refuse_impossible_notch(shaft, notch.notch())
+        except InputError as error:
+            raise SpecError(str(error).removeprefix(f"{notch.name}: "), f"notches.{notch.name}") from None
     return ShaftModel(spec, shaft, loads, rolling, material.yield_strength)
 
 

@@ -23,7 +23,7 @@ def refuse_nonsense(spec: ShaftTables) -> None:
 
 def refuse_contradictions(spec: ShaftTables) -> None:
     """SpecError for the first two keys that contradict each other, or one that lacks another."""
-    for check in (_segments, _bearings, _places_of_loads, _notches, _lubrication):
+    for check in (_segments, _bearings, _places_of_loads, _strength, _notches, _lubrication):
         check(spec)
 
 
@@ -148,6 +148,20 @@ def _analysis(spec):
     given = spec.analysis.shear_coefficient
     if not isinstance(given, str) and not 0 < given <= 1:
         raise SpecError(f'must lie above 0 and at most 1, got {given:g}; or write "cowper"', "analysis.shear_coefficient")
+
+
+def _strength(spec):
+    """Fillets that do not go onto the shaft; a yield strength above the tensile one."""
+    for number, (segment, after) in enumerate(zip(spec.segments, spec.segments[1:], strict=False)):
+        smaller = min(segment.end_diameter or segment.diameter, after.diameter)
+        if segment.fillet_radius and segment.fillet_radius > smaller / 2:
+            raise SpecError(
+                f"{_mm(segment.fillet_radius)} is more than the radius of the shaft there ({_mm(smaller / 2)}); check the unit",
+                f"segments.{number}.fillet_radius",
+            )
+    tensile, limit = spec.material.tensile_strength, spec.material.yield_strength
+    if tensile and limit and limit > tensile:
+        raise SpecError(f"{limit / 1e6:.6g} MPa is more than the tensile strength of {tensile / 1e6:.6g} MPa", "material.yield_strength")
 
 
 def _notches(spec):

@@ -15,6 +15,7 @@ from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.result import Answer, Answers, Check, Table, Value
 from drivewright.shafts.values import stiffness_values
 
+SEAT = 0.005  # of the diameter: what a seat and a bore may differ by
 FACTORS = np.geomspace(0.02, 4.0, 25)  # of the curve of stiffness, over the bearing's load
 
 
@@ -35,14 +36,14 @@ def rolling(model: ShaftModel, done: Answers) -> Answer:
         values |= stiffness
         if not stiffness:
             findings.append(f"stiffness of bearing {name!r} is absent: nothing loads it")
-    findings += _catalogue_findings(model)
+    findings += [*_catalogue_findings(model), *_axial_findings(model, at_rest)]
     states = _states(model, at_rest)
     findings += [f"bearing {name!r} carries nothing under these loads" for name in model.rolling if name not in states]
     for name, state in states.items():
         values |= load_values(name, state)
         tables += [element_table(state, name), *load_curve_tables(state, name, FACTORS)]
-        checks += _static_checks(model, name, state)
-    lives, life_tables, life_findings = _duty_lives(model) if model.spec.duty else _lives(model, states)
+        checks += [] if model.spec.duty else _static_checks(model, name, state)
+    lives, life_tables, life_findings = _duty_lives(model, states, checks) if model.spec.duty else _lives(model, states)
     values |= lives | system_values({name: model.rolling[name] for name in states}, lives)
     checks += _life_checks(model, lives)
     return Answer(values, (*tables, *life_tables), tuple(checks), (*findings, *life_findings), data=states)
@@ -57,7 +58,27 @@ def _catalogue_findings(model: ShaftModel) -> Iterator[str]:
         if bearing.bearing is not None:
             entry, given = bearings.entry(str(bearing.bearing), model.spec.catalogue), (bearing.dynamic_rating, bearing.static_rating)
             yield from bearings.catalogue_findings(bearing.name, str(bearing.bearing), entry, *(each is not None for each in given))
+            yield from _bore_findings(model, bearing.name, bearing.position, entry.bore)
+        if bearing.envelope is not None:
+            yield from _bore_findings(model, bearing.name, bearing.position, bearing.envelope.bore)
         yield from bearings.rating_findings(bearing.name, own)
+
+
+def _bore_findings(model: ShaftModel, name: str, position: float, bore: float | None) -> Iterator[str]:
+    """Where the bore of a bearing is none of the diameters that the shaft has at its seat."""
+    seats = shafts.diameters_at(model.shaft, position)
+    if bore and not any(abs(bore - seat) <= SEAT * seat for seat in seats):
+        found = " or ".join(f"{1e3 * seat:.6g} mm" for seat in seats)
+        yield f"bearing {name!r} has a bore of {1e3 * bore:g} mm, and the shaft has {found} at its seat; take the bearing of that bore"
+
+
+def _axial_findings(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Iterator[str]:
+    """Where nothing holds a shaft on rolling bearings along its axis."""
+    if model.rolling and shafts.slides_freely(at_rest):
+        yield (
+            "nothing holds the shaft along its axis: no bearing takes an axial force, which is in order only where gears or couplings do; "
+            "take a bearing that locates, or give one an axial_stiffness"
+        )
 
 
 def _states(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> dict[str, BearingEquilibrium]:
@@ -87,8 +108,11 @@ def _lubrication_findings(model: ShaftModel, values: Mapping[str, Value]) -> Ite
         yield from bearings.lubrication_findings(model.spec.lubrication)
 
 
-def _duty_lives(model: ShaftModel) -> tuple[dict[str, Value], list[Table], list[str]]:
-    """The same over the duty cycle: the shaft once more at rest in every case, each with its part of the loads."""
+def _duty_lives(
+    model: ShaftModel, given: Mapping[str, BearingEquilibrium], checks: list[Check]
+) -> tuple[dict[str, Value], list[Table], list[str]]:
+    """The same over the duty cycle: the shaft once more at rest in every case, each with its part of the loads; `checks` get the static
+    ones of the largest load, that `given` in the spec among them."""
     try:
         cases = [
             _states(model, shafts.apply_loads(model.shaft, shafts.scaled_loads(model.loads, c.load)).equilibrium) for c in model.spec.duty
@@ -102,9 +126,12 @@ def _duty_lives(model: ShaftModel) -> tuple[dict[str, Value], list[Table], list[
             for case, states in zip(model.spec.duty, cases, strict=True)
         ]
         values |= spectrum_values(name, rows, lubrication)
-        tables.append(duty_table(rows, name, lubrication))
+        tables.append(duty_table(rows, name, [case.name or str(n) for n, case in enumerate(model.spec.duty, 1)], lubrication))
         worst = max(rows, key=lambda row: float(np.abs(row.state.force[:3]).max()))
         findings += bearing_findings(name, worst.state, worst.speed or None, lubrication)
+        candidates = [worst.state, *([given[name]] if name in given else [])]
+        largest = candidates[int(np.argmin([state.static_safety for state in candidates]))]
+        checks += _static_checks(model, name, largest)
     return values, tables, [*findings, *_lubrication_findings(model, values)]
 
 

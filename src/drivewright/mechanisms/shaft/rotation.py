@@ -16,6 +16,7 @@ from drivewright.shafts import rotor_results as results
 
 SPEEDS, RESPONSE_SPEEDS = 41, 161  # of the Campbell diagram, and of the unbalance response
 FLANKS = np.array([-4.0, -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 4.0])  # about a peak, in damping ratios
+LEAST = 1.05  # over the speed of the shaft, which is always shown
 BEYOND = 1.25  # over the speed of the shaft and the first critical speed: how far both go
 
 
@@ -55,7 +56,8 @@ def whirl(model: ShaftModel, done: Answers) -> Answer:
 def _highest_speed(model: ShaftModel, lowest: float | None) -> float:
     """The highest speed [rad/s] that is looked at; `lowest` critical speed [rad/s]."""
     drive, given = model.spec.drive, model.spec.analysis.campbell_speed
-    return given or BEYOND * max(drive.speed if drive else 0.0, lowest or 0.0)
+    speed = drive.speed if drive else 0.0
+    return max(given, LEAST * speed) if given else BEYOND * max(speed, lowest or 0.0)
 
 
 def _stability_check(model: ShaftModel, values: dict[str, Value]) -> Iterator[Check]:
@@ -106,7 +108,8 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
     over = np.linspace(0.0, _highest_speed(model, vibration.lowest), RESPONSE_SPEEDS)[1:]
     table = results.orbit_table(orbits(_with_peaks(over, turning.critical)), names, not turning.rotor.is_conservative)
     quality = Value(shafts.balance_quality(model.shaft, given, drive.speed), "m/s", "balance quality, eccentricity times angular speed")
-    values = {"unbalance.balance_quality": quality}
+    by_name = {part.name: each for part in model.turning_parts for each in given if each.position == part.position}
+    values = {"unbalance.balance_quality": quality} | results.moment_values(by_name)
     if at_speed.resonant[0]:
         return Answer(values, (table,), (), (*findings, results.resonance_finding(at_speed)))
     values |= results.orbit_values(at_speed, names, supports)

@@ -30,6 +30,8 @@ def _by_yield_alone(spec):
 
 def _assumptions(spec, sections):
     """What the strength takes for want of a word in the spec."""
+    if worst_factor(spec) > 1:
+        yield f"strength is judged under the largest loads of the duty cycle, {worst_factor(spec):g} times those given"
     if _by_yield_alone(spec):
         yield (
             "the tensile strength is not given: the yield strength, which is less, stands for it, so that fatigue safeties are low; "
@@ -48,7 +50,7 @@ def bar_diameter(spec: ShaftSpec) -> float:
 
 def strength(model: ShaftModel, done: Answers) -> Answer:
     """Safety of every section against fatigue and yield under the loads."""
-    spec, loaded = model.spec, done["statics"].data
+    spec, loaded = model.spec, _worst_loaded(model, done)
     if not model.loaded:
         return Answer(findings=("strength is absent: there are no loads",), outcome="left out")
     given = materials.given_strength(*_given(spec))
@@ -66,6 +68,20 @@ def strength(model: ShaftModel, done: Answers) -> Answer:
     values |= _material_values(given)
     tables = (shafts.strength_table(rows), shafts.haigh_table(rows, given))
     return Answer(values, tables, tuple(_checks(spec, values)), tuple(_assumptions(spec, sections)))
+
+
+def _worst_loaded(model, done):
+    """The shaft under its loads, or under the largest ones of its duty cycle where those are larger."""
+    factor = worst_factor(model.spec)
+    if factor <= 1:
+        return done["statics"].data
+    places = [notch.position for notch in model.spec.notches]
+    return shafts.apply_loads(model.shaft, shafts.scaled_loads(model.loads, factor), places)
+
+
+def worst_factor(spec: ShaftSpec) -> float:
+    """The largest factor on the loads: that of the duty cycle, or 1 of the loads as given."""
+    return max([1.0, *(case.load for case in spec.duty)])
 
 
 def _material_values(given: materials.Strength) -> dict[str, Value]:
