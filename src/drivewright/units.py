@@ -184,15 +184,50 @@ def parsed_unit(text: str) -> tuple[Fraction, frozenset[tuple[str, float]]]:
     """(exact factor to SI, dimensionality as a frozenset of (base, exponent)) of a unit text; UnitError where it is none."""
     expression = _tidy(text)
     if not EXPRESSION.fullmatch(expression):
-        raise UnitError(f"{brief(text)} is no unit known here")
+        raise UnitError(f"{brief(text)} is no unit known here{_meant(text)}")
     # A blank between two units is a product; pint reads "N m" so, but not "N  m" or "mm s^2".
     expression = re.sub(rf"(?<=[\w)])\s+(?=[(]|{WORD})", "*", expression).replace("^", "**")
     try:
         quantity: Any = _registry().Quantity(Fraction(1), _registry().parse_units(expression)).to_base_units()
         return Fraction(quantity.magnitude), frozenset((k, float(v)) for k, v in quantity.dimensionality.items())
     except Exception:  # pint raises a dozen kinds, its parser whatever Python's tokeniser does on garbage
-        words = [word for word in re.findall(WORD, text) if word not in _registry()]
-        raise UnitError(f"{brief(text)} is no unit known here{nearest(words[0], UNITS_PEOPLE_WRITE) if words else ''}") from None
+        raise UnitError(f"{brief(text)} is no unit known here{_meant(text)}") from None
+
+
+def _meant(text):
+    """Hint at the unit that a text may stand for: as it is often written elsewhere, else the nearest one."""
+    if text.strip() in OTHERWISE:
+        return f" (did you mean {OTHERWISE[text.strip()]!r}?)"
+    words = [word for word in re.findall(WORD, text) if word not in _registry()]
+    return nearest(words[0], UNITS_PEOPLE_WRITE) if words else ""
+
+
+OTHERWISE = {  # as others write them
+    "Nmm": "N mm",
+    "Ncm": "N cm",
+    "kNm": "kN m",
+    "gmm": "g mm",
+    "kgmm": "kg mm",
+    "kgm2": "kg m^2",
+    "kgm^2": "kg m^2",
+    "kg m2": "kg m^2",
+    "kgmm2": "kg mm^2",
+    "N/mm2": "N/mm^2",
+    "m/s2": "m/s^2",
+    "mm2": "mm^2",
+    "m2": "m^2",
+    "mm3": "mm^3",
+    "mm2/s": "mm^2/s",
+    "kg/m3": "kg/m^3",
+    "g/cm3": "g/cm^3",
+    "Ns/m": "N s/m",
+    "Nm/rad": "N m/rad",
+    "U/min": "rpm",
+    "1/min-1": "rpm",
+    "lbfin": "lbf in",
+    "lbfft": "lbf ft",
+    "ftlb": "lbf ft",
+}
 
 
 UNITS_PEOPLE_WRITE = (

@@ -50,7 +50,7 @@ PINNED = {
     "spindle_duty": {
         "bearings.front_2.basic_life.time": 75645281,
         "bearings.front_2.mean_load": 2432.14828,
-        "strength.min_safety": 14.2421113,
+        "strength.min_safety": 8.90131956,
     },
     "spindle": {"stations.nose.deflection": 5.50790965e-06, "critical_speeds.forward.1": 5509.45005},
     "pin_indexer": {

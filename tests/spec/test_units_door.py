@@ -414,3 +414,18 @@ def test_long_times_are_hours_and_many_revolutions_millions(unit, size, shown, t
     scale = units.scale(unit, size=size)
     assert scale.of(size) == pytest.approx(shown, rel=4e-16, nan_ok=True) and scale.unit == text
     assert units.scale("s", "min", size=7200.0).unit == "min"
+
+
+@pytest.mark.error
+@pytest.mark.parametrize(
+    "text, meant",
+    [("1 Nmm", "N mm"), ("1 gmm", "g mm"), ("1 U/min", "rpm"), ("1 N/mm2", "N/mm^2"), ("1 kgm2", "kg m^2"), ("1 lbfin", "lbf in")],
+)
+def test_units_as_others_write_them_are_suggested(text, meant):
+    with pytest.raises(UnitError, match=re.escape(f"(did you mean {meant!r}?)")):
+        units.any_quantity(text)
+
+
+def test_every_suggestion_is_a_unit():
+    for text, meant in units.OTHERWISE.items():
+        assert units.exact_factor(meant) > 0, text

@@ -3,7 +3,6 @@
 The reference life stands with each kind of bearing.
 """
 
-
 import numpy as np
 
 from drivewright.bearings.solving import RollingBearing, basic_static_rating, contact_of
