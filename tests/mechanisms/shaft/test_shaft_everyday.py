@@ -385,6 +385,7 @@ def test_a_beam_with_rotary_inertia_lies_between_the_other_two():
         ({"stiffness_xx": "1e6 N/m", "stiffness_yy": "1e6 N/m"}, "radial_stiffness and stiffness_xx; give one of"),
         ({"radial_stiffness": "rigid", "stiffness_xy": "1e5 N/m"}, "stiffness_xy: goes with a radial_stiffness"),
         ({"radial_damping": "-3 N s/m"}, "radial_damping"),
+        ({"damping_xx": "1 N s/m", "damping_yy": "2 N s/m"}, "radial_damping: counts for nothing beside"),
     ],
 )
 def test_supports_without_a_meaning_are_refused(keys, told):
@@ -479,6 +480,22 @@ def test_a_shaft_that_nothing_locates_is_told():
     loose = changed(GEARBOX, "bearings", 0, bearing="NU206") | {"gears": spur}
     assert any("nothing holds the shaft along its axis" in finding for finding in dw.run(shaft(loose), only=("rolling",)).findings)
     assert not any("along its axis" in finding for finding in dw.run(shaft(gears=spur), only=("rolling",)).findings)
+
+
+@pytest.mark.error
+def test_a_preload_that_nothing_answers_is_told():
+    spur = [{key: value for key, value in gear.items() if key != "helix_angle"} for gear in GEARBOX["gears"]]
+    found = dw.run(shaft(changed(GEARBOX, "bearings", 0, preload="300 N") | {"gears": spur}), only=("rolling",))
+    assert any("preload of bearing 'A' has no effect" in finding for finding in found.findings)
+    spindle = dw.run(dw.load(EXAMPLES / "spindle_duty.toml"), only=("rolling",))
+    assert not any("has no effect" in finding for finding in spindle.findings)
+
+
+@pytest.mark.error
+def test_inertia_that_no_body_has_is_told(rotor):
+    found = dw.run(shaft(changed(ROTOR, "stations", 0, polar_inertia="15 kg m^2")), only=("whirl",))
+    assert any("'d1' has a polar_inertia of 15" in finding for finding in found.findings)
+    assert not any("polar_inertia" in finding for finding in rotor.findings)
 
 
 @pytest.mark.interface

@@ -68,6 +68,7 @@ HEADLINE = (
     "stiffness.*",
     "modes.*.frequency",
     "critical_speeds.lowest",
+    "critical_speeds.damped.*",
     "whirl.*.1",
     "stability.*",
     "unbalance.*.amplitude",

@@ -119,6 +119,8 @@ def _refuse_half_matrix(bearing, where):
     lacking = [key for key in PLANES if getattr(bearing, key) is None]
     if len(lacking) == 1:
         raise SpecError(f"is missing beside {next(key for key in PLANES if key not in lacking)}; give both", f"{where}.{lacking[0]}")
+    if bearing.radial_damping and bearing.damping_xx is not None and bearing.damping_yy is not None:
+        raise SpecError("counts for nothing beside damping_xx and damping_yy; leave it out", f"{where}.radial_damping")
     springs = [getattr(bearing, key) for key in PLANES] if not lacking else [bearing.radial_stiffness]
     for key in CROSS:
         if getattr(bearing, key) and not all(spring and spring < float("inf") for spring in springs):

@@ -15,6 +15,7 @@ from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.result import Answer, Answers, Check, Table, Value
 from drivewright.shafts.values import stiffness_values
 
+FELT = 1e-3  # of a preload: axial force in the bearing from which it has an effect
 SEAT = 0.005  # of the diameter: what a seat and a bore may differ by
 FACTORS = np.geomspace(0.02, 4.0, 25)  # of the curve of stiffness, over the bearing's load
 
@@ -39,6 +40,7 @@ def rolling(model: ShaftModel, done: Answers) -> Answer:
     findings += [*_catalogue_findings(model), *_axial_findings(model, at_rest)]
     states = _states(model, at_rest)
     findings += [f"bearing {name!r} carries nothing under these loads" for name in model.rolling if name not in states]
+    findings += _preload_findings(model, states)
     for name, state in states.items():
         values |= load_values(name, state)
         tables += [element_table(state, name), *load_curve_tables(state, name, FACTORS)]
@@ -79,6 +81,17 @@ def _axial_findings(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Iter
             "nothing holds the shaft along its axis: no bearing takes an axial force, which is in order only where gears or couplings do; "
             "take a bearing that locates, or give one an axial_stiffness"
         )
+
+
+def _preload_findings(model: ShaftModel, states: Mapping[str, BearingEquilibrium]) -> Iterator[str]:
+    """Preloads that nothing answers: another bearing has to take them."""
+    for bearing in model.spec.bearings:
+        state = states.get(bearing.name)
+        if bearing.preload and state is not None and abs(state.force[2]) < FELT * bearing.preload:
+            yield (
+                f"the preload of bearing {bearing.name!r} has no effect: no other bearing takes it, and the shaft gives way along its axis; "
+                "preload it against a bearing that takes the opposite force"
+            )
 
 
 def _states(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> dict[str, BearingEquilibrium]:

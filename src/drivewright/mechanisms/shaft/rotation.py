@@ -50,7 +50,17 @@ def whirl(model: ShaftModel, done: Answers) -> Answer:
     if damped and len(modes.frequency):
         values |= results.stability_values(modes, shafts.stability_threshold(rotor, diagram))
     checks = (*_stability_check(model, values), *_separation_check(model, critical, rotor.whirls))
-    return Answer(values, tuple(tables), checks, data=Turning(rotor, critical))
+    return Answer(values, tuple(tables), checks, tuple(_inertia_findings(model)), data=Turning(rotor, critical))
+
+
+def _inertia_findings(model: ShaftModel) -> Iterator[str]:
+    """Moments of inertia that no body has: the polar one is at most twice that about a diameter."""
+    for part in model.turning_parts:
+        if part.polar_inertia > 2 * part.diametral_inertia * (1 + 1e-9) and part.diametral_inertia > 0:
+            yield (
+                f"{part.name!r} has a polar_inertia of {part.polar_inertia:.4g} kg m^2, more than twice its diametral_inertia of "
+                f"{part.diametral_inertia:.4g} kg m^2, which no body has; check both"
+            )
 
 
 def _highest_speed(model: ShaftModel, lowest: float | None) -> float:

@@ -50,7 +50,7 @@ def unknown(equilibrium: ShaftEquilibrium) -> str:
         "a shear coefficient of one's own": shaft.shear not in (COWPER, EULER_BERNOULLI),
         "bearings that are rigid": any(not np.all(np.isfinite(tangent)) for tangent in equilibrium.tangent),
         "bearings that resist tilting": any(np.any(tangent[3:, 3:]) for tangent in equilibrium.tangent),
-        "housings that yield": any(len(mount.ring_freedoms) for mount in equilibrium.model.mounts),
+        "housings that yield or rings that slide": any(len(mount.ring_freedoms) for mount in equilibrium.model.mounts),
         "bearings with a width": any(support.width for support in shaft.supports),
     }
     return ", ".join(what for what, is_so in conditions.items() if is_so)
