@@ -67,11 +67,11 @@ def spring_symbol(shaft: Shaft, position: float) -> Iterator[Shape]:
     yield Shape("body", polygon([(position - size, -outer - 1.15 * size), (position + size, -outer - 1.15 * size)], closed=False))
 
 
-def gear_symbol(shaft: Shaft, position: float, pitch_diameter: float) -> Iterator[Shape]:
-    """A gear [m] as a ring about the shaft, about its place on the axis."""
+def gear_symbol(shaft: Shaft, position: float, pitch_diameter: float, width: float | None = None) -> Iterator[Shape]:
+    """A gear [m] as a ring about the shaft, about its place on the axis; its width unless given in proportion to its diameter."""
     inner, outer = radius_at(shaft, position), pitch_diameter / 2
     for side in (1, -1):
-        yield Shape("body", rectangle((0.0, side * 0.5 * (inner + outer)), 0.3 * pitch_diameter, max(outer - inner, 1e-6)))
+        yield Shape("body", rectangle((0.0, side * 0.5 * (inner + outer)), width or 0.3 * pitch_diameter, max(outer - inner, 1e-6)))
 
 
 def load_arrow(shaft: Shaft, position: float, force: float) -> Iterator[Shape]:

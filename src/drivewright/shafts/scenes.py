@@ -40,11 +40,12 @@ class BentShape(NamedTuple):
 
 
 class DrawnGear(NamedTuple):
-    """A gear at a place [m] of the shaft, with its pitch diameter [m]."""
+    """A gear at a place [m] of the shaft, with its pitch diameter and, where known, its width [m]."""
 
     name: str
     position: float
     pitch_diameter: float
+    width: float | None = None
 
 
 def shaft_scene(
@@ -80,7 +81,7 @@ def shaft_scene(
         symbol = _support_symbol(shaft, support, (rolling or {}).get(support.name))
         bodies.append(bent(f"bearing.{support.name}", "bearing", symbol, raised, "green"))
     for gear in gears:
-        symbol = drawing.gear_symbol(shaft, gear.position, gear.pitch_diameter)
+        symbol = drawing.gear_symbol(shaft, gear.position, gear.pitch_diameter, gear.width)
         bodies.append(riding(f"gear.{gear.name}", "gear", symbol, gear.position, "violet"))
     label = f"shaft, {shape.label} × {factor:g}" if shape is not None and factor else "shaft"
     for n, (middle, shapes, u, t) in enumerate(zip(middles, drawing.slices(shaft, z), up, turn, strict=True)):

@@ -89,7 +89,7 @@ def _preload_findings(model: ShaftModel, states: Mapping[str, BearingEquilibrium
         state = states.get(bearing.name)
         if bearing.preload and state is not None and abs(state.force[2]) < FELT * bearing.preload:
             yield (
-                f"the preload of bearing {bearing.name!r} has no effect: no other bearing takes it, and the shaft gives way along its axis; "
+                f"the preload of bearing {bearing.name!r} has no effect: no other bearing takes it, and the shaft gives way along it; "
                 "preload it against a bearing that takes the opposite force"
             )
 
