@@ -74,6 +74,7 @@ def test_what_cannot_fail_does_not_count():
 @pytest.mark.parametrize(
     ("call", "words"),
     [
+        (lambda: mean_speed((0.5, 0.497), (1.0, 1.0)), "with the sum 0.997"),
         (lambda: mean_speed((0.5, 0.4), (1.0, 1.0)), "sum to 1, got 0.5, 0.4 with the sum 0.9"),
         (lambda: mean_speed((1.2, -0.2), (1.0, 1.0)), "at least 0"),
         (lambda: spectrum_life((), ()), "duty cycle"),
@@ -86,3 +87,10 @@ def test_what_cannot_fail_does_not_count():
 def test_refusals(call, words):
     with pytest.raises(InputError, match=words):
         call()
+
+
+@pytest.mark.property
+def test_thirds_are_thirds():
+    """Rounded shares count as what they are rounded from."""
+    assert mean_speed((0.333, 0.333, 0.333), (1.0, 2.0, 3.0)) == pytest.approx(2.0, rel=1e-12)
+    assert spectrum_life((0.333, 0.333, 0.333), (3.0, 3.0, 3.0)) == pytest.approx(3.0, rel=1e-12)
