@@ -297,6 +297,11 @@ class Dimension:
         """Factor from `unit` to SI, of a temperature that of a difference; UnitError where it belongs to another kind of quantity."""
         return float(self._exact(unit, unit))
 
+    def count(self, number: float, unit: str) -> float:
+        """How many of a `unit` an SI number is, a temperature on that unit's scale: 338.15 is 65 "degC"."""
+        self._exact(unit, unit)
+        return float(self._counted(Fraction(number), unit))
+
     def _exact(self, unit: str, whole: object) -> Fraction:
         self._refuse_other_scales(unit, whole)
         factor, dimensionality = _unit(unit)

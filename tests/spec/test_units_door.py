@@ -429,3 +429,17 @@ def test_units_as_others_write_them_are_suggested(text, meant):
 def test_every_suggestion_is_a_unit():
     for text, meant in units.OTHERWISE.items():
         assert units.exact_factor(meant) > 0, text
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "unit", "count"),
+    [("temperature", 338.15, "degC", 65.0), ("temperature", 253.15, "degF", -4.0), ("length", 0.0254, "in", 1.0)],
+)
+def test_an_si_number_is_counted_in_a_unit(name, number, unit, count):
+    assert units.BY_NAME[name].count(number, unit) == pytest.approx(count, rel=1e-12)
+    assert units.BY_NAME[name].parse(f"{count!r} {unit}") == pytest.approx(number, rel=1e-15)
+
+
+def test_a_count_wants_a_unit_of_its_kind():
+    with pytest.raises(units.UnitError):
+        units.BY_NAME["length"].count(1.0, "degC")

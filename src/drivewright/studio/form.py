@@ -211,8 +211,7 @@ def _in_unit(info, unit):
     if not info.dimension:
         return info.limits
     try:
-        factor = info.dimension.factor(unit)
+        low, high = (None if limit is None else float(f"{info.dimension.count(limit, unit):.12g}") for limit in info.limits[:2])
     except UnitError:
         return Limits()
-    low, high = (None if limit is None else float(f"{limit / factor:.12g}") for limit in info.limits[:2])
     return Limits(low, high, *info.limits[2:])

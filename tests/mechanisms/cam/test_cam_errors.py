@@ -115,7 +115,7 @@ def test_programme(tmp_path):
         ({**ROLLER, "face": "knife"}, {"closure": "conjugate", "conjugate": {"prime_radius": "60 mm"}}, ("closure", "rollers", "knife")),
         ({**ROLLER, "offset": "2 mm"}, {"closure": "yoke"}, ("closure", "yoke", "without offset")),
         (ROLLER, {"material": "16MnCr6"}, ("material", "did you mean '16MnCr5'")),
-        (ROLLER, {"drive": {"speed": "5 Hz"}}, ("drive.speed", "rev/s")),
+        (ROLLER, {"drive": {"speed": "5 1/s"}}, ("drive.speed", "rev/s")),
         (ROLLER, {"rotation": "left"}, ("rotation", "clockwise")),
     ],
 )
