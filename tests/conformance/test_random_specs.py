@@ -54,7 +54,7 @@ def faults_of(result):
             yield f"audit {check.name} is {check.value}"
     for table in result.tables.values():
         holes = [c.name for c in table.columns if np.asarray(c.data).dtype.kind == "f" and not np.all(np.isfinite(c.data))]
-        if holes and f"table '{table.name}'" not in told:
+        if holes and not table.missing and f"table '{table.name}'" not in told:
             yield f"table {table.name} has holes in {holes} without a word"
     if result.outcome == "partial" and all(any(words in finding for words in USUAL) for finding in result.findings):
         yield "it is partial without a reason"
