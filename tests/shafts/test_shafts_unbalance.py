@@ -10,7 +10,7 @@ from test_shafts_whirl import DAMPING, DIAMETRAL, HALF, MASS, POLAR, STIFF, rigi
 from drivewright import shafts
 from drivewright.errors import InputError
 from drivewright.mechanisms.shaft.tables import BalanceGrade
-from drivewright.shafts.unbalance import GRADES
+from drivewright.shafts.unbalance import GRADES, Orbits
 
 MOMENT, SPEEDS = 1e-4, np.array([100.0, 577.0, 2000.0])
 NO_STIFFNESS = np.zeros((2, 2, 2))
@@ -31,6 +31,13 @@ def test_a_rigid_rotor_goes_round_on_a_circle():
     assert np.all(np.abs(found.backward) < 1e-12 * np.abs(found.forward))
     force = np.abs((STIFF + 1j * DAMPING * SPEEDS) * z)
     assert found.support_forces == pytest.approx(np.stack([force, force], axis=1), rel=1e-7)
+
+
+@pytest.mark.parametrize("rounding", [-1e-17, 0.0, 1e-17])
+def test_a_lag_of_rounding_is_no_turn(rounding):
+    none = np.zeros((1, 1))
+    found = Orbits(np.ones(1), np.array([[1e-6 * (1 + 1j * rounding)]]), none.astype(complex), none, np.ones(1))
+    assert found.lag[0, 0] == 0
 
 
 @pytest.mark.analytical

@@ -50,7 +50,7 @@ class Orbits(NamedTuple):
     @property
     def lag(self) -> Floats:
         """(k, p) [rad]: by how much the turning part of the orbit stays behind the unbalance at the angle 0, in 0 ... 2 pi."""
-        return np.mod(-np.angle(self.forward), 2 * np.pi)
+        return np.mod(-np.round(np.angle(self.forward), 12), 2 * np.pi)  # a lag of rounding alone is none, not a whole turn
 
     @property
     def resonant(self) -> Bools:
