@@ -102,11 +102,11 @@ def orbit_values(orbits: Orbits, parts: Sequence[str], supports: Sequence[str]) 
     return values
 
 
-def moment_values(unbalances: Mapping[str, Unbalance]) -> dict[str, Value]:
-    """`unbalance.NAME.moment` [kg m] of the parts by name."""
+def moment_values(unbalances: Sequence[Unbalance]) -> dict[str, Value]:
+    """`unbalance.NAME.moment` [kg m] of the parts."""
     return {
-        f"unbalance.{name}.moment": Value(unbalance.moment, "kg m", f"unbalance of {name!r}, mass times eccentricity")
-        for name, unbalance in unbalances.items()
+        f"unbalance.{each.name}.moment": Value(each.moment, "kg m", f"unbalance of {each.name!r}, mass times eccentricity")
+        for each in unbalances
     }
 
 

@@ -23,11 +23,13 @@ RESONANCE = 1e3  # dynamic over static response: with more, damping alone decide
 
 
 class Unbalance(NamedTuple):
-    """An unbalance U = m e [kg m] at a place [m] of the shaft, at an angle [rad] on it, from x towards y at the time 0."""
+    """An unbalance U = m e [kg m] at a place [m] of the shaft, at an angle [rad] on it, from x towards y at the time 0; the name of the
+    part that has it."""
 
     position: float
     moment: float
     angle: float = 0.0
+    name: str = ""
 
 
 class Orbits(NamedTuple):
@@ -111,11 +113,12 @@ def permissible_unbalances(shaft: Shaft, grade: str, speed: float) -> tuple[Unba
     """The permissible residual unbalance of a rotor at a speed [rad/s], U = m G/s, shared by their masses among what sits on it, all at one
     angle, which is the worst for the first mode.  InputError where nothing there has a mass.
     """
-    masses = {station: station.mass for station in shaft.masses if station.mass > 0}
-    if not masses:
+    heavy = [station for station in shaft.masses if station.mass > 0]
+    if not heavy:
         raise InputError("shaft: no station and no gear has a mass that could be out of balance; give one a mass or an unbalance")
-    whole = (shaft_mass(shaft) + sum(masses.values())) * GRADES[grade] / speed
-    return tuple(Unbalance(station.position, whole * mass / sum(masses.values())) for station, mass in masses.items())
+    carried = sum(station.mass for station in heavy)
+    whole = (shaft_mass(shaft) + carried) * GRADES[grade] / speed
+    return tuple(Unbalance(each.position, whole * each.mass / carried, name=each.name) for each in heavy)
 
 
 def balance_quality(shaft: Shaft, unbalances: Sequence[Unbalance], speed: float) -> float:

@@ -551,3 +551,25 @@ def test_what_drowns_the_stiffness_leaves_whirl_and_response_out():
     assert any(finding.startswith("whirl is absent") and "damping" in finding for finding in found.findings)
     assert any("'unbalance'" in finding and "left out" in finding for finding in found.findings)
     assert found.outcome == "complete" and "whirl.forward.1" not in found.values
+
+
+@pytest.mark.property
+def test_a_gear_and_a_station_at_one_place_keep_their_own_unbalance():
+    gear = {"name": "g", "position": "0.5 m", "pitch_diameter": "100 mm", "torque": "0 N m", "mesh_angle": "0 deg", "mass": "3.2 kg"}
+    shared = dw.run(shaft(ROTOR, gears=[gear]), only=("unbalance",))
+    assert shared["unbalance.g.moment"] == pytest.approx(0.1 * shared["unbalance.d1.moment"], rel=1e-12)
+    own = dw.run(shaft(ROTOR, gears=[gear | {"unbalance": "20 g mm"}]), only=("unbalance",))
+    assert own["unbalance.g.moment"] == pytest.approx(2e-8 * 1e3, rel=1e-12) and "unbalance.d1.moment" not in own.values
+
+
+@pytest.mark.interface
+def test_a_solver_that_fails_under_the_overload_leaves_the_strength_out(monkeypatch):
+    from drivewright import shafts
+    from drivewright.errors import SolverError
+
+    def fails(*_):
+        raise SolverError("no equilibrium")
+
+    monkeypatch.setattr(shafts, "scaled_loads", fails)
+    found = dw.run(shaft(GEARBOX, duty=[{"share": 1.0, "load": 3.0}]), only=("strength",))
+    assert any("strength is absent: no equilibrium" in finding for finding in found.findings)

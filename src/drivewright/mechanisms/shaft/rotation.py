@@ -118,8 +118,7 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
     over = np.linspace(0.0, _highest_speed(model, vibration.lowest), RESPONSE_SPEEDS)[1:]
     table = results.orbit_table(orbits(_with_peaks(over, turning.critical)), names, not turning.rotor.is_conservative)
     quality = Value(shafts.balance_quality(model.shaft, given, drive.speed), "m/s", "balance quality, eccentricity times angular speed")
-    by_name = {part.name: each for part in model.turning_parts for each in given if each.position == part.position}
-    values = {"unbalance.balance_quality": quality} | results.moment_values(by_name)
+    values = {"unbalance.balance_quality": quality} | results.moment_values(given)
     if at_speed.resonant[0]:
         return Answer(values, (table,), (), (*findings, results.resonance_finding(at_speed)))
     values |= results.orbit_values(at_speed, names, supports)
@@ -129,7 +128,7 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
 def unbalances(model: ShaftModel) -> tuple[shafts.Unbalance, ...]:
     """Those of stations and gears, else what the balance grade permits."""
     drive = model.spec.drive
-    own = tuple(shafts.Unbalance(p.position, p.unbalance, p.unbalance_angle) for p in model.turning_parts if p.unbalance)
+    own = tuple(shafts.Unbalance(p.position, p.unbalance, p.unbalance_angle, p.name) for p in model.turning_parts if p.unbalance)
     return own if own or drive is None else shafts.permissible_unbalances(model.shaft, drive.balance_grade, drive.speed)
 
 

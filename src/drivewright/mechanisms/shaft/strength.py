@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from drivewright import materials, shafts
-from drivewright.errors import InputError
+from drivewright.errors import InputError, SolverError
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.mechanisms.shaft.statics import SAMPLES
@@ -50,7 +50,7 @@ def bar_diameter(spec: ShaftSpec) -> float:
 
 def strength(model: ShaftModel, done: Answers) -> Answer:
     """Safety of every section against fatigue and yield under the loads."""
-    spec, loaded = model.spec, _worst_loaded(model, done)
+    spec = model.spec
     if not model.loaded:
         return Answer(findings=("strength is absent: there are no loads",), outcome="left out")
     given = materials.given_strength(*_given(spec))
@@ -58,9 +58,10 @@ def strength(model: ShaftModel, done: Answers) -> Answer:
     radii = [segment.fillet_radius for segment in spec.segments[:-1]]
     notches = [notch.notch() for notch in spec.notches]
     try:
-        sections = shafts.shaft_sections(model.shaft, notches, shafts.diagram(loaded, SAMPLES), radii)
+        along = shafts.diagram(_worst_loaded(model, done), SAMPLES)
+        sections = shafts.shaft_sections(model.shaft, notches, along, radii)
         rows = [shafts.strength_at(section, given, service) for section in sections]
-    except InputError as error:
+    except (InputError, SolverError) as error:
         return Answer(findings=(f"strength is absent: {error}",), outcome="left out")
     values = shafts.strength_values(rows)
     if not values:
