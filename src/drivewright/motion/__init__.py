@@ -5,10 +5,12 @@
 `piecewise`     piecewise polynomials and waves: derivatives, peaks, jumps
 `splines`, `tables`, `ripple`  laws through points and from measured lifts; ripple that their digits leave
 `programme`     segments of one turn
+`motor_sizing`  torque, power and reflected inertia over a cycle
 """
 
 from drivewright.motion.acceleration import Acceleration, hold, integrate, wave
 from drivewright.motion.laws import MotionLaw, law, names, register
+from drivewright.motion.motor_sizing import MotorSizing, size_motor
 from drivewright.motion.piecewise import Motion, Peaks, Piecewise
 from drivewright.motion.programme import Joint, Piece, Programme, Segment, compose_motion
 from drivewright.motion.ripple import Ripple
@@ -19,6 +21,7 @@ __all__ = [
     "Joint",
     "Motion",
     "MotionLaw",
+    "MotorSizing",
     "Peaks",
     "Piece",
     "Piecewise",
@@ -32,5 +35,6 @@ __all__ = [
     "law",
     "names",
     "register",
+    "size_motor",
     "wave",
 ]
