@@ -10,6 +10,7 @@
 `track`              a surface of a cam and what runs on it, with the tables of its geometry
 `closure`            yoke, groove, conjugate cam
 `loads`, `pressure`  forces, torque, spring; Hertz pressure
+`valve`              the second arm of a rocker and the valve that it drives
 `vibration`          the follower train as one mass on a damped spring
 `conjugate`          a lever between conjugate cams whose pivot is carried around them: profiles, pressure angles, forces
 `conjugate_tables`   the same over the driving angle as tables, with the quasi-static loads
@@ -47,10 +48,12 @@ from drivewright.cams.followers import (
 )
 from drivewright.cams.loads import (
     FollowerLoad,
+    Jump,
+    LoadPath,
     cam_normal_force,
     drive_torque,
     follower_force,
-    jump_speed,
+    jump,
     needed_preload,
     needed_stiffness,
 )
@@ -66,6 +69,7 @@ from drivewright.cams.profile import FlatFollower, Follower, Overtravel, RoundFo
 from drivewright.cams.refusals import first_refused, nan_unless
 from drivewright.cams.sizing import face_ends, min_base_radius, min_flat_radius, min_pitch_radius
 from drivewright.cams.track import CamTrack
+from drivewright.cams.valve import ArcArm, GuidedArm, GuidedLift
 from drivewright.cams.vibration import (
     STIFFEST,
     Response,
@@ -79,6 +83,7 @@ from drivewright.cams.vibration import (
 )
 
 __all__ = [
+    "ArcArm",
     "Breadth",
     "CamContact",
     "CamTrack",
@@ -92,6 +97,10 @@ __all__ = [
     "Follower",
     "FollowerLoad",
     "FollowerShapes",
+    "GuidedArm",
+    "GuidedLift",
+    "Jump",
+    "LoadPath",
     "OscillatingFlat",
     "OscillatingRound",
     "Overtravel",
@@ -116,7 +125,7 @@ __all__ = [
     "free_amplitude",
     "inspection_table",
     "is_star_shaped",
-    "jump_speed",
+    "jump",
     "mass_acceleration",
     "min_base_radius",
     "min_flat_radius",

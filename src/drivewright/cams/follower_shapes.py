@@ -13,6 +13,7 @@ from drivewright.cams.cycle import Cycle
 from drivewright.cams.followers import OscillatingFlat, OscillatingRound, TranslatingFlat
 from drivewright.cams.profile import FlatFollower, Follower, RoundFollower
 from drivewright.cams.sizing import face_ends
+from drivewright.cams.valve import GuidedArm
 from drivewright.numerics.jets import constant, variable
 from drivewright.scene import Arc, Line, Outline, Shape, capsule, circle, polygon, xy
 
@@ -24,20 +25,33 @@ class FollowerShapes:
     """What a follower looks like over the turn `cycle`; call it for its shapes.
 
     followers: on the cam and, of a conjugate pair, on the second cam; face: roller, shoe, knife or flat; yoke_breadth [m]: distance
-    of the two faces or roller centres of a yoke, else 0.
+    of the two faces or roller centres of a yoke, else 0; arm: the second arm of a lever, which presses on a valve.
     """
 
     followers: tuple[Follower, ...]
     face: str
     cycle: Cycle
     yoke_breadth: float = 0.0
+    arm: GuidedArm | None = None
 
     def __call__(self) -> tuple[Shape, ...]:
         """Stem or arms, and faces."""
         follower = self.followers[0]
+        second = (Shape("body", capsule((0.0, 0.0), xy(self._tip), self.slim / 2)),) if self.arm else ()
         if isinstance(follower, FlatFollower):
-            return (*self._flat_carrier(follower), *self._flat_faces(follower))
-        return (*self._round_carrier(follower), *self._round_faces(follower))
+            return (*second, *self._flat_carrier(follower), *self._flat_faces(follower))
+        return (*second, *self._round_carrier(follower), *self._round_faces(follower))
+
+    def valve(self) -> Iterator[Shape]:
+        """The valve at zero lift, in the machine frame, hanging below the pad of the second arm; drawn, not to scale."""
+        top, slim = self.origin + self._tip - 0.5j * self.slim, 0.5 * self.slim
+        yield Shape("body", _strip(top - slim / 2, top - slim / 2 - 1j * self.size, complex(slim)))
+        yield Shape("body", _strip(top - self.slim - 1j * self.size, top + self.slim - 1j * self.size, -0.5j * self.slim))
+
+    @property
+    def _tip(self) -> complex:
+        """Centre of the pad of the second arm from the pivot at zero lift [m]; it falls as the lever swings clockwise."""
+        return self.arm.length * complex(np.exp(-1j * self.arm.start)) if self.arm else 0j
 
     @cached_property
     def size(self) -> float:

@@ -1,18 +1,22 @@
 """Forces of a cam drive: what the follower asks for, what the contact carries, what the shaft feels, what the spring must do.
 
 Everything that acts on the follower is reduced to one coordinate x [m], its travel; x = reach * lift.  No friction.
+A `LoadPath` says where the load acts: on the follower itself, or at a valve that a second arm drives.
 """
 
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
 from drivewright._typing import Numbers
 from drivewright.cams.cycle import Cycle
 from drivewright.cams.followers import CamContact
+from drivewright.cams.valve import GuidedArm
 from drivewright.curves import derivative
 from drivewright.errors import SolverError
-from drivewright.numerics.jets import Jet
+from drivewright.numerics.jets import Jet, constant
 
 STEPS = 60
 
@@ -37,6 +41,37 @@ def follower_force(travel: Jet, load: FollowerLoad, speed: Numbers) -> Jet:
     return inertia + load.damping * speed * velocity + load.stiffness * travel + (load.preload + load.force)
 
 
+@dataclass(frozen=True)
+class LoadPath:
+    """Where the load of a follower acts, and what the follower itself weighs.
+
+    reach: travel of the follower x [m] per lift [m or rad]; arm: the second arm of a rocker, at whose valve the load acts, otherwise the
+    load acts along x; inertia: of an oscillating follower about its pivot [kg m^2].  Of many designs columns (n, 1).
+    """
+
+    reach: Numbers = 1.0
+    arm: GuidedArm | None = None
+    inertia: Numbers = 0.0
+
+    def travel(self, lift: Jet) -> Jet:
+        """Travel y [m] of what carries the load, a jet of the cam angle."""
+        return self.arm.lift(lift) if self.arm else self.reach * lift
+
+    def ratio(self, lift: Jet) -> Jet:
+        """dy/dx: travel of the load per travel of the follower, a jet."""
+        return self.arm.ratio(lift) / self.reach if self.arm else constant(np.ones_like(lift.d0))
+
+    def force(self, lift: Jet, load: FollowerLoad, speed: Numbers) -> Jet:
+        """Q = Q_load dy/dx + J/reach^2 w^2 x'' [N]: the force that the cam must exert along the follower's travel, a jet."""
+        own = FollowerLoad(mass=self.inertia / np.square(self.reach))
+        at_load = follower_force(self.travel(lift), load, speed)
+        along = self.ratio(lift) * at_load if self.arm else at_load
+        return along + follower_force(self.reach * lift, own, speed) if np.any(self.inertia) else along
+
+
+AddedForce: TypeAlias = Callable[[Jet, Jet], Jet]  # force [N] along the follower's travel beside that of the load, of angle and lift
+
+
 def cam_normal_force(required: Jet, contact: CamContact) -> Jet:
     """N = Q/leverage [N]: force between the surfaces from the force along the travel; both jets."""
     return required / contact.leverage
@@ -47,24 +82,30 @@ def drive_torque(travel: Jet, required: Jet) -> Jet:
     return required * derivative(travel)
 
 
-def needed_preload(cycle: Cycle, reach: Numbers, load: FollowerLoad, speed: Numbers) -> Any:
+def needed_preload(cycle: Cycle, path: LoadPath, load: FollowerLoad, speed: Numbers, also: AddedForce | None = None) -> Any:
     """Least preload [N] of the spring that keeps the contact closed with the stiffness as it is; 0 where none is needed."""
-    lowest = cycle.minimum(lambda _, lift: follower_force(reach * lift, load._replace(preload=0.0), speed))
-    return np.maximum(-lowest.value, 0.0)
+
+    def missing(angle, lift):
+        """Preload at the load that would just close the contact."""
+        force = path.force(lift, load._replace(preload=0.0), speed)
+        return -(force + also(angle, lift) if also else force) / path.ratio(lift)
+
+    return np.maximum(cycle.maximum(missing).value, 0.0)
 
 
-def needed_stiffness(cycle: Cycle, reach: Numbers, load: FollowerLoad, speed: Numbers) -> Any:
+def needed_stiffness(cycle: Cycle, path: LoadPath, load: FollowerLoad, speed: Numbers) -> Any:
     """Least stiffness [N/m] of the spring that keeps the contact closed with the preload as it is; inf where no stiffness does.
 
-    The greatest -Q0/x over the cycle, Q0 the force without the spring's stiffness, by Dinkelbach's iteration (recalled): the
-    place where Q0 + k x is least gives the next k.
+    The greatest -Q0/(y dy/dx) over the cycle, Q0 the force without the spring's stiffness, by Dinkelbach's iteration (recalled): the
+    place where Q0 + k y dy/dx is least gives the next k.
     """
     stiffness: Any = 0.0
     hopeless: Any = False
     for _ in range(STEPS):
         tried = load._replace(stiffness=stiffness)
-        lowest = cycle.minimum(lambda _, lift, tried=tried: follower_force(reach * lift, tried, speed))
-        x = reach * cycle.at(lowest.piece, lowest.angle)[1].d0
+        lowest = cycle.minimum(lambda _, lift, tried=tried: path.force(lift, tried, speed))
+        lift = cycle.at(lowest.piece, lowest.angle)[1]
+        x = path.travel(lift).d0 * path.ratio(lift).d0
         settled = np.logical_or(hopeless, lowest.value >= -1e-13 * stiffness * np.abs(x))
         if np.all(settled):
             return np.where(hopeless, np.inf, stiffness)[()]
@@ -74,29 +115,42 @@ def needed_stiffness(cycle: Cycle, reach: Numbers, load: FollowerLoad, speed: Nu
     raise SolverError("cam spring: the stiffness did not settle; give a preload and let the stiffness be.", partial=stiffness)
 
 
-def jump_speed(cycle: Cycle, reach: Numbers, load: FollowerLoad) -> Any:
-    """Least speed [rad/s] of the cam at which the follower loses contact; 0 where it does at rest, inf where it never does.
+class Jump(NamedTuple):
+    """Speed [rad/s] of the cam from which on the follower loses contact, and the cam angle [rad] where it does; of many designs columns.
 
-    m x'' w^2 + c x' w + (k x + P + F) = 0 gives a speed at every place; the place where the force at that speed is least gives the next.
+    0 where it does at rest, inf where it never does (then the angle is nan).
     """
-    rests = np.greater(cycle.minimum(lambda _, lift: follower_force(reach * lift, load, 0.0)).value, 0)
-    at_samples = _separating_speed(cycle, reach, load, *cycle.samples())
+
+    speed: Any
+    angle: Any
+
+
+def jump(cycle: Cycle, path: LoadPath, load: FollowerLoad) -> Jump:
+    """The `Jump` of a follower whose spring has no mass.
+
+    The force Q = A w^2 + B w + C is 0 at one speed at every place; the place where Q at that speed is least gives the next.
+    """
+    at_rest = cycle.minimum(lambda _, lift: path.force(lift, load, 0.0))
+    rests = np.greater(at_rest.value, 0)
+    at_samples = _separating_speed(path, load, cycle.at(*cycle.samples())[1])
     speed: Any = np.where(rests, np.min(at_samples, axis=-1, keepdims=np.ndim(at_samples) > 1), 0.0)[()]
     for _ in range(STEPS):
         finite = np.where(np.isfinite(speed), speed, 0.0)[()]
-        lowest = cycle.minimum(lambda _, lift, speed=finite: follower_force(reach * lift, load, speed))
-        lower = np.where(finite > 0, _separating_speed(cycle, reach, load, lowest.piece, lowest.angle), np.inf)
+        lowest = cycle.minimum(lambda _, lift, speed=finite: path.force(lift, load, speed))
+        lower = np.where(finite > 0, _separating_speed(path, load, cycle.at(lowest.piece, lowest.angle)[1]), np.inf)
         faster = np.less(lower, finite * (1 - 1e-14))
         if not np.any(faster):
-            return speed
+            return Jump(speed, np.where(np.isfinite(speed), lowest.angle, np.nan)[()])
         speed = np.where(faster, lower, speed)[()]
     raise SolverError(f"cam spring: the jump speed did not settle; it is below {np.max(speed):.6g} rad/s.", partial=speed)
 
 
-def _separating_speed(cycle, reach, load, piece, angle):
-    """Least positive root w of m x'' w^2 + c x' w + (k x + P + F) = 0 at each place; inf where there is none."""
-    _, lift = cycle.at(piece, angle)
-    a, b, c = load.mass * reach * lift.d2, load.damping * reach * lift.d1, load.stiffness * reach * lift.d0 + load.preload + load.force
+def _separating_speed(path, load, lift):
+    """Least positive root w of the force A w^2 + B w + C = 0 at each place; inf where there is none."""
+    still, unit = load._replace(mass=0.0, damping=0.0), FollowerLoad(mass=load.mass)
+    a = path.force(lift, unit, 1.0).d0
+    b = (path.ratio(lift) * follower_force(path.travel(lift), FollowerLoad(damping=load.damping), 1.0)).d0
+    c = path.force(lift, still, 0.0).d0
     with np.errstate(divide="ignore", invalid="ignore"):
         speed = 2 * c / (np.sqrt(b**2 - 4 * a * c) - b)  # this form does not cancel for small a; the other root is larger or negative
     return np.where(speed > 0, speed, np.inf)

@@ -6,10 +6,12 @@
 `splines`, `tables`, `ripple`  laws through points and from measured lifts; ripple that their digits leave
 `programme`     segments of one turn
 `motor_sizing`  torque, power and reflected inertia over a cycle
+`mapped`        programmes stated in one coordinate and followed in another
 """
 
 from drivewright.motion.acceleration import Acceleration, hold, integrate, wave
 from drivewright.motion.laws import MotionLaw, law, names, register
+from drivewright.motion.mapped import CoordinateMap, MappedPiecewise, MappedProgramme
 from drivewright.motion.motor_sizing import MotorSizing, size_motor
 from drivewright.motion.piecewise import Motion, Peaks, Piecewise
 from drivewright.motion.programme import Joint, Piece, Programme, Segment, compose_motion
@@ -18,7 +20,10 @@ from drivewright.motion.tables import TableLaw
 
 __all__ = [
     "Acceleration",
+    "CoordinateMap",
     "Joint",
+    "MappedPiecewise",
+    "MappedProgramme",
     "Motion",
     "MotionLaw",
     "MotorSizing",

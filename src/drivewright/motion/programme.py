@@ -117,9 +117,14 @@ class Programme:
             levels.append(float(segment.placed(0.0, levels[-1]).on_piece(-1, segment.angle).s))
         return np.array(levels)
 
-    @cached_property
+    @property
     def function(self) -> Piecewise:
         """The whole cycle as one `Piecewise`."""
+        return self.stated
+
+    @cached_property
+    def stated(self) -> Piecewise:
+        """The whole cycle of the lift that the segments state."""
         parts = [segment.placed(start, level) for segment, start, level in zip(self.segments, self.starts, self.levels, strict=False)]
         whole = joined(parts, closed=True)
         return Piecewise(np.append(whole.breaks[:-1], self.cycle), whole.poly, whole.amplitude, whole.frequency, closed=True)
@@ -143,13 +148,13 @@ class Programme:
         moves, up = np.ptp(s, axis=1) > CLOSURE * np.ptp(s), s[:, -1] >= s[:, 0]
         phases = np.where(moves, np.where(up, "rise", "return"), "dwell").tolist()
         owners = np.repeat(np.arange(len(self.segments)), [segment.motion_law.function.count for segment in self.segments]).tolist()
-        ends = self.function.breaks.tolist()
+        ends = self.stated.breaks.tolist()
         return tuple(map(Piece, ends[:-1], ends[1:], owners, phases))
 
     @cached_property
     def _sampled_lift(self):
         """Lift at nine places of every piece, ends included (pieces, 9)."""
-        return self.function.on_piece(*self.function.samples(8)).s
+        return self.stated.on_piece(*self.stated.samples(8)).s
 
     def joints(self) -> list[Joint]:
         """The `Joint` at the start of every segment; the first is where the cycle closes."""

@@ -17,7 +17,7 @@ from drivewright.spec.length_or_angle import AngleGiven
 LAW_KEYS = ("file", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
 USED = {  # keys of the follower that each motion and face reads
     "translating": ("offset",),
-    "oscillating": ("pivot_distance", "arm_length"),
+    "oscillating": ("pivot_distance", "arm_length", "lift_at", "inertia"),
     "roller": ("roller_radius",),
     "knife": (),
     "shoe": ("face_radius", "face_offset"),
@@ -44,7 +44,8 @@ class CamModel:
     def shapes(self) -> FollowerShapes:
         """The follower for pictures and solids."""
         followers = tuple(track.follower for track in self.tracks if track.cut and track.flank > 0)
-        return FollowerShapes(followers, self.spec.follower.face, self.cycle, self.yoke_breadth if self.spec.closure == "yoke" else 0.0)
+        breadth = self.yoke_breadth if self.spec.closure == "yoke" else 0.0
+        return FollowerShapes(followers, self.spec.follower.face, self.cycle, breadth, self.arm)
 
     @cached_property
     def phases(self) -> dict[str, cams.Cycle]:
@@ -74,6 +75,25 @@ class CamModel:
         return self.spec.drive.speed
 
     @property
+    def arm(self) -> cams.GuidedArm | None:
+        """The second arm of an oscillating follower."""
+        return valve_arm(self.spec)
+
+    @cached_property
+    def path(self) -> cams.LoadPath:
+        """Where the load acts."""
+        return cams.LoadPath(self.follower.reach, self.arm, self.spec.follower.inertia if self.oscillating else 0.0)
+
+    @cached_property
+    def valve_motion(self) -> motion.Piecewise:
+        """Lift of the valve over the cam angle: as it is stated, or by the rocker's swing."""
+        assert self.arm is not None
+        programme = self.programme
+        if isinstance(programme, motion.MappedProgramme) and programme.outer == self.arm:
+            return programme.stated
+        return motion.MappedPiecewise.through(programme.function, cams.GuidedLift(self.arm))
+
+    @property
     def yoke_breadth(self) -> float:
         """Distance of the two faces, or roller centres, of a yoke [m]."""
         radius = self.follower.base_radius if self.tracks[0].flat else self.follower.prime_radius
@@ -86,14 +106,14 @@ class CamModel:
 
     @property
     def load(self) -> cams.FollowerLoad:
-        """What acts along the follower's travel."""
+        """What acts along the follower's travel, or at its valve."""
         load, spring = self.spec.load, self.spec.spring
         stiffness, preload = (spring.stiffness, spring.preload) if spring else (0.0, 0.0)
         return cams.FollowerLoad(load.mass, load.damping, stiffness, preload, load.force)
 
     def required(self, angle: Jet, lift: Jet) -> Jet:
         """Force that the cam must exert along the travel [N]; a jet."""
-        return cams.follower_force(self.follower.reach * lift, self.load, self.speed)
+        return self.path.force(lift, self.load, self.speed)
 
     def normal_force(self, track: CamTrack, angle: Jet, lift: Jet) -> Jet:
         """Normal force between the surfaces of a track [N], negative where it falls to another one; a jet."""
@@ -116,8 +136,36 @@ def build(spec: CamSpec) -> CamModel:
 
 def programme_of(spec: CamSpec) -> motion.Programme:
     """The motion over one turn."""
-    segments = tuple(_segment(spec, number) for number in range(len(spec.programme)))
-    return motion.Programme(segments, lift_unit="rad" if spec.follower.motion == "oscillating" else "m")
+    laws = [_law(segment, f"programme.{number}") for number, segment in enumerate(spec.programme)]
+    lengths = _counts_lengths(spec, laws)
+    segments = tuple(_segment(spec, number, law, lengths) for number, law in enumerate(laws))
+    if spec.follower.motion == "oscillating" and lengths:
+        return motion.MappedProgramme(segments, lift_unit="m", outer=_lift_place(spec))
+    return motion.Programme(segments, lift_unit="m" if lengths else "rad")
+
+
+def valve_arm(spec: CamSpec) -> cams.GuidedArm | None:
+    """The arm that drives the valve of an oscillating follower."""
+    return cams.GuidedArm(spec.valve.arm_length, spec.valve.start_angle) if spec.valve and spec.follower.motion == "oscillating" else None
+
+
+def _counts_lengths(spec, laws):
+    """Whether the programme states lengths: a translating follower's, and an oscillating one's where it is known where they count."""
+    if spec.follower.motion == "translating" or spec.follower.lift_at is not None:
+        return True
+    rises = [segment.rise for segment in spec.programme if segment.rise]
+    angles = [isinstance(rise, AngleGiven) for rise in rises] + [unit == "rad" for law in laws if (unit := getattr(law, "lift_unit", None))]
+    return spec.valve is not None and not any(angles)
+
+
+def _lift_place(spec):
+    """The map from the lengths that the programme of an oscillating follower states to its swing."""
+    given, arm = spec.follower.lift_at, valve_arm(spec)
+    if given != "arm" and arm is None:
+        raise SpecError(f'is missing: follower.lift_at = "{given}" needs the second arm', key="valve")
+    if given == "arm" or arm is None:
+        return cams.ArcArm(_needed(spec.follower, "arm_length"))
+    return cams.ArcArm(arm.length) if given == "tip" else arm
 
 
 def clear_of_axis(model: CamModel) -> Bools:
@@ -142,29 +190,41 @@ def assembled(spec: CamSpec, programme: motion.Programme) -> CamModel:
 # -- programme -----------------------------------------------------------------------------------------------------------------
 
 
-def _segment(spec, number):
-    """The motion of one [[programme]] table; errors name the table."""
-    segment, key = spec.programme[number], f"programme.{number}"
+def _law(segment, key):
+    """The law of one [[programme]] table; errors name the table."""
     parameters = {name: getattr(segment, name) for name in LAW_KEYS if getattr(segment, name) is not None}
     if segment.law == "dwell" and parameters:
         raise SpecError("a dwell has no parameters; leave it out or name another law", key=f"{key}.{next(iter(parameters))}")
     try:
-        law = "dwell" if segment.law == "dwell" else motion.law(segment.law, **parameters)
-        _refuse_rise(spec, segment, law, key)
-        return motion.Segment(segment.angle, law, 0.0 if segment.rise is None else float(segment.rise))
+        return "dwell" if segment.law == "dwell" else motion.law(segment.law, **parameters)
     except SpecError:
         raise
     except InputError as error:
         raise SpecError(str(error), key=f"{key}.law") from None
 
 
-def _refuse_rise(spec, segment, law, key):
-    """The rise, or the lift of a table, must be a length for a translating follower and an angle for an oscillating one."""
-    swings = spec.follower.motion == "oscillating"
-    wanted = "an angle, as the follower oscillates" if swings else "a length, as the follower translates"
-    if segment.rise is not None and segment.rise != 0 and isinstance(segment.rise, AngleGiven) != swings:
+def _segment(spec, number, law, lengths):
+    """The motion of one [[programme]] table."""
+    segment, key = spec.programme[number], f"programme.{number}"
+    _refuse_rise(spec, segment, law, lengths, key)
+    try:
+        return motion.Segment(segment.angle, law, 0.0 if segment.rise is None else float(segment.rise))
+    except InputError as error:
+        raise SpecError(str(error), key=f"{key}.law") from None
+
+
+def _refuse_rise(spec, segment, law, lengths, key):
+    """The rise, or the lift of a table, must be a length where the programme counts lengths, else an angle."""
+    if spec.follower.motion == "translating":
+        wanted = "a length, as the follower translates"
+    elif lengths:
+        wanted = "a length, as follower.lift_at says where lengths are counted"
+    else:
+        place = "" if spec.valve else '; where a length is counted says follower.lift_at = "arm", or a [valve] with the second arm'
+        wanted = f"an angle, as the follower oscillates{' and another segment has an angle' if spec.valve else ''}{place}"
+    if segment.rise is not None and segment.rise != 0 and isinstance(segment.rise, AngleGiven) == lengths:
         raise SpecError(f"must be {wanted}", key=f"{key}.rise")
-    if (getattr(law, "lift_unit", None) or "") == ("m" if swings else "rad"):
+    if (getattr(law, "lift_unit", None) or "") == ("rad" if lengths else "m"):
         raise SpecError(f"the lift in its table must be {wanted}", key=f"{key}.file")
 
 
@@ -179,6 +239,8 @@ def _findings(spec, programme):
         message = segment.law.ripple.message if isinstance(segment.law, motion.TableLaw) else ""
         if message:
             yield message
+    if spec.valve is not None and spec.follower.motion != "oscillating":
+        yield "[valve] is given, but only an oscillating follower has a second arm; it is not used"
     for name in ("groove", "conjugate"):
         if getattr(spec, name) is not None and spec.closure != name:
             yield f'[{name}] is given, but closure = "{spec.closure}"; it is not used'

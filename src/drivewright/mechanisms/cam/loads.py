@@ -97,10 +97,11 @@ def _flight(model, required):
     """What to say where a follower closed by force would have to be pulled."""
     if model.spec.closure != "force" or not np.any(required < 0):
         return ()
-    share = 100 * float(np.mean(required < 0))
+    share, angle = 100 * float(np.mean(required < 0)), np.degrees(model.cycle.minimum(model.required).angle % (2 * np.pi))
     return (
-        f"the follower leaves the cam over about {share:.0f} % of the turn: there the cam carries neither force nor torque; its "
-        "flight and landing are not computed, and the forces after a landing are larger than those given",
+        f"the follower leaves the cam over about {share:.0f} % of the turn, where the least force pulls at cam angle {angle:.1f} deg: there "
+        "the cam carries neither force nor torque; its flight and landing are not computed, and the forces after a landing are larger "
+        "than those given",
     )
 
 
@@ -159,7 +160,7 @@ def spring(model: CamModel, done: Answers) -> Answer:
 
 def spring_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
     """The functions that give the values and checks of the spring, as `geometry_measures`."""
-    yield from (_separation, _needed_preload, _needed_stiffness, _jump_speed)
+    yield from (_separation, _needed_preload, _needed_stiffness, _jump)
 
 
 def _separation(model):
@@ -175,20 +176,33 @@ def _separation(model):
 
 
 def _needed_preload(model):
-    needed = cams.needed_preload(model.cycle, model.follower.reach, model.load, model.speed)
+    needed = cams.needed_preload(model.cycle, model.path, model.load, model.speed)
     return Answer({"spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness")})
 
 
 def _needed_stiffness(model):
-    stiffness = cams.needed_stiffness(model.cycle, model.follower.reach, model.load, model.speed)
+    stiffness = cams.needed_stiffness(model.cycle, model.path, model.load, model.speed)
     stiffness = cams.nan_unless(np.isfinite(stiffness), stiffness)
     return Answer({"spring.needed_stiffness": Value(stiffness, "N/m", "least stiffness at this speed and preload")})
 
 
-def _jump_speed(model):
-    jump = cams.jump_speed(model.cycle, model.follower.reach, model.load)
-    jump = cams.nan_unless(np.isfinite(jump), jump)
-    return Answer({"spring.jump_speed": Value(jump, "rad/s", "cam speed at which the follower leaves the cam")})
+def _jump(model):
+    """Speed from which on the follower leaves the cam, against the speed of the drive."""
+    found = cams.jump(model.cycle, model.path, model.load)
+    speed = cams.nan_unless(np.isfinite(found.speed), found.speed)
+    values = {
+        "spring.jump_speed": Value(speed, "rad/s", "cam speed at which the follower leaves the cam"),
+        "spring.jump_speed.at": Value(found.angle % (2 * np.pi), "rad", "cam angle at which it leaves the cam at that speed"),
+    }
+    return Answer(values, (), (_jump_check(model, speed, found.angle),))
+
+
+def _jump_check(model, speed, angle):
+    """The check of a jump speed; its message names speed and angle."""
+    message = "the follower leaves the cam"
+    if np.ndim(speed) == 0 and np.isfinite(speed):
+        message += f" at {60 * speed / (2 * np.pi):.5g} rpm, at cam angle {np.degrees(angle % (2 * np.pi)):.1f} deg"
+    return Check("jump_speed", speed, model.speed, ">=", "rad/s", message, ("follower", "spring"), label="Jump speed")
 
 
 def vibration(model: CamModel, done: Answers) -> Answer:

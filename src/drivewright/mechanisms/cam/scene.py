@@ -19,6 +19,7 @@ SURFACES = (("", ""), (".conjugate", ", second cam"), (".outer", ", outer wall")
 PLOTS = (
     Plot("motion", "Lift and its derivatives by the cam angle", "motion", "angle", ("lift", "slope", "bend", "third")),
     Plot("kinematics", "Velocity, acceleration and jerk of the follower", "kinematics", "angle", ("velocity", "acceleration", "jerk")),
+    Plot("valve", "Lift, velocity and acceleration of the valve", "valve", "angle", ("lift", "velocity", "acceleration")),
     *(
         plot
         for suffix, words in SURFACES
@@ -65,6 +66,7 @@ def scene(model: CamModel) -> Scene:
     ]
     bodies += [
         Body("follower", "follower", model.shapes(), moving, "orange"),
+        *_valve(model, angle),
         Body("frame", "frame", tuple(_ground(model)), still, "ground"),
     ]
     frames = (Frame("machine", "machine frame", still), Frame("cam", "seen from the cam", turning))
@@ -73,6 +75,12 @@ def scene(model: CamModel) -> Scene:
     marks = tuple((float(start), segment.motion_law.name) for start, segment in zip(programme.starts, programme.segments, strict=False))
     period = TURN / model.speed if model.turns else 2.0
     return Scene(angle, "cam angle", "rad", period, tuple(bodies), frames, traces, "motion", marks)
+
+
+def _valve(model, angle):
+    """The valve under the second arm."""
+    if model.arm:
+        yield Body("valve", "valve", tuple(model.shapes.valve()), _poses(0.0, -model.valve_motion(angle).s, 0.0), "green")
 
 
 def _poses(x, y, angle):

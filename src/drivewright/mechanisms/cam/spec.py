@@ -8,7 +8,7 @@ from drivewright import materials, motion
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.spec.fields import Field
 from drivewright.spec.length_or_angle import LengthOrAngle
-from drivewright.units import Angle, Damping, Force, Frequency, Length, Mass, Pressure, Speed, Stiffness
+from drivewright.units import Angle, Damping, Force, Frequency, Inertia, Length, Mass, Pressure, Speed, Stiffness
 
 TURN = 6.283185307179586
 Sense = Literal["counter-clockwise", "clockwise"]
@@ -37,6 +37,24 @@ class Follower(Spec):
     arm_length: Length | None = Field(
         None, gt=0, description="pivot to roller; on a flat face the radius where mass and force are counted", examples=["60 mm"]
     )
+    lift_at: Literal["arm", "tip", "valve"] | None = Field(
+        None,
+        description="where an oscillating follower's programme counts its lengths: along the arc at arm_length, along the arc of the second "
+        "arm's tip, or along the valve's line; the valve's unless given",
+    )
+    inertia: Inertia = Field("0 kg m^2", ge=0, description="moment of inertia of an oscillating follower about its pivot")
+
+
+class Valve(Spec):
+    """The second arm of an oscillating follower, and the valve that its pad drives along a straight line; the load acts there."""
+
+    arm_length: Length = Field(gt=0, description="pivot to the centre of the pad on the valve's stem", examples=["36 mm"])
+    start_angle: Angle = Field(
+        "0 deg",
+        gt=-TURN / 4,
+        lt=TURN / 4,
+        description="this arm at zero lift against the line through the pivot square to the valve; negative: it comes to that line as the valve opens",
+    )
 
 
 class Segment(Spec):
@@ -45,7 +63,7 @@ class Segment(Spec):
     angle: Angle = Field(gt=0, description="cam angle of the segment", examples=["90 deg"])
     law: Text = Field(description=f"motion law, or dwell: {', '.join(motion.names())}", examples=["cycloidal"])
     rise: LengthOrAngle | None = Field(
-        None, description="rise, negative for a return; an angle for an oscillating follower", examples=["20 mm"]
+        None, description="rise, negative for a return; for an oscillating follower an angle, or a length (lift_at)", examples=["20 mm"]
     )
     file: DataFile | None = Field(None, description='CSV of law = "table": angle [deg],lift [mm] from the start of the segment')
     b: Number | None = Field(None, description='part of the sine ramps, for law = "scca"')
@@ -81,7 +99,7 @@ class Drive(Spec):
 
 
 class Load(Spec):
-    """What the follower moves, counted along its travel (oscillating: at arm_length)."""
+    """What the follower moves, counted along its travel (oscillating: at arm_length; with a valve: at the valve)."""
 
     mass: Mass = Field("0 kg", ge=0, description="moving mass")
     force: Force = Field("0 N", description="steady force that presses the follower onto the cam")
@@ -89,7 +107,7 @@ class Load(Spec):
 
 
 class Spring(Spec):
-    """The spring that holds the follower on the cam."""
+    """The spring that holds the follower on the cam; with a valve it acts there."""
 
     stiffness: Stiffness = Field("0 N/m", ge=0, description="stiffness along the travel", examples=["5 N/mm"])
     preload: Force = Field("0 N", ge=0, description="force at zero lift", examples=["50 N"])
@@ -142,6 +160,7 @@ class CamSpec(MechanismSpec):
     closure: Literal["force", "groove", "conjugate", "yoke"] = Field("force", description="what holds the follower on the cam")
     material: Text = Field("16MnCr5", description=f"material of cam and follower: {', '.join(materials.names())}")
     follower: Follower = Field(description="follower")
+    valve: Valve | None = Field(None, description="second arm and valve of an oscillating follower")
     programme: tuple[Segment, ...] = Field(min_length=1, description="segments of one turn of the cam, in order")
     groove: Groove | None = Field(None, description='for closure = "groove"')
     conjugate: Conjugate | None = Field(None, description='for closure = "conjugate"')

@@ -101,7 +101,7 @@ def _fine_outline(model):
 def _laid(model, body, angle, sunk=0.0):
     """Lift at which the follower touches the body, by bisection at all angles at once."""
     planned = model.programme(angle).s
-    room = 0.5 * np.ptp(model.programme.levels) + 1e-3 / model.follower.reach
+    room = 0.5 * np.ptp(planned) + 1e-3 / model.follower.reach
     low, high = planned - max(0.2 * room, 2 * sunk / model.follower.reach), planned + 0.2 * room
     for _ in range(36):
         middle = 0.5 * (low + high)
