@@ -52,7 +52,9 @@ def test_travel_of_a_lever_counts_at_its_arm():
     for function in (cams.needed_preload, cams.needed_stiffness):
         at_arm, direct = (function(*each, load, speed) for each in ((swing, cams.LoadPath(H / 0.4)), (HARMONIC, cams.LoadPath(1.0))))
         assert at_arm == pytest.approx(direct, rel=1e-12)
-    assert cams.jump(swing, cams.LoadPath(H / 0.4), load).speed == pytest.approx(cams.jump(HARMONIC, cams.LoadPath(1.0), load).speed, rel=1e-12)
+    assert cams.jump(swing, cams.LoadPath(H / 0.4), load).speed == pytest.approx(
+        cams.jump(HARMONIC, cams.LoadPath(1.0), load).speed, rel=1e-12
+    )
 
 
 def test_jump_speed():

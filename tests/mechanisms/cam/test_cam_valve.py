@@ -1,4 +1,4 @@
-"""A programme stated as the lift of a valve, or along an arm's arc: the rocker that drives it, by root-finding and by Lagrange's equation."""
+"""A programme stated as the lift of a valve, or along an arm's arc: the rocker by root-finding, its force by Lagrange's equation."""
 
 import numpy as np
 import pytest

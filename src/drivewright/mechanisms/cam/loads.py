@@ -99,8 +99,8 @@ def _flight(model, required):
         return ()
     share, angle = 100 * float(np.mean(required < 0)), np.degrees(model.cycle.minimum(model.required).angle % (2 * np.pi))
     return (
-        f"the follower leaves the cam over about {share:.0f} % of the turn, where the least force pulls at cam angle {angle:.1f} deg: there "
-        "the cam carries neither force nor torque; its flight and landing are not computed, and the forces after a landing are larger "
+        f"the follower leaves the cam over about {share:.0f} % of the turn, with the least force at cam angle {angle:.1f} deg: there the "
+        "cam carries neither force nor torque; its flight and landing are not computed, and the forces after a landing are larger "
         "than those given",
     )
 
@@ -192,7 +192,7 @@ def _jump(model):
     speed = cams.nan_unless(np.isfinite(found.speed), found.speed)
     values = {
         "spring.jump_speed": Value(speed, "rad/s", "cam speed at which the follower leaves the cam"),
-        "spring.jump_speed.at": Value(found.angle % (2 * np.pi), "rad", "cam angle at which it leaves the cam at that speed"),
+        "spring.jump_speed.at": Value(found.angle % (2 * np.pi), "rad", "cam angle of separation, at the jump speed"),
     }
     return Answer(values, (), (_jump_check(model, speed, found.angle),))
 

@@ -19,7 +19,7 @@ SURFACES = (("", ""), (".conjugate", ", second cam"), (".outer", ", outer wall")
 PLOTS = (
     Plot("motion", "Lift and its derivatives by the cam angle", "motion", "angle", ("lift", "slope", "bend", "third")),
     Plot("kinematics", "Velocity, acceleration and jerk of the follower", "kinematics", "angle", ("velocity", "acceleration", "jerk")),
-    Plot("valve", "Lift, velocity and acceleration of the valve", "valve", "angle", ("lift", "velocity", "acceleration")),
+    Plot("valve", "Motion of the valve", "valve", "angle", ("lift", "velocity", "acceleration")),
     *(
         plot
         for suffix, words in SURFACES

@@ -39,8 +39,8 @@ class Follower(Spec):
     )
     lift_at: Literal["arm", "tip", "valve"] | None = Field(
         None,
-        description="where an oscillating follower's programme counts its lengths: along the arc at arm_length, along the arc of the second "
-        "arm's tip, or along the valve's line; the valve's unless given",
+        description="where an oscillating follower's programme counts its lengths: along the arc at arm_length, along the arc of the "
+        "second arm's tip, or along the valve's line; the valve's unless given",
     )
     inertia: Inertia = Field("0 kg m^2", ge=0, description="moment of inertia of an oscillating follower about its pivot")
 
@@ -53,7 +53,8 @@ class Valve(Spec):
         "0 deg",
         gt=-TURN / 4,
         lt=TURN / 4,
-        description="this arm at zero lift against the line through the pivot square to the valve; negative: it comes to that line as the valve opens",
+        description="this arm at zero lift against the line through the pivot square to the valve; negative: it comes to that line as "
+        "the valve opens",
     )
 
 
