@@ -1,7 +1,6 @@
 """Motion given row by row: a CSV file or arrays of angle and absolute lift."""
 
 import math
-import re
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -10,15 +9,13 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.errors import InputError, SpecError, UnitError, brief
+from drivewright.errors import InputError, SpecError
 from drivewright.motion.laws import MotionLaw, register
 from drivewright.motion.piecewise import CLOSURE
 from drivewright.motion.ripple import Ripple, ripple
 from drivewright.motion.splines import LEAST_POINTS, refuse_disorder, through_points
-from drivewright.spec.csv_text import csv_rows, read_data_file
-from drivewright.units import unit_factor
-
-HEADER = "angle [deg],lift [mm]"
+from drivewright.spec.csv_headings import Wanted
+from drivewright.spec.csv_table import read_csv
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +41,7 @@ class Rows(NamedTuple):
     lift_unit: str | None
     what: str
     places: list[str]
+    digit: float = 0.0  # step of the last digit of the lift; 0 where it is not known
 
 
 @register("table")
@@ -65,55 +63,22 @@ def _table(file=None, angle=None, lift=None, degree=5, ends=None):
     return TableLaw("table", function, span, np.column_stack([u, rows.lift]), rows.lift_unit)
 
 
+ANGLE = Wanted("angle", {"angle": "deg"}, ("theta", "phi", "rotation", "cam", "winkel", "nockenwinkel", "drehwinkel"))
+LIFT = Wanted("lift", {"length": "mm", "angle": "deg"}, ("displacement", "rise", "stroke", "travel", "position", "swing", "hub", "s", "y"))
+
+
 def read_table(file: str | Path) -> Rows:
     """The `Rows` of a CSV file; columns "angle [unit]" and "lift [unit]", others are left alone."""
-    path = Path(file)
-    what = f"table '{path}'"
-    try:
-        rows = list(csv_rows(read_data_file(path).splitlines(), path))
-    except SpecError as error:
-        raise InputError(f"{what} {error.message}.") from None
-    header = rows[0][1] if rows else []
-    columns = [_column(name, header, what) for name in ("angle", "lift")]
-    factors = (_factor(columns[0], ("angle",), path)[0], *_factor(columns[1], ("length", "angle"), path))
-    numbers, places = [], []
-    for line, cells in rows[1:]:
-        place = f"row {len(places) + 1} (line {line})"
-        numbers.append([_number(cells, index, f"{what}, {place}", name) for (index, name, _) in columns])
-        places.append(place)
-    values = np.array(numbers).reshape(-1, 2)
-    return Rows(values[:, 0] * factors[0], values[:, 1] * factors[1], "m" if factors[2] == "length" else "rad", what, places)
-
-
-def _column(name, header, what):
-    """(index, name, unit) of a column."""
-    for index, cell in enumerate(header):
-        if match := re.fullmatch(rf"\s*{name}\s*\[(.+)\]\s*", cell, re.IGNORECASE):
-            return index, name, match[1]
-    raise InputError(f"{what}: no column '{name} [unit]' in the first line {brief(','.join(header))}; it should read {HEADER!r}.")
-
-
-def _factor(column, dimensions, path):
-    """(factor to SI, dimension) of a column's unit, by the first dimension that fits."""
-    _, name, unit = column
-    *others, last = dimensions
-    for dimension in others:
-        try:
-            return unit_factor(unit, dimension), dimension
-        except UnitError:
-            continue
-    try:
-        return unit_factor(unit, last), last
-    except UnitError as error:
-        raise error.located(key=f"column '{name}'", file=path) from None
-
-
-def _number(cells, index, where, name):
-    try:
-        return float(cells[index])
-    except (ValueError, IndexError):
-        got = brief(cells[index]) if index < len(cells) else "nothing"
-        raise InputError(f"{where}: the {name} is {got}, not a number.") from None
+    table = read_csv(Path(file), (ANGLE, LIFT), (("angle",), ("lift",)))
+    if "crank" in (heading := table.columns["angle"].heading).lower():
+        raise SpecError(
+            f"the column {heading!r} is no cam angle: the cam of a four-stroke engine turns half as far; give the cam angle, as "
+            f"{ANGLE.heading!r}",
+            file=table.file,
+        )
+    unit = "m" if table.columns["lift"].dimension == "length" else "rad"
+    places = [f"row {number} (line {line})" for number, line in enumerate(table.lines, 1)]
+    return Rows(table.numbers("angle"), table.numbers("lift"), unit, f"table '{file}'", places, table.last_digit("lift"))
 
 
 def _from_arrays(angle, lift):

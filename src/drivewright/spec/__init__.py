@@ -6,6 +6,9 @@ template, the JSON schema and every error message are read off the fields.
 base                the base class of all tables of a spec
 commented_template  the commented template of a spec
 csv_columns         two columns of a CSV file by name, each with its unit in brackets in the header
+csv_table           tables in CSV files, whoever wrote them: separators, decimal signs, comments, rows of units
+csv_headings        headings of their columns: names and units in several spellings
+csv_numbers         numbers in their cells, and the digits they were printed to
 csv_text            CSV files as text: read within limits, and texts that no spreadsheet takes for a formula
 designs             many designs in one spec
 differences         in which keys specs differ

@@ -1,7 +1,5 @@
-"""Two columns of a CSV file by name, each with its unit in brackets in the header: "displacement [um],force [N]"."""
+"""Two columns of a CSV file by name, each with its unit: "displacement [um],force [N]"; read by `csv_table`."""
 
-import math
-import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -9,11 +7,21 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.errors import SpecError, UnitError, brief
-from drivewright.spec.csv_text import csv_rows, read_data_file
-from drivewright.units import unit_factor
+from drivewright.errors import SpecError
+from drivewright.spec.csv_headings import PURE, Wanted
+from drivewright.spec.csv_table import CsvTable, read_csv
+from drivewright.units import BY_NAME
 
-PURE = "a pure number"
+__all__ = ["PURE", "ColumnPair", "read_columns"]
+OTHER_NAMES = {  # of columns, as others write them
+    "angle": ("theta", "phi", "rotation", "crank", "winkel"),
+    "time": ("t",),
+    "speed": ("angular velocity", "angular speed", "omega", "rotational speed", "n"),
+    "torque": ("moment",),
+    "force": ("load",),
+    "travel": ("displacement", "position", "stroke", "x"),
+    "displacement": ("travel", "deflection", "x"),
+}
 
 
 class ColumnPair(NamedTuple):
@@ -27,48 +35,32 @@ class ColumnPair(NamedTuple):
 
 def read_columns(file: str | Path, x_names: Mapping[str, str], y_names: Mapping[str, str]) -> ColumnPair:
     """The `ColumnPair` of a CSV file with one column of `x_names` and one of `y_names`, each name -> dimension; x must increase."""
-    rows = csv_rows(read_data_file(file).splitlines(), file)
-    _, header = next(rows, (0, []))
-    columns = [_column(header, names, file) for names in (x_names, y_names)]
-    numbers = [[_number(cells, index, f"line {line}", name, file) for index, name, _ in columns] for line, cells in rows]
-    table = np.array(numbers, dtype=float).reshape(-1, 2) * [factor for _, _, factor in columns]
-    _refuse_disorder(table, columns[0][1], file)
-    return ColumnPair(columns[0][1], table[:, 0], columns[1][1], table[:, 1])
+    wanted = [_wanted(name, dimension) for name, dimension in {**x_names, **y_names}.items()]
+    table = read_csv(file, wanted, (tuple(x_names), tuple(y_names)))
+    x_name, y_name = _first(table, x_names), _first(table, y_names)
+    x, y = table.numbers(x_name), table.numbers(y_name)
+    _refuse_disorder(table, x, x_name)
+    return ColumnPair(x_name, x, y_name, y)
 
 
-def _column(header, names, file):
-    """(index, name, factor to SI) of the first column that has one of the names."""
-    for index, cell in enumerate(header):
-        match = re.fullmatch(r"\s*([a-z]+)\s*(?:\[(.+)\])?\s*", cell, re.IGNORECASE)
-        if match and match[1].lower() in names:
-            return index, match[1].lower(), _factor(match[2], names[match[1].lower()], match[1], file)
-    expected = " or ".join(repr(name if dimension == PURE else f"{name} [unit]") for name, dimension in names.items())
-    raise SpecError(f"no column {expected} in the first line {brief(','.join(header))}", file=str(file))
+def _first(table: CsvTable, names: Mapping[str, str]) -> str:
+    """The name whose column comes first."""
+    return min((name for name in names if name in table), key=lambda name: table.columns[name].place)
 
 
-def _factor(unit, dimension, name, file):
-    if dimension == PURE:
-        return 1.0
-    try:
-        return unit_factor(unit or "", dimension)
-    except UnitError as error:
-        raise error.located(key=f"column '{name}'", file=str(file)) from None
+def _wanted(name, dimension):
+    unit = "" if dimension == PURE else BY_NAME[dimension].display_unit
+    return Wanted(name, {dimension: unit}, OTHER_NAMES.get(name, ()))
 
 
-def _number(cells, index, place, name, file):
-    try:
-        number = float(cells[index])
-    except (ValueError, IndexError):
-        number = math.nan
-    if not math.isfinite(number):
-        got = brief(cells[index]) if index < len(cells) else "nothing"
-        raise SpecError(f"{place}: the {name} is {got}, not a finite number", file=str(file))
-    return number
-
-
-def _refuse_disorder(table, name, file):
-    if len(table) < 2:
-        raise SpecError(f"{len(table)} rows are too few; give at least 2", file=str(file))
-    if np.any(np.diff(table[:, 0]) <= 0):
-        row = int(np.argmax(np.diff(table[:, 0]) <= 0)) + 2
-        raise SpecError(f"row {row}: the {name} must increase from row to row; sort the rows and drop repeats", file=str(file))
+def _refuse_disorder(table: CsvTable, x: Floats, name: str) -> None:
+    if len(x) < 2:
+        raise SpecError(f"{len(x)} rows are too few; give at least 2", file=table.file)
+    if np.any(np.diff(x) <= 0):
+        row = int(np.argmax(np.diff(x) <= 0)) + 1
+        before, now = (table.cells(name)[each].text.strip() for each in (row - 1, row))
+        raise SpecError(
+            f"row {row + 1} (line {table.lines[row]}): the {name} must increase from row to row, but {now!r} follows {before!r}; sort the "
+            "rows and drop repeats",
+            file=table.file,
+        )

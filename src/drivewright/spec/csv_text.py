@@ -6,6 +6,7 @@ one that has apostrophes before such a sign already gets one more, so that takin
 are left alone: -1.5 stays a number.
 """
 
+import codecs
 import csv
 import re
 from collections.abc import Iterable, Iterator
@@ -37,15 +38,26 @@ def csv_line(cells: Iterable[str]) -> str:
 
 
 def read_data_file(file: str | Path) -> str:
-    """The text of a CSV file in UTF-8, with or without a byte-order mark; SpecError where it cannot be read or is too long."""
+    """The text of a CSV file in UTF-8, with or without a byte-order mark, or in UTF-16 with one; SpecError where it cannot be read or is
+    too long."""
     try:
         with Path(file).open("rb") as stream:
             content = stream.read(MAX_BYTES + 1)
         if len(content) > MAX_BYTES:
             raise SpecError(f"has more than {MAX_BYTES // 2**20} MB; give fewer rows, every tenth will do", file=str(file))
-        return content.decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        raise SpecError(f"cannot be read: {getattr(error, 'strerror', None) or error}", file=str(file)) from None
+        return content.decode("utf-16" if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)) else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise SpecError(f"cannot be read: {_undecodable(error)}", file=str(file)) from None
+    except OSError as error:
+        raise SpecError(f"cannot be read: {error.strerror or error}", file=str(file)) from None
+
+
+def _undecodable(error):
+    """Where a file is no text of its encoding, and what the byte is in the code page of Windows."""
+    line, byte = error.object[: error.start].count(b"\n") + 1, error.object[error.start : error.start + 1]
+    meant = byte.decode("cp1252", errors="ignore")
+    also = f" (in the code page of Windows it is {meant!r})" if meant.isprintable() and meant else ""
+    return f"line {line} has the byte 0x{byte.hex()}, which is no {error.encoding.upper()}{also}; save the file as 'CSV UTF-8'"
 
 
 def csv_rows(lines: Iterable[str], file: str | Path) -> Iterator[tuple[int, list[str]]]:

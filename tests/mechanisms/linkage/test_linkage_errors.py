@@ -211,15 +211,15 @@ def test_a_bifurcation_of_nothing_is_refused(change, key, words):
 @pytest.mark.parametrize(
     ("content", "words"),
     [
-        ("time [s],force [N]\n0,1\n1,2\n", "no column 'torque [unit]' in the first line 'time [s],force [N]'"),
-        ("phase [s],torque [N m]\n0,1\n1,2\n", "no column 'time [unit]' or 'angle [unit]' or 'speed [unit]'"),
+        ("time [s],force [N]\n0,1\n1,2\n", "no column 'torque [N m]' in the first line 'time [s],force [N]'"),
+        ("phase [s],torque [N m]\n0,1\n1,2\n", "no column 'time [s]' or 'angle [deg]' or 'speed [rpm]'"),
         ("time [s],torque [N]\n0,1\n1,2\n", "column 'torque': wants a torque, got 'N' (force)"),
         ("time,torque [N m]\n0,1\n1,2\n", "column 'time': "),
-        ("time [s],torque [N m]\n0,1\n1,x\n", "line 3: the torque is 'x', not a finite number"),
-        ("time [s],torque [N m]\n0,1\n1\n", "line 3: the torque is nothing"),
-        ("time [s],torque [N m]\n0,1\n0,2\n", "row 2: the time must increase"),
+        ("time [s],torque [N m]\n0,1\n1,x\n", "line 3: the torque is 'x', not a number"),
+        ("time [s],torque [N m]\n0,1\n1\n", "line 3: the torque is missing"),
+        ("time [s],torque [N m]\n0,1\n0,2\n", "row 2 (line 3): the time must increase"),
         ("time [s],torque [N m]\n0,1\n", "1 rows are too few"),
-        ("", "no column"),
+        ("", "is empty"),
     ],
 )
 def test_a_bad_load_table_is_refused_with_its_place(tmp_path, content, words):
@@ -231,7 +231,7 @@ def test_a_bad_load_table_is_refused_with_its_place(tmp_path, content, words):
 def test_a_bad_profile_is_refused(tmp_path):
     profile = ("drive", {"joint": "O2", "profile": "p.csv"}), ("simulate", {"duration": "1 s"})
     (tmp_path / "p.csv").write_text("time [s],travel [mm]\n0,1\n1,2\n")
-    assert "no column 'angle [unit]'" in complaint(*profile, folder=tmp_path)[1]
+    assert "no column 'angle [deg]'" in complaint(*profile, folder=tmp_path)[1]
     (tmp_path / "p.csv").write_text("time [s],angle [deg]\n0,1\n1,2\n")
     assert "degree 3 needs at least 4 points, got 2" in complaint(*profile, folder=tmp_path)[1]
 

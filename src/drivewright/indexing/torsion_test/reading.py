@@ -1,24 +1,23 @@
 """A torsion test as a CSV file: `torque [N m],angle [arcmin]`, in the order of measuring.
 
 Further columns: `force [N]` in place of the torque, with the arm given apart; `cycle` (whole numbers); `branch` (loading or unloading);
-`crank [deg]`, the position of the input at which the loop was taken.  Lines that begin with # are comments; other columns are left alone.
+`crank [deg]`, the position of the input at which the loop was taken.  Other columns are left alone; how the file may be written says
+`spec.csv_table`.
 """
 
-import math
-import re
-from collections.abc import Sequence
+from collections.abc import Collection
 from os import PathLike
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from drivewright._typing import Bools, Floats, Ints
-from drivewright.errors import SpecError, UnitError, brief, nearest
-from drivewright.spec.csv_text import csv_rows, read_data_file
-from drivewright.units import unit_factor
+from drivewright.errors import SpecError, brief
+from drivewright.spec.csv_headings import PURE, TEXT, Wanted
+from drivewright.spec.csv_table import CsvTable, read_csv
 
 QUANTITIES = {"torque": ("torque", "N m"), "force": ("force", "N"), "angle": ("angle", "arcmin"), "crank": ("angle", "deg")}
-COLUMNS = (*QUANTITIES, "cycle", "branch")
 BRANCHES = {"loading": 1, "unloading": -1}
 LARGEST = 200_000  # samples
 
@@ -46,64 +45,25 @@ class Readings(NamedTuple):
         )
 
 
-class _Column(NamedTuple):
-    place: int
-    factor: float
+WANTED = (
+    *(Wanted(name, {dimension: unit}) for name, (dimension, unit) in QUANTITIES.items()),
+    Wanted("cycle", {PURE: ""}),
+    Wanted("branch", {TEXT: ""}),
+)
 
 
 def read_test(file: str | PathLike[str], arm: float | None = None) -> Readings:
     """The `Readings` of a CSV file; `arm` [m] turns a column of forces into torques.  SpecError names file, line and column."""
-    rows = list(_rows(file))
-    if not rows:
-        raise SpecError("is empty; the first line wants the columns, e.g. torque [N m],angle [arcmin]", file=str(file))
-    columns = _columns(rows[0][1], file)
-    _refuse_load(columns, arm, file)
-    cells = [_cells(line, row, columns, file) for line, row in rows[1:]]
-    if len(cells) > LARGEST:
-        raise SpecError(f"{len(cells)} samples; give at most {LARGEST}, every tenth will do", file=str(file))
-    found = {name: np.array([row[name] for row in cells]) for name in columns}
-    torque = found["force"] * arm if "force" in columns else found["torque"]
-    return Readings(torque, found["angle"], *(found.get(name) for name in ("cycle", "branch", "crank")))
+    table = read_csv(Path(file), WANTED, (("torque", "force"), ("angle",)))
+    _refuse_load(table.columns, arm, file)
+    if len(table.rows) > LARGEST:
+        raise SpecError(f"{len(table.rows)} samples; give at most {LARGEST}, every tenth will do", file=str(file))
+    torque = table.numbers("force") * arm if arm is not None else table.numbers("torque")
+    cycle, branch = (_whole(table) if "cycle" in table else None), (_branch(table) if "branch" in table else None)
+    return Readings(torque, table.numbers("angle"), cycle, branch, table.numbers("crank") if "crank" in table else None)
 
 
-def _rows(file):
-    """(number of the line, cells) of every line that is neither blank nor a comment."""
-    for number, line in enumerate(read_data_file(file).splitlines(), 1):
-        if line.strip() and not line.lstrip().startswith("#"):
-            yield number, next(csv_rows([line], file))[1]
-
-
-def _columns(header: Sequence[str], file: str | PathLike[str]) -> dict[str, _Column]:
-    """Name -> `_Column` of what the header has of ours."""
-    found = {}
-    for index, cell in enumerate(header):
-        parts = re.fullmatch(r"\s*([^\[]*?)\s*(?:\[(.*)\])?\s*", cell, re.DOTALL)
-        name, unit = parts.groups() if parts else (cell.partition("[")[0].strip(), None)  # a bracket that is not closed
-        if name.lower() in COLUMNS:
-            if name.lower() in found:
-                raise SpecError(f"column '{name}' is there twice", file=str(file))
-            found[name.lower()] = _Column(index, _factor(name.lower(), unit, file))
-    for wanted in ("torque", "angle"):
-        if wanted not in found and not (wanted == "torque" and "force" in found):
-            hint = nearest(wanted, [cell.partition("[")[0].strip() for cell in header])
-            column = f"{wanted} [{QUANTITIES[wanted][1]}]"
-            raise SpecError(f"no column {column!r} in the first line {brief(','.join(header))}{hint}", file=str(file))
-    return found
-
-
-def _factor(name, unit, file):
-    if name not in QUANTITIES:
-        return 1.0
-    dimension, example = QUANTITIES[name]
-    if not unit or not unit.strip():
-        raise UnitError(f"has no unit; write '{name} [{example}]'", key=f"column '{name}'", file=str(file))
-    try:
-        return unit_factor(unit, dimension)
-    except UnitError as error:
-        raise error.located(key=f"column '{name}'", file=str(file)) from None
-
-
-def _refuse_load(columns, arm, file):
+def _refuse_load(columns: Collection[str], arm: float | None, file: str | PathLike[str]) -> None:
     if "force" in columns and "torque" in columns:
         raise SpecError("has both a torque and a force; keep one of the columns", file=str(file))
     if "force" in columns and arm is None:
@@ -112,37 +72,21 @@ def _refuse_load(columns, arm, file):
         raise SpecError("the load is a torque already; an arm belongs to a column 'force [N]'", file=str(file))
 
 
-def _cells(line, row, columns, file):
-    """Name -> value of one line."""
-    readers = {"cycle": _whole, "branch": _branch}
-    found = {}
-    for name, column in columns.items():
-        text = row[column.place].strip() if column.place < len(row) else ""
-        try:
-            found[name] = readers.get(name, _finite)(text) * column.factor
-        except ValueError as error:
-            raise SpecError(f"line {line}: the {name} is {brief(text) if text else 'missing'}, not {error}", file=str(file)) from None
-    return found
+def _whole(table: CsvTable) -> Ints:
+    """Whole numbers of the cycles."""
+    numbers = table.numbers("cycle")
+    for cell, value in zip(table.cells("cycle"), numbers, strict=True):
+        if value != round(value):
+            raise SpecError(f"line {cell.line}: the cycle is {brief(cell.text.strip())}, not a whole number", file=table.file)
+    return numbers.astype(int)
 
 
-def _finite(text):
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise ValueError("a finite number")
-    return value
-
-
-def _whole(text):
-    value = _finite(text)
-    if value != round(value):
-        raise ValueError("a whole number")
-    return int(value)
-
-
-def _branch(text):
-    if text.lower() not in BRANCHES:
-        raise ValueError("'loading' or 'unloading'")
-    return BRANCHES[text.lower()]
+def _branch(table: CsvTable) -> Ints:
+    """+1 loading, -1 unloading."""
+    cells = table.cells("branch")
+    for cell in cells:
+        text = cell.text.strip()
+        if text.lower() not in BRANCHES:
+            shown = brief(text) if text else "missing"
+            raise SpecError(f"line {cell.line}: the branch is {shown}, not 'loading' or 'unloading'", file=table.file)
+    return np.array([BRANCHES[cell.text.strip().lower()] for cell in cells], dtype=int)
