@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from drivewright.chains.roller_link import RollerLink
+from drivewright.chains.roller_link import design_roller_link
 from drivewright.chains.roller_sprocket import RollerSprocket, design_roller_sprocket, roller_plate
 from drivewright.curves import outline_area
 from drivewright.scene import place
@@ -104,7 +104,7 @@ def test_drawing_and_part_have_the_bore():
 
 
 def test_a_roller_link_from_end_to_end_and_across():
-    link = RollerLink(12.7e-3, 8.5e-3, 7.75e-3, 1.6e-3)
+    link = design_roller_link(12.7e-3, 8.5e-3, 7.75e-3, 1.6e-3)
     plate, roller = (shape.outline.points(1e-8) for shape in link.shapes)
     assert plate.max(axis=0) == pytest.approx([0.95 * 12.7e-3, 0.45 * 12.7e-3], abs=1e-7)  # a guide touches it at the end's radius
     assert link.end_radius == pytest.approx(plate[:, 1].max(), abs=1e-7)

@@ -75,6 +75,12 @@ PINNED = {
         "centre_distance.fluctuation": 4.6700946e-06,
         "pin.contact_pressure": 417528655.5,
     },
+    "duplex_chain": {
+        "layout.centre_distance": 0.901276637282,
+        "centre_distance.fluctuation": 3.9275236569e-05,
+        "chain.static_safety": 38.024994084,
+        "pin.bearing_pressure": 6648331.66,
+    },
     "roller_chain": {"centre_distance.mean": 0.32017224765, "layout.centre_distance": 0.3201723026, "strand.tight_force": 244.208655},
     # Chaotic: only what does not depend on which way the pin bounces.
     "slider_crank_clearance": {"slider.ideal_peak": 19419.360511402672, "bodies.crank.angular_velocity": 523.5987755982989},

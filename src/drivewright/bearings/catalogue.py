@@ -7,9 +7,6 @@ the usual series are known by their designation beside (`designation`), with an 
 
 from functools import cache
 from pathlib import Path
-from typing import Annotated
-
-from pydantic import BeforeValidator
 
 from drivewright.bearings.ball import BallBearing
 from drivewright.bearings.catalogue_entry import Entry
@@ -17,12 +14,10 @@ from drivewright.bearings.designated_entry import as_designated, designated_entr
 from drivewright.bearings.designation import UnknownDesignation, parse_designation, similar_designations
 from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import InputError, SpecError
-from drivewright.spec import Named, Spec, Text, from_document, read_document
+from drivewright.spec import Named, Spec, from_document, read_document
 from drivewright.spec.fields import Field
 from drivewright.units import SI
 
-# the name of a bearing in a spec: 61904 without quotes is a number in TOML
-Designation = Annotated[Text, BeforeValidator(lambda value: str(value) if type(value) is int else value)]
 OWN = Path(__file__).with_name("catalogue.toml")
 
 

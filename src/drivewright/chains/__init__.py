@@ -11,6 +11,7 @@ standards        formulas of roller and silent chains: lengths, speeds, forces, 
 plate, plate_outline, plate_holes, plate_stack  the plate: outline, holes and pins, mass; a strand of plates as solids
 sprocket, sprocket_root, roller_sprocket        sprockets with all their teeth, root trochoids, measuring pins
 roller_link      the link of a roller chain: plate and roller
+sizes            roller chains by their number: dimensions, mass, breaking load
 drive_scene      a drive on screen and as solids: sprockets, plates, the rigid chain over teeth
 interference     gaps between plates and teeth
 masses           masses, stiffness and damping that nobody has measured: discs for sprockets, joints in line
@@ -39,6 +40,7 @@ _WHERE = {
     "plate_holes": ("HingePin", "RockerPins", "RoundPins"),
     "roller_sprocket": ("RollerSprocket", "design_roller_sprocket"),
     "roller_tooth": ("RollerTooth",),
+    "sizes": ("ChainSize", "chain_size"),
     "sprocket": ("design_sprocket",),
     "tooth": ("Cutter", "Tooth", "cut_tooth", "matching_cutter", "modification_for"),
 }

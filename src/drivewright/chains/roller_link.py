@@ -11,22 +11,24 @@ END, WAIST = 0.45, 0.5  # radii of the plate's round ends and of the arcs of its
 
 
 class RollerLink(NamedTuple):
-    """pitch, roller_diameter, inner_width between the inner plates, thickness of a plate; all [m]."""
+    """pitch, roller_diameter, inner_width between the inner plates, thickness of an outer and of an inner plate, end_radius of the plates
+    about their pins; all [m]."""
 
     pitch: float
     roller_diameter: float
     inner_width: float
     thickness: float
-
-    @property
-    def end_radius(self) -> float:
-        """Radius of the plate's ends about its pins  [m]."""
-        return END * self.pitch
+    inner_plate: float
+    end_radius: float
 
     @property
     def width(self) -> float:
-        """Width of the chain over its four rows of plates  [m]."""
-        return self.inner_width + 4 * self.thickness
+        """Width of the chain over its four plates  [m]."""
+        return self.inner_width + 2 * (self.thickness + self.inner_plate)
+
+    def bush_gap(self, bush: float) -> float:
+        """Room for an inner plate between a bush of this length and an outer plate  [m]: none where the bush goes through it."""
+        return max(0.5 * (self.inner_width - bush) + self.inner_plate, 0.0)
 
     @property
     def plate(self) -> Outline:
@@ -50,9 +52,15 @@ class RollerLink(NamedTuple):
 
     def parts(self, poses: Floats) -> Iterator[Part]:
         """`Part` of each link at poses (n, 3) [m, m, rad]: plates on both sides of the rollers, inner and outer in turn."""
-        plate, roller, sheet = self.plate, Prism(self.roller, (), -0.5 * self.inner_width, self.inner_width), self.thickness
+        plate, roller = self.plate, Prism(self.roller, (), -0.5 * self.inner_width, self.inner_width)
         for number, pose in enumerate(poses):
-            out = 0.5 * self.inner_width + (number % 2) * sheet
+            outer = number % 2
+            sheet, out = (self.inner_plate, self.thickness)[outer], 0.5 * self.inner_width + outer * self.inner_plate
             solids = (Prism(plate, (), out, sheet), Prism(plate, (), -out - sheet, sheet), roller)
             x, y, turn = map(float, pose)
             yield Part(f"link {number}", solids, (x, y, turn), ("steel", "blue")[number % 2])
+
+
+def design_roller_link(pitch: float, roller_diameter: float, inner_width: float, thickness: float, back: float | None = None) -> RollerLink:
+    """A `RollerLink` with plates of one thickness, of a height `back` above the pins: 0.45 pitches unless given  [m]."""
+    return RollerLink(pitch, roller_diameter, inner_width, thickness, thickness, END * pitch if back is None else back)

@@ -33,6 +33,8 @@ Number: TypeAlias = Annotated[float, Strict(), AfterValidator(lambda value: refu
 Integer: TypeAlias = Annotated[int, Strict(), AfterValidator(_refuse_uncountable)]
 Flag: TypeAlias = Annotated[bool, Strict()]
 Text: TypeAlias = Annotated[str, Strict(), Field(max_length=400)]
+# of a bought part: 61904 without quotes is a number in TOML
+Designation: TypeAlias = Annotated[Text, BeforeValidator(lambda value: str(value) if type(value) is int else value)]
 
 
 def _one_word(value: str) -> str:

@@ -83,10 +83,11 @@ def hinge_pin_load(pack: Pack, force: float) -> tuple[Floats, Floats]:
     return breaks, load - _own_load(pack._replace(own=~pack.own), force)[1]
 
 
-def roller_pin_load(sheet: float, bush: float, force: float) -> tuple[Floats, Floats]:
+def roller_pin_load(sheet: float, bush: float, force: float, gap: float | None = None) -> tuple[Floats, Floats]:
     """Line load on the pin of a roller chain, plates and bush of these lengths [m]: outer plates pull at both ends, the bush presses
-    between, inner plates lie in the gaps."""
-    breaks = sheet * np.array([0, 1, 2, 2, 3, 4]) + bush * np.array([0, 0, 0, 1, 1, 1])
+    between; a gap at either end of the bush, a plate wide unless given, holds an inner plate."""
+    space = sheet if gap is None else gap
+    breaks = sheet * np.array([0, 1, 1, 1, 1, 2]) + space * np.array([0, 0, 1, 1, 2, 2]) + bush * np.array([0, 0, 0, 1, 1, 1])
     return breaks, force * np.array([0.5 / sheet, 0, -1 / bush, 0, 0.5 / sheet])
 
 

@@ -5,11 +5,10 @@ from typing import Annotated, Literal, Self
 from pydantic import model_validator
 
 from drivewright import materials, motion
-from drivewright.bearings.catalogue import Designation
 from drivewright.errors import SpecError, UnknownName
 from drivewright.indexing.motion import NO_DWELL, TURN
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
-from drivewright.spec.fields import Field
+from drivewright.spec.fields import Designation, Field
 from drivewright.units import Angle, Force, Length, Pressure, RotationalStiffness, Speed, Stiffness, Time, Torque
 
 Diameter = Annotated[Length, Field(gt=0)]

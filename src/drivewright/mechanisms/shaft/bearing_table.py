@@ -4,12 +4,11 @@ import math
 from typing import Annotated, Literal
 
 from drivewright.bearings.ball import BallBearing
-from drivewright.bearings.catalogue import Designation
 from drivewright.bearings.envelope import Envelope
 from drivewright.bearings.roller import RollerBearing
 from drivewright.errors import UnitError
 from drivewright.spec import DataFile, Name, Spec
-from drivewright.spec.fields import Field
+from drivewright.spec.fields import Designation, Field
 from drivewright.units import BY_NAME, Angle, Damping, Dimension, Force, Length, RotationalStiffness
 
 RIGID = "rigid"

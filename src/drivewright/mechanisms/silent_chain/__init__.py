@@ -11,6 +11,7 @@ from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.meshing import meshing
 from drivewright.mechanisms.silent_chain.plots import plots
 from drivewright.mechanisms.silent_chain.scene import drawings, parts, scene
+from drivewright.mechanisms.silent_chain.sizing import supplied
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.registry import Analysis, Mechanism, oracle
 
@@ -74,6 +75,8 @@ HEADLINE = (
 SOURCES = (
     "An Lichi, Cheng Yabing, Li Jiabao, Xu Weilong: New design of Hy-Vo chain based on the ultra-small rolling radius, Machines 2022, "
     "10(5), 325, doi:10.3390/machines10050325 (read; equations corrected)",
+    "Donghua Chain Group, Product Catalogue Drive Chains 2020 (read as text): dimensions of roller chains by number; ASME B29.1 and Galaxy "
+    "Chain's tables of strengths (read on public pages); see the page on roller chains by number",
     "Johnson, Contact Mechanics (1985); ISO 606 family of roller chains; uniform material law of Baumel and Seeger (recalled)",
 )
 
@@ -94,4 +97,5 @@ mechanism = Mechanism(
     parts=parts,
     verify=oracle("silent_chain"),
     batch=batch,
+    supplied=supplied,
 )

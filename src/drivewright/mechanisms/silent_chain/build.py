@@ -11,7 +11,7 @@ from drivewright.chains.link import Link, design_link
 from drivewright.chains.plate import LinkMass, Plate, bar_link_mass, design_plate, mean_link_mass
 from drivewright.chains.plate_holes import Pins, joint_pins
 from drivewright.chains.published_design import PublishedSprocket, published_sprocket
-from drivewright.chains.roller_link import RollerLink
+from drivewright.chains.roller_link import RollerLink, design_roller_link
 from drivewright.chains.roller_sprocket import RollerSprocket, design_roller_sprocket
 from drivewright.chains.sprocket import Sprocket, design_sprocket
 from drivewright.chains.standards import StrandForces, pitch_diameter, strand_forces
@@ -19,18 +19,23 @@ from drivewright.chains.tooth import Cutter, matching_cutter
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
+from drivewright.mechanisms.silent_chain.sizing import SizedSpec, size_findings, sized
 from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 
 BUSH = 0.9  # length of a roller chain's bushes over the pitch
 BORE = 0.4  # of the smaller pitch circle
+SHEET = 2e-3  # thickness of a plate  [m]
 SIDES = ("drive", "driven")
 
 
 @dataclass(frozen=True, eq=False)
 class ChainModel:
-    """The drive: `link` holds what moves; offset, apothem and `sides` are the published method's measures, None for a roller chain."""
+    """The drive: `link` holds what moves; offset, apothem and `sides` are the published method's measures, None for a roller chain.
 
-    spec: SilentChainSpec
+    `spec` is that of the user with what the number of the chain gives.
+    """
+
+    spec: SizedSpec
     link: Link
     offset: Numbers = 0.0
     standard_apothem: Numbers | None = None
@@ -69,7 +74,7 @@ class ChainModel:
         """The plate of a silent chain; InputError where the lengths given leave none."""
         given = self.spec.plate
         lengths = _given(back=given.back, toe=given.toe, crotch=given.crotch, crotch_radius=given.crotch_radius)
-        return design_plate(self.link, self.pins, thickness=given.thickness, **lengths)
+        return design_plate(self.link, self.pins, thickness=self.sheet, **lengths)
 
     @cached_property
     def plate_refusal(self) -> str:
@@ -85,9 +90,10 @@ class ChainModel:
         """`LinkMass` of a pitch of chain, as given or from plates and pins."""
         given, density = self.spec.plate, self.spec.material.density
         if self.spec.roller or self.plate_refusal:
-            drawn = bar_link_mass(self.spec.pitch, density, self.chain_width)
+            drawn = bar_link_mass(self.spec.pitch, density, self.row_width)
         else:
-            drawn = mean_link_mass(self.plate, given.lacing, density, self.chain_width)
+            drawn = mean_link_mass(self.plate, given.lacing, density, self.row_width)
+        drawn = drawn._replace(mass=self.rows * drawn.mass, inertia=self.rows * drawn.inertia)
         mass = given.link_mass or drawn.mass
         return LinkMass(mass, drawn.height, given.link_inertia or drawn.inertia * mass / drawn.mass)
 
@@ -104,10 +110,35 @@ class ChainModel:
         return self.spec.contact.force or self.strands.tension
 
     @property
+    def row_force(self) -> float:
+        """The share of one row in it [N]: rows carry alike."""
+        return self.pin_force / self.rows
+
+    @property
+    def rows(self) -> int:
+        """Strands side by side."""
+        return self.spec.rows or 1
+
+    @property
+    def contact_stiffness(self) -> float:
+        """Stiffness of a place of contact, all rows together  [N/m]."""
+        return self.rows * self.spec.contact.stiffness
+
+    @property
+    def joint_kind(self) -> str:
+        """Kind of the joints."""
+        return self.spec.joint.kind or "round-pin"
+
+    @property
+    def sheet(self) -> float:
+        """Thickness of a plate [m]."""
+        return self.spec.plate.thickness or SHEET
+
+    @property
     def pins(self) -> Pins:
         """Pins of the joints and the holes they need."""
         given = self.spec.joint
-        return joint_pins(given.kind, self.spec.pitch, min(self.teeth), given.pin_diameter)
+        return joint_pins(self.joint_kind, self.spec.pitch, min(self.teeth), given.pin_diameter)
 
     @cached_property
     def sprockets(self) -> tuple[Sprocket | RollerSprocket, ...]:
@@ -119,7 +150,7 @@ class ChainModel:
     def sprocket(self, teeth: int) -> Sprocket | RollerSprocket:
         """A sprocket with teeth that fit this chain."""
         if self.spec.roller:
-            return design_roller_sprocket(teeth, self.spec.pitch, self.spec.roller.diameter, self.spec.roller.tooth_space)
+            return design_roller_sprocket(teeth, self.spec.pitch, self.roller_diameter, self.spec.roller.tooth_space)
         given = self.spec.cutter
         lengths = _given(tip_depth=given.tip_depth, root_depth=given.root_depth, tip_rounding=given.tip_rounding, tip_chamfer=given.chamfer)
         return design_sprocket(self.link, teeth, self.cutter, **lengths)
@@ -128,7 +159,11 @@ class ChainModel:
     def roller_link(self) -> RollerLink | None:
         """The link of a roller chain."""
         roller = self.spec.roller
-        return RollerLink(self.spec.pitch, roller.diameter, self.contact_length, self.spec.plate.thickness) if roller else None
+        if roller is None:
+            return None
+        inner = roller.inner_width or self.contact_length
+        link = design_roller_link(self.spec.pitch, self.roller_diameter, inner, self.sheet, self.spec.plate.back)
+        return link if roller.inner_width is None else link._replace(inner_plate=max(0.5 * (self.contact_length - inner), 0.0))
 
     @property
     def bore(self) -> float:
@@ -139,24 +174,44 @@ class ChainModel:
     @property
     def contact_length(self) -> float:
         """Length along which the pins touch, or of a roller chain's bushes [m]."""
-        given, plate = self.spec.joint.contact_length, self.spec.plate
+        given = self.spec.joint.contact_length
         if given is not None:
             return given
-        return BUSH * self.spec.pitch if self.spec.roller else sum(plate.lacing) * plate.thickness
+        return BUSH * self.spec.pitch if self.spec.roller else sum(self.spec.plate.lacing) * self.sheet
 
     @property
     def chain_width(self) -> float:
-        """Width of the pack of plates [m]; of a roller chain over its four rows of plates."""
-        plate = self.spec.plate
-        return self.roller_link.width if self.roller_link else sum(plate.lacing) * plate.thickness
+        """Width over all rows [m]."""
+        return self.row_width + (self.rows - 1) * self.row_pitch
+
+    @property
+    def row_width(self) -> float:
+        """Width of the pack of plates of a row [m]; of a roller chain over its four plates."""
+        return self.roller_link.width if self.roller_link else sum(self.spec.plate.lacing) * self.sheet
+
+    @property
+    def row_pitch(self) -> float:
+        """Distance of the rows' middle planes [m]."""
+        return self.spec.row_pitch or self.row_width
+
+    @property
+    def roller_diameter(self) -> float:
+        """Diameter of the rollers, which the spec has to state [m]."""
+        assert self.spec.roller is not None and self.spec.roller.diameter is not None
+        return self.spec.roller.diameter
 
 
 def build(spec: SilentChainSpec) -> ChainModel:
     """The `ChainModel` of a spec."""
+    return _sized_model(sized(spec), (*size_findings(spec),))
+
+
+def _sized_model(spec: SizedSpec, findings: tuple[str, ...]) -> ChainModel:
     refuse_contradictions(spec)
+    findings += tuple(unused(spec))
     radius = 0.0 if spec.joint.kind == "revolute" or spec.joint.rolling_radius is None else spec.joint.rolling_radius
     if spec.roller:
-        return ChainModel(spec, design_link(spec.pitch, 0.0, spec.plate.flank_angle, 0.0), findings=tuple(unused(spec)))
+        return ChainModel(spec, design_link(spec.pitch, 0.0, spec.plate.flank_angle, 0.0), findings=findings)
     offset = offset_of(spec, radius)
     angle = spec.plate.flank_angle
     apothem: Numbers | None = spec.plate.apothem
@@ -168,10 +223,10 @@ def build(spec: SilentChainSpec) -> ChainModel:
     cutter = cutter if spec.cutter.pitch is None else cutter._replace(pitch=spec.cutter.pitch)
     sides = tuple(published_sprocket(spec.pitch, radius, offset, standard, angle, cutter, z, spec.meshing.ideal) for z in spec.teeth)
     link = design_link(spec.pitch, radius, angle, apothem)  # pyright: ignore[reportArgumentType]  arrays, of many designs
-    return ChainModel(spec, link, offset, standard, cutter, sides, tuple(unused(spec)))
+    return ChainModel(spec, link, offset, standard, cutter, sides, findings)
 
 
-def offset_of(spec: SilentChainSpec, radius: Numbers) -> Numbers:
+def offset_of(spec: SizedSpec, radius: Numbers) -> Numbers:
     """Offset of the pins [m], as given or by its rule."""
     given = spec.joint.offset
     return meshing.offset_by_rule(given, spec.pitch, radius, *spec.teeth, spec.meshing.ideal) if isinstance(given, str) else given

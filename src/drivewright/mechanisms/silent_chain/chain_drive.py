@@ -18,8 +18,9 @@ from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 def chain_drive(model: ChainModel) -> ChainDrive:
     """The `ChainDrive` for any solver of its motion."""
     spec = model.spec
-    damping = spec.contact.joint_damping * spec.contact.stiffness if spec.contact.damping is None else spec.contact.damping
-    touch = ChainContact(spec.contact.stiffness, damping, spec.contact.law)
+    given, stiffness = spec.contact.damping, model.contact_stiffness
+    damping = spec.contact.joint_damping * stiffness if given is None else model.rows * given
+    touch = ChainContact(stiffness, damping, spec.contact.law)
     driven = [_driven(model, touch), *(_further(model, each, touch) for each in spec.sprockets)]
     guides = tuple(_guide(model, each, touch) for each in spec.guides)
     return ChainDrive(_chain(model), (_driver(model, touch), *driven), guides, model.drive.gravity)
@@ -43,7 +44,7 @@ def _chain(model: ChainModel) -> Chain:
         spec.links,
         mass.mass,
         mass.inertia,
-        masses.joint_stiffness(spec.contact.stiffness),
+        masses.joint_stiffness(model.contact_stiffness),
         spec.contact.joint_damping,
         centre_offset=mass.height,
         toe=toe,
@@ -62,7 +63,7 @@ def _driven(model: ChainModel, touch: ChainContact) -> Sprocket:
     """On its slide or fixed; its load resists changes of speed about the nominal one."""
     given, drive, teeth = model.spec.driven, model.drive, model.teeth[1]
     disc, fixed, ratio = _disc(model, given, teeth), given.centre_distance, given.damping_ratio
-    stiffness = masses.strands_stiffness(masses.joint_stiffness(model.spec.contact.stiffness), model.closure.free_plates)
+    stiffness = masses.strands_stiffness(masses.joint_stiffness(model.contact_stiffness), model.closure.free_plates)
     slide = None if fixed else Slide(0.0, drive.preload, damping=masses.strand_damping(ratio, stiffness, disc.mass))
     turning = 0.0 if drive.ramp else masses.strand_damping(ratio, stiffness, disc.inertia, _pitch_radius(model, teeth))
     return Sprocket(

@@ -16,7 +16,7 @@ AROUND = 4  # links on either side of the design's
 
 def trade_off(model: ChainModel, done: Answers) -> Answer:
     """Fluctuation, deviation of the published measure and contact pressure over the rolling radius."""
-    radii, material, force = _radii(model), model.spec.material, model.pin_force
+    radii, material, force = _radii(model), model.spec.material, model.row_force
     links, driven = model.spec.links, model.teeth[1]
     mean, fluctuation, ripple = closure_numbers([_drive(model, r, links, driven) for r in radii]).T
     hinged = closure_numbers([_drive(model, 0.0, links, driven)])[0, 0]
@@ -37,7 +37,7 @@ def phases(model: ChainModel, done: Answers) -> Answer:
     """Fluctuation over the number of links, for rolling radii and tooth numbers."""
     given, spec = model.spec.compare, model.spec
     links = given.links or range(max(spec.links - AROUND, max(model.teeth) + 2), spec.links + AROUND + 1)
-    radii = [0.0] if spec.joint.kind == "revolute" else given.rolling_radii or (0.0, model.link.radius, 0.78 * spec.pitch)
+    radii = [0.0] if model.joint_kind == "revolute" else given.rolling_radii or (0.0, model.link.radius, 0.78 * spec.pitch)
     drives = [_drive(model, r, n, z) for z in given.driven_teeth or (model.teeth[1],) for r in radii for n in links]
     numbers = closure_numbers(drives)
     table, fluctuation = phase_map_table(drives, numbers), numbers[:, 1]

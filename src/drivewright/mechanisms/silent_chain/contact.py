@@ -1,6 +1,6 @@
 """Pins on each other under the force of a strand: pressure, shear below the surface, shakedown, bending; and the strand's forces."""
 
-from drivewright.chains.standards import articulation_pressure
+from drivewright.chains.standards import articulation_pressure, tensile_safety
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import ChainModel
@@ -13,11 +13,14 @@ def contact(model: ChainModel, done: Answers) -> Answer:
     rough = model.plate_refusal and not model.spec.roller and not (given.link_mass and given.link_inertia)
     findings = [f"the mass of a link is estimated from the pitch: {model.plate_refusal}"] if rough else []
     values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
-    pressure_values, pressure_checks = (_rolling if model.link.radius else _hinge)(model, force)
+    strength, strong = _strength(model)
+    values |= strength
+    checks += strong
+    pressure_values, pressure_checks = (_rolling if model.link.radius else _hinge)(model, model.row_force)
     values |= pressure_values
     checks += pressure_checks
     try:
-        bent, safe = _bending(model, force)
+        bent, safe = _bending(model, model.row_force)
     except InputError as reason:
         findings.append(f"bending of the pins is left out: {reason}")
     else:
@@ -41,6 +44,24 @@ def _strands(model):
     }
 
 
+def _strength(model):
+    """The breaking load, where it is known, over the forces of the strands, the centrifugal one included."""
+    load, drive = model.spec.breaking_load, model.spec.drive
+    if load is None:
+        return {}, ()
+    safety = tensile_safety(load, model.strands.tension if drive else model.pin_force)
+    values = {
+        "chain.breaking_load": Value(load, "N", "minimum tensile strength of the chain, all rows together"),
+        "chain.static_safety": Value(safety, "-", "breaking load over the force of the tight strand, the centrifugal one included"),
+    }
+    if drive:
+        mean = 0.5 * (model.strands.tight + model.strands.slack) + model.strands.centrifugal
+        meaning = "mean static safety: breaking load over the mean of tight and slack strand, the centrifugal force included"
+        values["chain.mean_static_safety"] = Value(tensile_safety(load, mean), "-", meaning)
+    message = "static safety factor: breaking load over the force of the tight strand; makers ask for 6 or more against fatigue"
+    return values, (Check("chain.static_safety", safety, model.spec.limits.static_safety, ">=", "-", message, ("chain",)),)
+
+
 def _rolling(model, force):
     material = model.spec.material
     line = rolling.rolling_contact(force, model.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
@@ -59,7 +80,7 @@ def _rolling(model, force):
 
 def _hinge(model, force):
     """Mean pressure of a plate's hole, or of the bush, on the one pin."""
-    length = model.contact_length if model.spec.roller else min(model.spec.plate.lacing) * model.spec.plate.thickness
+    length = model.contact_length if model.spec.roller else min(model.spec.plate.lacing) * model.sheet
     pressure = articulation_pressure(force, 2 * model.pins.radius, length)
     return {
         "pin.bearing_pressure": Value(pressure, "Pa", "force over diameter and length of the pin in the bush, or in the fewer plates")
@@ -68,10 +89,10 @@ def _hinge(model, force):
 
 def _bending(model, force):
     """The pin as a beam across the pack of plates."""
-    sheet, rolls = model.spec.plate.thickness, bool(model.link.radius)
+    sheet, rolls, link = model.sheet, bool(model.link.radius), model.roller_link
     model.pins.check(model.link)
-    if model.spec.roller:
-        load = pins.roller_pin_load(sheet, model.contact_length, force)
+    if link:
+        load = pins.roller_pin_load(sheet, model.contact_length, force, link.bush_gap(model.contact_length))
     else:
         load = pins.laced_pin_load(model.spec.plate.lacing, sheet, force, rolls)
     stress = pins.bent_pin(model.pins.pin(model.link), load, rolls)

@@ -37,7 +37,7 @@ def batch(spec: SilentChainSpec, keys: Sequence[str], names: Sequence[str]) -> C
 
     A design that the spec refuses, or for which one of the values asked for does not exist, is nan in every name.
     """
-    if spec.roller or not set(keys) <= set(KEYS) or (spec.drive is None and any(key.startswith("drive.") for key in keys)):
+    if spec.meshes_rollers or not set(keys) <= set(KEYS) or (spec.drive is None and any(key.startswith("drive.") for key in keys)):
         return None
     return evaluator(spec, keys, names, _quantities, partial(_possible, spec))
 
@@ -56,7 +56,7 @@ def _quantities(spec):
         values = measures(model)
         for number, side in enumerate(SIDES):
             values |= seated_measures(model, side, number) | dict(side_measures(model, side, number))
-        return {name: np.asarray(measure.number) for name, measure in values.items()} | _pair(spec) | dict(_margins(model))
+        return {name: np.asarray(measure.number) for name, measure in values.items()} | _pair(model.spec) | dict(_margins(model))
 
 
 def _pair(spec):

@@ -41,7 +41,7 @@ def _plate(model):
     values = {
         "plate.area": Value(plate.moments.area, "m^2", "of a plate, holes taken out"),
         "plate.mass_per_pitch": Value(
-            mass_per_pitch(plate, model.spec.plate.lacing, density, model.chain_width),
+            mass_per_pitch(plate, model.spec.plate.lacing, density, model.row_width),
             "kg",
             "plates and pins of a pitch, from their outlines",
         ),

@@ -48,7 +48,7 @@ def side_measures(model: ChainModel, side: str, number: int) -> Iterator[tuple[s
         Measure(standards.speed_fluctuation(teeth), "-", f"of a hinged chain on the {words}: greatest less least speed, over the mean"),
     )
     if model.spec.roller:
-        over = standards.over_pins(pitch, teeth, model.spec.roller.diameter)
+        over = standards.over_pins(pitch, teeth, model.roller_diameter)
         yield f"over_pins.{side}", Measure(over, "m", f"distance over two measuring pins as thick as the rollers, {words}")
 
 

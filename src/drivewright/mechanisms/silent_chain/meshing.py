@@ -80,7 +80,7 @@ def seated_measures(model: ChainModel, side: str, number: int) -> dict[str, Meas
 
 def offset_checks(model: ChainModel) -> Iterator[Check]:
     """The offset against the rolling radius; an array where the spec's numbers are."""
-    if model.spec.joint.kind != "revolute":
+    if model.joint_kind != "revolute":
         message = "offset over rolling radius: beyond 1 the published growth of the pitch has no end"
         ratio = np.abs(model.offset) / model.link.radius
         yield Check("offset", ratio, 1.0, "<=", "-", message, ("chain",))  # pyright: ignore[reportArgumentType]  arrays, of many designs

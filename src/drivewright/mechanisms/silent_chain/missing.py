@@ -11,7 +11,7 @@ from drivewright.result import Answer, Answers
 
 def no_meshing(spec: SilentChainSpec) -> str | None:
     """Why there are no measures of the published method."""
-    return "the published method is for chains whose plates mesh, not for rollers" if spec.roller else None
+    return "the published method is for chains whose plates mesh, not for rollers" if spec.meshes_rollers else None
 
 
 def no_closure(spec: SilentChainSpec) -> str | None:
@@ -31,7 +31,7 @@ def no_contact(spec: SilentChainSpec) -> str | None:
 
 def no_trade_off(spec: SilentChainSpec) -> str | None:
     """Why there is no trade-off over the rolling radius."""
-    if spec.joint.kind == "revolute":
+    if _hinged(spec):
         return "a revolute joint has no rolling radius to compare"
     return no_phase_map(spec) or no_contact(spec)
 
@@ -43,14 +43,18 @@ def no_dynamics(spec: SilentChainSpec) -> str | None:
 
 def no_stress(spec: SilentChainSpec) -> str | None:
     """Why there is no stress of the plates."""
-    return "it is for plates of silent chains" if spec.roller else no_phase_map(spec) or no_dynamics(spec)
+    return "it is for plates of silent chains" if spec.meshes_rollers else no_phase_map(spec) or no_dynamics(spec)
 
 
 def no_solid_stress(spec: SilentChainSpec) -> str | None:
     """Why there is no contact of plate and pins as solids."""
-    if spec.joint.kind == "revolute":
+    if _hinged(spec):
         return "it is for joints whose two pins roll on each other"
     return no_stress(spec)
+
+
+def _hinged(spec: SilentChainSpec) -> bool:
+    return (spec.joint.kind or ("revolute" if spec.chain else "")) == "revolute"
 
 
 def unless_impossible(answer: Callable[[ChainModel, Answers], Answer]) -> Callable[[ChainModel, Answers], Answer]:

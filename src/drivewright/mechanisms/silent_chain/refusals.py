@@ -5,12 +5,14 @@ from collections.abc import Iterator
 import numpy as np
 
 from drivewright.errors import SpecError
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.mechanisms.silent_chain.sizing import SizedSpec
+from drivewright.mechanisms.silent_chain.spec import Plate
 
+USUAL = Plate()
 FLATTEST = 1e9  # largest rolling radius over the pitch, which rounding would lose beside a larger one
 
 
-def refuse_contradictions(spec: SilentChainSpec) -> None:
+def refuse_contradictions(spec: SizedSpec) -> None:
     """SpecError for the first two keys that contradict each other, or one that lacks another."""
     joint, plate = spec.joint, spec.plate
     if joint.kind != "revolute" and joint.rolling_radius is None:
@@ -23,10 +25,11 @@ def refuse_contradictions(spec: SilentChainSpec) -> None:
                 "a tensioner needs both force and direction; give both, or neither for a fixed rail", f"guides.{guide.name}.force"
             )
     if spec.roller is not None:
-        if joint.kind != "revolute":
-            raise SpecError(
-                f'rollers turn on one pin, but kind is {joint.kind!r}; take kind = "revolute", or leave [roller] out', "joint.kind"
-            )
+        kind = joint.kind or "round-pin"
+        if kind != "revolute":
+            raise SpecError(f'rollers turn on one pin, but kind is {kind!r}; take kind = "revolute", or leave [roller] out', "joint.kind")
+        if spec.roller.diameter is None:
+            raise SpecError('is missing; give it, or the number of the chain, e.g. chain = "08B"', "roller.diameter")
         if spec.roller.diameter >= spec.pitch:
             raise SpecError("rollers as large as the pitch overlap; take a smaller one", "roller.diameter")
         return
@@ -35,13 +38,13 @@ def refuse_contradictions(spec: SilentChainSpec) -> None:
         raise SpecError(f"give one of apothem (from the hole) and standard_apothem (from the pitch line); {how} given", "plate.apothem")
 
 
-def unused(spec: SilentChainSpec) -> Iterator[str]:
+def unused(spec: SizedSpec) -> Iterator[str]:
     """Findings for keys that have no effect here."""
     for guide in spec.guides:
         if guide.force is None and {"stiffness", "damping"} & guide.model_fields_set:
             yield f"guides.{guide.name}: stiffness and damping have no effect on a rail that does not move; give force and direction"
     if spec.roller:
-        given = [key for key in ("apothem", "standard_apothem", "flank_angle") if key in spec.plate.model_fields_set]
+        given = [key for key in ("apothem", "standard_apothem", "flank_angle") if np.any(getattr(spec.plate, key) != getattr(USUAL, key))]
         if given:
             yield f"plate.{', plate.'.join(given)} {'has' if len(given) == 1 else 'have'} no effect: rollers mesh, not plates"
     if spec.joint.kind == "revolute" and spec.joint.rolling_radius is not None:

@@ -5,11 +5,12 @@ from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 from pydantic import model_validator
 
 from drivewright.chains.meshing import Ideal
-from drivewright.errors import SpecError
+from drivewright.chains.sizes import ChainSize, chain_size
+from drivewright.errors import InputError, SpecError
 from drivewright.fatigue.material import StrainLife
 from drivewright.plugins import installed
 from drivewright.spec import Integer, MechanismSpec, Name, Number, Spec
-from drivewright.spec.fields import Field
+from drivewright.spec.fields import Designation, Field
 from drivewright.spec.length_or_rule import length_or_rule
 from drivewright.units import Acceleration, Angle, Damping, Density, Force, Inertia, Length, Mass, Pressure, Speed, Stiffness, Time, Torque
 
@@ -29,10 +30,11 @@ Offset = Annotated[float | str, length_or_rule("match-drive", "minimax")]
 class Joint(Spec):
     """What joins two plates."""
 
-    kind: Literal["round-pin", "arc", "revolute"] = Field(
-        "round-pin",
+    kind: Literal["round-pin", "arc", "revolute"] | None = Field(
+        None,
         description="round-pin: two round pins that roll on each other; arc: rockers of a larger radius (classical Hy-Vo); "
-        "revolute: one pin, a hinge",
+        "revolute: one pin, a hinge; round-pin unless given, revolute of a chain by number",
+        examples=["round-pin"],
     )
     rolling_radius: Length | None = Field(None, gt=0, description="of the rolling surfaces; not for a revolute joint", examples=["1.2 mm"])
     offset: Offset = Field(
@@ -42,7 +44,8 @@ class Joint(Spec):
     contact_length: Length | None = Field(
         None,
         gt=0,
-        description="length along which the pins touch, or of a roller chain's bushes; the width of the pack of plates unless given",
+        description="length along which the pins touch, or of a roller chain's bushes, of one row; the width of the pack of plates "
+        "unless given",
         examples=["6 mm"],
     )
     pin_diameter: Length | None = Field(
@@ -60,7 +63,7 @@ class Plate(Spec):
     standard_apothem: Length | None = Field(
         None, gt=0, description="rotation centre on the pitch line to flank, instead of apothem", examples=["3.773 mm"]
     )
-    thickness: Length = Field("2 mm", gt=0, description="of a plate")
+    thickness: Length | None = Field(None, gt=0, description="of a plate; 2 mm unless given", examples=["2 mm"])
     lacing: tuple[Integer, Integer] = Field((1, 2), description="plates side by side in one pitch and in the next")
     back: Length | None = Field(
         None, gt=0, description="height of the back above the pin line; 0.27 pitches unless given", examples=["2.6 mm"]
@@ -84,7 +87,10 @@ class Plate(Spec):
 class Roller(Spec):
     """Rollers on the pins: the chain is a roller chain, its sprockets have arcs for teeth."""
 
-    diameter: Length = Field(gt=0, description="of the rollers", examples=["6.35 mm"])
+    diameter: Length | None = Field(None, gt=0, description="of the rollers; by the chain's number unless given", examples=["6.35 mm"])
+    inner_width: Length | None = Field(
+        None, gt=0, description="between the inner plates; the length of the bushes unless given", examples=["5.72 mm"]
+    )
     tooth_space: Number = Field(0.5, ge=0, le=1, description="form of the sprockets' spaces between the smallest (0) and the largest (1)")
 
 
@@ -297,6 +303,7 @@ class Limits(Spec):
     yield_safety: Number = Field(1.0, gt=0, description="yield strength over von Mises stress of pins and plates")
     wall: Length = Field("0.5 mm", ge=0, description="least width of a plate around and between its holes")
     tip_thickness: Length = Field("0.3 mm", ge=0, description="of the teeth at their tips")
+    static_safety: Number = Field(6.0, gt=0, description="breaking load over the force of the tight strand, at least")
     overlap: Length = Field("5 um", ge=0, description="of plates with teeth, seated or coming in")
 
 
@@ -314,10 +321,23 @@ class SilentChainSpec(MechanismSpec):
     """A chain drive."""
 
     mechanism: Literal["silent-chain"] = Field("silent-chain", description="kind of drive")
-    pitch: Length = Field(gt=0, description="of the straight chain", examples=["9.525 mm"])
+    chain: Designation | None = Field(
+        None,
+        description="number of a roller chain, e.g. 08B, 16B-2 or ANSI 40: gives pitch, roller, pin, plate, mass and breaking load that "
+        "are not given",
+        examples=["08B"],
+    )
+    pitch: Length | None = Field(None, gt=0, description="of the straight chain; by the chain's number unless given", examples=["9.525 mm"])
     links: Integer = Field(ge=6, le=2000, description="number of pitches", examples=[82])
     teeth: tuple[Integer, Integer] = Field(description="of the driving and of the driven sprocket", examples=[[35, 37]])
-    joint: Joint = Field(description="joint")
+    rows: Integer | None = Field(None, ge=1, le=8, description="strands side by side on common pins; 1 unless given", examples=[2])
+    row_pitch: Length | None = Field(
+        None, gt=0, description="distance of the rows' middle planes; the width of one unless given", examples=["13.92 mm"]
+    )
+    breaking_load: Force | None = Field(
+        None, gt=0, description="minimum tensile strength of the chain, all rows together", examples=["17.8 kN"]
+    )
+    joint: Joint = Field(Joint(), description="joint")
     plate: Plate = Field(Plate(), description="plate")
     roller: Roller | None = Field(None, description="rollers; without them the plates mesh")
     cutter: Cutter = Field(Cutter(), description="cutter")
@@ -336,6 +356,11 @@ class SilentChainSpec(MechanismSpec):
     solid: Solid = Field(Solid(), description="plate and pins as solids")
     limits: Limits = Field(Limits(), description="requirements")
 
+    @property
+    def meshes_rollers(self) -> bool:
+        """Whether it is a roller chain: by its table, or by its number."""
+        return self.roller is not None or self.chain is not None
+
     @model_validator(mode="after")
     def _has_a_meaning(self):
         _refuse_nonsense(self)
@@ -344,6 +369,9 @@ class SilentChainSpec(MechanismSpec):
 
 def _refuse_nonsense(spec: SilentChainSpec) -> None:
     """SpecError for the first thing that has no meaning."""
+    if spec.pitch is None and spec.chain is None:
+        raise SpecError('is missing; give it, or the number of a roller chain, e.g. chain = "08B"', "pitch")
+    size_of(spec)
     for number, teeth in enumerate(spec.teeth):
         if teeth < LEAST_TEETH:
             raise SpecError(f"{teeth} teeth are too few for a sprocket; take {LEAST_TEETH} or more", f"teeth.{number}")
@@ -360,3 +388,11 @@ def _refuse_nonsense(spec: SilentChainSpec) -> None:
                 raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{name}.name")
     if min(spec.plate.lacing) < 1:
         raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; count one or more in each", "plate.lacing")
+
+
+def size_of(spec: SilentChainSpec) -> ChainSize | None:
+    """What the number of the chain says; None where there is none, SpecError where it is unknown."""
+    try:
+        return None if spec.chain is None else chain_size(spec.chain)
+    except InputError as error:
+        raise SpecError(str(error), "chain") from None

@@ -82,7 +82,7 @@ def card_of(model: ChainModel) -> StrainLife:
 def plate_revolution(model: ChainModel, motion: Motion) -> PlateRevolution:
     """Of the link with fewer plates, which carry the most."""
     on_drive, on_driven = (model.plate.contact(side.tooth, "right")[1] for side in model.sides)
-    return PlateRevolution(motion, min(model.spec.plate.lacing), (on_drive, on_driven), 0.5 * model.closure.mean)
+    return PlateRevolution(motion, model.rows * min(model.spec.plate.lacing), (on_drive, on_driven), 0.5 * model.closure.mean)
 
 
 def plane_basis(model: ChainModel) -> Basis:
