@@ -24,6 +24,7 @@ _CORNER = 1e-9  # a turn [rad], or a step relative to the radius, below this is 
 class CircleFamily:
     """A roller or cutter of `radius` whose centre runs once along the closed `path` (Pieces of complex jets).
 
+    Pieces of one `loop` follow one another; loops with other numbers are the paths of further cutters of the same part.
     `material` is "inside" when the part lies within the ring that the circle sweeps (disc cam, inner flank of a groove) and
     "outside" when it surrounds it (outer ring, outer flank).  `both` takes the envelope on both sides of the path, which bounds the
     part where the path turns back in loops (the pins of a wheel in its dwell); the second side is a loop of its own that runs backwards.
@@ -54,7 +55,8 @@ class CircleFamily:
         """
         t = np.concatenate([np.linspace(piece.start, piece.stop, 65) for piece in self.path])
         points = gather(self.path, np.repeat(np.arange(len(self.path)), 65), t).d0
-        step = np.conj(points) * np.roll(points, -1)
+        loops = np.split(points, 65 * self._first[1:])
+        step: Complexes = np.concatenate([np.conj(loop) * np.roll(loop, -1) for loop in loops])
         turns = np.round(np.sum(np.angle(step)) / (2 * np.pi))
         turn = np.sign(turns if turns else np.sum(step.imag))
         return turn if self.material == "inside" else -turn
@@ -63,7 +65,11 @@ class CircleFamily:
         """Pieces of the envelope in the order of the motion, an arc put in wherever the path has a corner."""
         if not self.both:
             return tuple(self._envelope(self.side))
-        other = [replace(piece, start=piece.stop, stop=piece.start, loop=1) for piece in reversed(list(self._envelope(-self.side)))]
+        loops = len(self._first)
+        other = [
+            replace(piece, start=piece.stop, stop=piece.start, loop=loops + piece.loop)
+            for piece in reversed(list(self._envelope(-self.side)))
+        ]
         return (*self._envelope(self.side), *other)
 
     def _envelope(self, side):
@@ -72,7 +78,7 @@ class CircleFamily:
             formula, numbers = (piece.at.formula, piece.at.numbers) if isinstance(piece.at, Member) else (piece.at, ())
             if number not in self._shrunk[side]:
                 branch = Member(self._branches[formula], (side, *numbers))
-                yield Piece(piece.start, piece.stop, branch, piece.label, piece.shape, number)
+                yield Piece(piece.start, piece.stop, branch, piece.label, piece.shape, number, piece.loop)
             yield from self._corner(piece, stops[number], starts[number], side)
 
     @cached_property
@@ -82,11 +88,18 @@ class CircleFamily:
         return {formula: partial(_branch, formula, self.radius) for formula in formulas}
 
     @cached_property
+    def _first(self):
+        """Number of the first piece of each loop of the path."""
+        loops = np.array([piece.loop for piece in self.path])
+        return np.flatnonzero(np.diff(loops, prepend=loops[0] - 1))
+
+    @cached_property
     def _ends(self):
-        """Jets at the stop of each piece, and at the start of the piece after it."""
+        """Jets at the stop of each piece, and at the start of the piece after it in its loop."""
         numbers = np.arange(len(self.path))
         stops, starts = (np.array([getattr(piece, end) for piece in self.path], float) for end in ("stop", "start"))
-        return gather(self.path, numbers, stops), gather(self.path, np.roll(numbers, -1), np.roll(starts, -1))
+        after = np.concatenate([np.roll(loop, -1) for loop in np.split(numbers, self._first[1:])])
+        return gather(self.path, numbers, stops), gather(self.path, after, starts[after])
 
     @cached_property
     def _shrunk(self):
@@ -105,7 +118,7 @@ class CircleFamily:
         if self.both and np.pi - abs(turn) < _BACK:  # the left side goes round in front of the tip, the right one, covered, behind it
             turn -= 2 * np.pi * (turn > 0)
         arm = side * self.radius * 1j * before.d1 / abs(before.d1)
-        yield Piece(0.0, turn, Member(_around, (before.d0, arm)), f"{piece.label} corner", "arc")
+        yield Piece(0.0, turn, Member(_around, (before.d0, arm)), f"{piece.label} corner", "arc", loop=piece.loop)
 
     def members(self, index: Ints, t: Floats) -> Complexes:
         """The centres at parameters t of the pieces `index`."""

@@ -8,23 +8,22 @@ from drivewright._typing import Bools, Complexes, Floats
 from drivewright.curves import Trimmed
 from drivewright.curves.pieces import gather
 from drivewright.indexing.contacts import CamContacts
-from drivewright.indexing.motion import TURN
 from drivewright.indexing.plane import PinDrive, PlaneDrive, contacts_at
 from drivewright.result import Array, Column, Table
 
 
-def profile_table(trimmed: Trimmed, name: str, chords: int = 24) -> Table:
+def profile_table(drive: PlaneDrive, name: str, chords: int = 24) -> Table:
     """Points along the profile with the input angle and the pin that cuts them; curvature positive where the cam is convex."""
-    t, points, curvature = _along_spans(trimmed, chords)
+    t, points, curvature = _along_spans(drive.profile, chords)
     x, y = points.real, points.imag
-    turns = np.floor(np.clip(t, 0, None) / TURN * (1 - 1e-12))
+    angle, pin = drive.pin_that_cuts(t)
     way = np.sign(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
     return Table(
         name,
         "Trimmed profile of the cam",
         (
-            Column("angle", "rad", "input angle at which a pin touches here", t - TURN * turns),
-            Column("pin", "-", "the pin", turns),
+            Column("angle", "rad", "input angle at which a pin touches here", angle),
+            Column("pin", "-", "the pin", pin),
             Column("x", "m", "from the cam's centre", x),
             Column("y", "m", "from the cam's centre", y),
             Column("curvature", "1/m", "of the profile, positive where the cam is convex", way * curvature),

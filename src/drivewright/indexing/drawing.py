@@ -58,11 +58,12 @@ def edge_radius(drive: PlaneDrive, outline: Outline) -> float:
     return float(np.max(np.hypot(*outline.points(1e-6).T))) + 2 * drive.pin_radius
 
 
-def pin_centre_curve(drive: PlaneDrive, steps: int = 120) -> Floats:
-    """Closed curve (n, 2) [m] of the pins' centres, seen from the cam."""
+def pin_centre_curves(drive: PlaneDrive, steps: int = 120) -> tuple[Floats, ...]:
+    """Closed curves (n, 2) [m] of the pins' centres, seen from the cam: one for each pin that a step passes."""
     theta = np.linspace(0, TURN, steps, endpoint=False)
-    points = drive.pin_paths(theta).d0.T.ravel()
-    return np.stack([np.real(points), np.imag(points)], axis=1)
+    paths, kinds = drive.pin_paths(theta).d0.T, drive.pins_passed
+    curves = (paths[kind::kinds].ravel() for kind in range(kinds))
+    return tuple(np.stack([np.real(points), np.imag(points)], axis=1) for points in curves)
 
 
 def normal_bodies(drive: PlaneDrive, angle: Floats) -> Iterator[Body]:

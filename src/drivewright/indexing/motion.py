@@ -8,17 +8,19 @@ import numpy as np
 
 from drivewright._typing import ArrayLike, Ints, Numbers
 from drivewright.errors import InputError
-from drivewright.motion import MotionLaw, law
+from drivewright.motion import MotionLaw, TableLaw, law
 from drivewright.numerics.jets import Jet
 from drivewright.result import Column, Table
 
 TURN = 2 * np.pi
+ROWS = 1e-6  # of the step, by which rows with few digits may miss it
+JOINT = 1e-9  # of a derivative's size: a smaller jump is rounding
 NO_DWELL: Literal["no-dwell"] = "no-dwell"
 
 
 @dataclass(frozen=True)
 class MotionSegment:
-    """A smooth segment of one turn of the input, angles [rad]; `law_piece` is its piece of the law, None in the dwell."""
+    """A smooth segment of one turn of the input, angles [rad]; `law_piece` is its first piece of the law, None in the dwell."""
 
     start: float
     stop: float
@@ -44,18 +46,37 @@ class IndexMotion:
     @cached_property
     def segments(self) -> tuple[MotionSegment, ...]:
         """Smooth segments of one turn, the dwell last."""
-        ends = self.motion_angle * np.asarray(self.law.breaks)
-        moving = tuple(MotionSegment(float(a), float(b), k) for k, (a, b) in enumerate(zip(ends[:-1], ends[1:], strict=True)))
+        first = self._first_pieces
+        ends = self.motion_angle * np.asarray(self.law.breaks)[first]
+        moving = tuple(MotionSegment(float(a), float(b), int(k)) for k, a, b in zip(first[:-1], ends[:-1], ends[1:], strict=True))
         return moving if self.motion_angle >= TURN else (*moving, MotionSegment(self.motion_angle, TURN, None))
+
+    @cached_property
+    def _first_pieces(self) -> Ints:
+        """Number of the law's first piece in each segment, and of all pieces: polynomials that meet without a jump up to the third
+        derivative, as the many of a spline of degree 5, are one segment."""
+        function, count = self.law.function, len(self.law.breaks) - 1
+        if function.amplitude.size:
+            return np.arange(count + 1)
+        sharp = np.zeros(count + 1, dtype=bool)
+        sharp[[0, -1]] = True
+        for order in range(4):
+            jumps = np.abs(function.jumps(order))
+            size = np.max(np.abs(function(0.5 * (self.law.breaks[1:] + self.law.breaks[:-1]))[order]))
+            sharp[1:-1] |= jumps[1:-1] > JOINT * size
+        return np.flatnonzero(sharp)
 
     def on_segment(self, number: int | Ints, theta: ArrayLike, turn: Numbers = 0) -> Jet:
         """Jet of phi [rad] by the input angle theta, counted in turn number `turn`, by the formula of a segment; one-sided at its ends.
 
         number: of the segment, or an array of them; the dwell comes after the pieces of the law.
         """
-        theta, last = np.asarray(theta, dtype=float), len(self.law.breaks) - 2
-        moving, piece = np.asarray(number) <= last, np.minimum(number, last)
-        u = np.clip(theta / self.motion_angle, self.law.breaks[piece], self.law.breaks[piece + 1])
+        theta, firsts = np.asarray(theta, dtype=float), self._first_pieces
+        last = len(firsts) - 2
+        moving, segment = np.asarray(number) <= last, np.minimum(number, last)
+        low, high = firsts[segment], firsts[segment + 1]
+        u = np.clip(theta / self.motion_angle, self.law.breaks[low], self.law.breaks[high])
+        piece = np.clip(np.searchsorted(self.law.breaks, u, side="right") - 1, low, high - 1)
         s, *rates = (np.asarray(part, dtype=float) for part in self.law.on_piece(piece, u))
         derivatives = (np.where(moving, self.pitch * d / self.motion_angle**k, 0.0) for k, d in enumerate(rates, start=1))
         return Jet(self.pitch * (turn + np.where(moving, s, 1.0)), *derivatives)
@@ -67,6 +88,20 @@ class IndexMotion:
         inside = theta - TURN * turn
         starts = np.array([segment.start for segment in self.segments])
         return self.on_segment(np.clip(np.searchsorted(starts, inside, side="right") - 1, 0, len(starts) - 1), inside, turn)
+
+
+def refuse_stations(pins: int, stations: int) -> None:
+    """InputError where the stations of a wheel do not divide its pins: after a step the pins must stand where others stood before it."""
+    if stations >= 1 and pins % stations == 0:
+        return
+    least = max(stations, 1)
+    fitting = [str(number) for number in (pins - pins % least, pins + -pins % least) if number >= 3]
+    dividing = ", ".join(str(number) for number in range(1, pins + 1) if pins % number == 0)
+    raise InputError(
+        f"stations = {stations} do not divide pins = {pins}: a step of {360 / least:.4g} deg would pass {pins / least:.4g} pins, and the "
+        "cam, which is the same after every turn, would meet no pin where one stood a step before. "
+        f"Take {' or '.join(fitting)} pins, or stations from {dividing}."
+    )
 
 
 def step_angle(name: str, motion_to_dwell: Numbers | Literal["no-dwell"]) -> Numbers:
@@ -92,6 +127,32 @@ def index_motion(name: str, divisions: int, motion_to_dwell: float | Literal["no
             f'Take a law from rest to rest, as "modified-sine", or motion_to_dwell = "{NO_DWELL}".'
         )
     return IndexMotion(found, divisions, float(step_angle(name, motion_to_dwell)))
+
+
+def index_motion_of_rows(rows: TableLaw, divisions: int) -> IndexMotion:
+    """IndexMotion through rows of input angle and wheel angle [rad]; the last row is the end of the step, its input angle the motion angle.
+
+    Raises InputError where the rows do not begin at 0, do not end at 2 pi/divisions, or take more than a turn of the input.
+    """
+    span, step = float(rows.span or 0.0), TURN / divisions
+    first, last = (float(rows(u).s) for u in (0.0, 1.0))
+    if rows.lift_unit == "m":
+        raise InputError("the lift in its table is a length; the wheel turns, so the column is the wheel's angle: lift [deg].")
+    if abs(first) > JOINT * step:
+        raise InputError(
+            f"the wheel's angle in its table starts at {np.degrees(first):.9g} deg; it is counted from the dwell, so start at 0."
+        )
+    if abs(last - step) > ROWS * step:
+        raise InputError(
+            f"the wheel's angle in its table ends at {np.degrees(last):.9g} deg, but a step of {divisions} stations is "
+            f"{np.degrees(step):.9g} deg. Scale the column, or change stations."
+        )
+    if span > TURN * (1 + JOINT):
+        raise InputError(
+            f"its table ends at an input angle of {np.degrees(span):.9g} deg; a step takes a turn of the input, 360 deg, at most."
+        )
+    law_of_step = MotionLaw(rows.name, rows.function.scaled(height=1 / last))
+    return IndexMotion(law_of_step, divisions, min(span, TURN))
 
 
 def motion_table(motion: IndexMotion, points: int = 721) -> Table:

@@ -2,8 +2,9 @@
 
 The cam's centre runs on a circle of radius e and the cam does not turn; the wheel turns by phi(theta).  Seen from the cam, the centre of
 pin k is p_k = R exp(i (phi + 2 pi k/N)) - e exp(i s theta); p_0 over N turns of the crank is one closed curve that all pins share.  With
-s = +1 it gives N - 1 lobes inside the pins, with s = -1 N + 1 around them.  In the dwell the curve turns back in small circles, so the
-profile is made of both sides of it.  Source: Liu Mingtao et al. 2017, derived anew.
+s = +1 it gives N - 1 lobes inside the pins, with s = -1 N + 1 around them; where a step passes m pins, m such curves give N - m or N + m.
+In the dwell the curve turns back in small circles, so the profile is made of both sides of it.  Source: Liu Mingtao et al. 2017, derived
+anew.
 """
 
 from collections.abc import Iterator
@@ -22,7 +23,8 @@ from drivewright.numerics.jets import Jet, constant, exp, variable
 class PinWheel(PlaneDrive):
     """Wheel of `pins` pins of `pin_radius` on `circle_radius`, cam on the eccentricity [m], and the wheel's motion over the crank.
 
-    side: "inside" the pins (N - 1 lobes), or "outside", around them (N + 1).
+    side: "inside" the pins (N - 1 lobes), or "outside", around them (N + 1).  pin_phase: place of pin 0 in the dwell before theta = 0, in
+    pitches of the pins ahead of the crank.
     """
 
     pins: int
@@ -31,6 +33,12 @@ class PinWheel(PlaneDrive):
     eccentricity: float
     motion: IndexMotion
     side: str = "inside"
+    pin_phase: float = 0.0
+
+    @property
+    def phase(self) -> float:
+        """Angle of pin 0 at theta = 0 [rad]."""
+        return self.pin_phase * self.pin_pitch
 
     @property
     def sense(self) -> float:
@@ -40,7 +48,7 @@ class PinWheel(PlaneDrive):
     @property
     def lobes(self) -> int:
         """Lobes of the cam."""
-        return self.pins - int(self.sense)
+        return self.pins - int(self.sense) * self.pins_passed
 
     def crank_vector(self, theta: ArrayLike) -> Jet:
         """Centre of the cam e exp(i s theta): complex jet by theta."""
@@ -91,8 +99,9 @@ def profile_findings(wheel: PinWheel) -> Iterator[str]:
     # speed of the crank's circle over that of the pins'
     ratio = wheel.eccentricity * wheel.motion.divisions / wheel.circle_radius
     if wheel.motion.law.name == "uniform" and ratio > 1:
+        steps = "pins" if wheel.pins_passed == 1 else "stations"
         yield (
-            f"eccentricity times pins over pin_circle_radius is {ratio:.4g}, above 1: the centre curve turns back in loops; parts of "
+            f"eccentricity times {steps} over pin_circle_radius is {ratio:.4g}, above 1: the centre curve turns back in loops; parts of "
             "the profile are cut away"
         )
 

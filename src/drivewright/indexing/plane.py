@@ -1,8 +1,9 @@
 """What all drives with plate cams share: pins on a wheel, seen from a cam that moves in the wheel's plane.
 
 The wheel turns about 0, the cam stands at p(theta) and has turned by w(theta).  Seen from the cam a pin's centre c is at
-(c - p) exp(-i w).  Pin 0 over as many turns of the input as the wheel has pins runs along one closed curve that all pins share, so the
-profile is the envelope of one circle on it, on both sides, trimmed by all of it.
+(c - p) exp(-i w).  Pin 0 over as many turns of the input as the wheel has stations runs along one closed curve.  Where a step passes one
+pin, all pins share it; where it passes m, pin j shares that of pin j - m, and there are m such curves.  The profile is the envelope of a
+circle on all of them, on both sides, trimmed by all of it.
 """
 
 from collections.abc import Callable, Iterator
@@ -17,7 +18,7 @@ from drivewright.curves import CircleFamily, Member, Piece, Trimmed, trim
 from drivewright.curves.touching import Nodes, Touches, nodes_of, touches
 from drivewright.errors import InputError, SolverError
 from drivewright.indexing.contacts import CamContacts
-from drivewright.indexing.motion import TURN, IndexMotion, MotionSegment
+from drivewright.indexing.motion import TURN, IndexMotion, MotionSegment, refuse_stations
 from drivewright.numerics.jets import Jet, exp
 
 PROFILE_TOLERANCE = 1e-6  # a point of contact nearer than this [m] to the profile is on it
@@ -52,7 +53,8 @@ class PlaneDrive:
     """One cam and the pins that it meets.
 
     A kind gives pins, circle_radius [m], pin_radius [m] and motion, and defines `pose` and `refuse`; `phase` [rad] is the angle of pin 0 at
-    theta = 0, `side` the side of the pins on which the cam lies, `levels` the drives whose cams differ.
+    theta = 0, `side` the side of the pins on which the cam lies, `levels` the drives whose cams differ.  The stations of the wheel, the
+    divisions of its motion, divide the pins.
     """
 
     pins: int
@@ -75,6 +77,16 @@ class PlaneDrive:
         raise NotImplementedError
 
     @property
+    def pin_pitch(self) -> float:
+        """Angle between neighbouring pins [rad]."""
+        return TURN / self.pins
+
+    @property
+    def pins_passed(self) -> int:
+        """Pins that pass the cam in a step of the wheel, and closed curves along which all of them run."""
+        return self.pins // self.motion.divisions
+
+    @property
     def levels(self) -> "tuple[PlaneDrive, ...]":
         """The drives of the wheel, one for each shape of cam; all of them hold it."""
         return (self,)
@@ -95,21 +107,37 @@ class PlaneDrive:
 
     @cached_property
     def family(self) -> CircleFamily:
-        """All circles that cut the cam: pin 0 over as many turns of the input as there are pins."""
+        """All circles that cut the cam: pins 0 .. pins_passed - 1 over as many turns of the input as the wheel has stations, one after
+        the other."""
         pieces = [
-            Piece(start, stop, Member(self._path, (float(number),)), f"step {turn}", _shape(segment))
+            Piece(begin, end, Member(self._path, (float(number), float(pin))), f"step {turn}", _shape(segment), loop=pin)
             for number, segment in enumerate(self.motion.segments)
-            for turn, start, stop in _between_cusps(partial(self._path, number), segment, self.pins)
+            for pin in range(self.pins_passed)
+            for turn, begin, end in _between_cusps(partial(self._path, number, pin), segment, self._turns_of(pin))
         ]
         pieces.sort(key=lambda piece: piece.start)
         return CircleFamily(tuple(pieces), self.pin_radius, self.side, both=True)
 
-    def _path(self, number: Numbers, theta: ArrayLike) -> Jet:
-        """Pin 0 seen from the cam, theta counted over all turns, by the formula of a segment's number or of an array of them."""
+    def _turns_of(self, pin: int) -> range:
+        """Turns of the input, counted over all pins that a step passes, in which that pin is followed."""
+        return range(pin * self.motion.divisions, (pin + 1) * self.motion.divisions)
+
+    def _path(self, number: Numbers, pin: Numbers, theta: ArrayLike) -> Jet:
+        """A pin seen from the cam, theta counted over all turns, by the formula of a segment's number; numbers and pins may be arrays."""
         theta, segment = np.asarray(theta, dtype=float), np.asarray(number).astype(int)
         turn = np.round((theta - self._middles[segment]) / TURN)
         phi = self.motion.on_segment(segment, theta - TURN * turn, turn)
-        return self.seen_from_cam(self.circle_radius * exp(1j * (phi + self.phase)), theta)
+        return self.seen_from_cam(self.circle_radius * exp(1j * (phi + (self.phase + self.pin_pitch * pin))), theta)
+
+    def pin_that_cuts(self, theta: ArrayLike) -> tuple[Floats, Floats]:
+        """(input angle [rad] in 0 .. 2 pi, number of the pin) of the family's parameter theta, which counts over all turns of all pins.
+
+        A pin that has gone on by a step counts as the next of its kind: where a step passes one pin, the number is that of the turn.
+        """
+        theta = np.asarray(theta, dtype=float)
+        turn = np.floor(np.clip(theta, 0, None) / TURN * (1 - 1e-12))
+        start, step = np.divmod(turn, self.motion.divisions)
+        return theta - TURN * turn, start + self.pins_passed * step
 
     @cached_property
     def _middles(self) -> Floats:
@@ -156,10 +184,10 @@ def _runs_around(profile: Trimmed, family: CircleFamily) -> bool:
 
 
 def _between_cusps(
-    at: Callable[[ArrayLike], Jet], segment: MotionSegment, turns: int, samples: int = 181
+    at: Callable[[ArrayLike], Jet], segment: MotionSegment, turns: range, samples: int = 181
 ) -> Iterator[tuple[int, float, float]]:
-    """(turn, start, stop) of a segment in every turn, parted where the path stands still and turns back, which is left out by a trifle."""
-    starts = TURN * np.arange(turns)
+    """(turn, start, stop) of a segment in each of `turns`, parted where the path stands still and turns back, left out by a trifle."""
+    starts = TURN * np.array(turns)
     t = starts[:, None] + np.linspace(segment.start, segment.stop, samples)
     speed = np.abs(np.broadcast_to(at(t).d1, t.shape))
     around = np.pad(speed, ((0, 0), (1, 1)), constant_values=np.inf)
@@ -172,12 +200,12 @@ def _between_cusps(
         if np.max(np.abs(place - before)) < _SETTLED:
             break
     cusp = np.abs(at(place).d1) < _AT_REST * np.max(speed) if len(place) else np.zeros(0, dtype=bool)
-    for turn in range(turns):
-        own = np.unique(np.round(place[cusp & (row == turn)], 12))
+    for k, turn in enumerate(turns):
+        own = np.unique(np.round(place[cusp & (row == k)], 12))
         ends = [
-            starts[turn] + segment.start,
+            starts[k] + segment.start,
             *(float(end) for spot in own for end in (spot - _CUSP_MARGIN, spot + _CUSP_MARGIN)),
-            starts[turn] + segment.stop,
+            starts[k] + segment.stop,
         ]
         yield from ((turn, float(a), float(b)) for a, b in zip(ends[::2], ends[1::2], strict=True) if b - a > 2 * _CUSP_MARGIN)
 
@@ -276,10 +304,11 @@ def _own_points(drive: PlaneDrive, touching: Touches, path: Jet) -> tuple[Comple
 
 
 def refuse_overlap(wheel: PlaneDrive) -> None:
-    """InputError for fewer than three pins, and for pins that overlap."""
+    """InputError for fewer than three pins, for pins that overlap, and for stations that do not divide them."""
     chord = 2 * wheel.circle_radius * np.sin(np.pi / wheel.pins)
     if wheel.pins < 3:
         raise InputError(f"pins = {wheel.pins}: a wheel needs at least 3 pins.")
+    refuse_stations(wheel.pins, wheel.motion.divisions)
     if 2 * wheel.pin_radius >= chord:
         raise InputError(
             f"pin_radius = {wheel.pin_radius * 1e3:.4g} mm: the pins overlap, their centres are {chord * 1e3:.4g} mm apart. "

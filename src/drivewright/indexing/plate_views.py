@@ -13,7 +13,7 @@ from drivewright.indexing.drawing import (
     edge_radius,
     normal_bodies,
     outer_radius,
-    pin_centre_curve,
+    pin_centre_curves,
     point_of,
     poses,
     profile_outline,
@@ -156,7 +156,7 @@ def _drawing_shapes(plates: PlateDrive, drive: PlaneDrive) -> Iterator[Shape]:
     if drive.side == "inside":
         yield Shape("base", circle((0, 0), float(np.min(np.hypot(*outline.points(1e-6).T)))), "least radius of the profile")
     if isinstance(plates.drive, PinWheel):
-        yield Shape("pitch", polygon(pin_centre_curve(drive)), "curve of the pin centres")
+        yield from (Shape("pitch", polygon(curve), "curve of the pin centres") for curve in pin_centre_curves(drive))
 
 
 def plate_parts(plates: PlateDrive) -> tuple[Part, ...]:

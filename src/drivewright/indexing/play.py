@@ -67,7 +67,7 @@ def _play_of_cam(drive: PlaneDrive, theta: Floats, direction: float) -> Floats:
     upright = np.exp(-1j * turn)
     free, foot_points, curvatures = np.empty(len(theta)), np.empty(CAPACITY, complex), np.empty(CAPACITY)
     centres, place = drive.pin_centres(theta).d0 * upright[:, None], place * upright
-    _free_rotations(drive.nodes, centres, place, drive.pin_radius, direction, drive.motion.pitch, free, foot_points, curvatures)
+    _free_rotations(drive.nodes, centres, place, drive.pin_radius, direction, drive.pin_pitch, free, foot_points, curvatures)
     return free
 
 

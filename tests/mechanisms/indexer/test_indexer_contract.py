@@ -201,7 +201,7 @@ def test_every_kind_tells_profile_motion_pressure_angle_and_stress(kind):
     ("change", "words"),
     [
         ("pins=2", "at least 3"),
-        ('motion.law="spline"', "points of its own"),
+        ('motion.law="spline"', "needs it"),
         ("motion.motion_to_dwell=1e9", "1000"),
         ('eccentricity="-1 mm"', "greater than 0"),
         ('pin_radius="40 mm"', "overlap"),

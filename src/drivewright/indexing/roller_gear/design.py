@@ -1,15 +1,17 @@
 """Roller-gear indexers: a turret with cylindrical rollers and a cam whose ribs run between them; one index pitch per turn of the cam.
 
 Frames.  The turret turns by phi about z; its roller k = 0, 1 ... has the middle of its axis on a circle of radius R in the plane z = 0 at
-the angle psi_k = phi + pitch (phase + k).  Axis of roller k in the turret's own frame, turned by psi_k:
+the angle psi_k = phi + p (phase + k), p = 2 pi/N the angle between neighbours of N rollers.  Axis of roller k in the turret's own frame,
+turned by psi_k:
     c(u) = (R + u cos b, 0, u sin b),   |u| <= roller_length/2,   b = inclination.
 The cam turns by hand_sign theta about the axis through A = (C, 0, h) in the direction y; its own frame has its origin in A and y along
 its axis.  Globoidal: b = 0 (radial rollers), h = 0.  Barrel: b = 90 deg (rollers parallel to the turret's axis), h = cam_radius.
 C is in both cases the shortest distance between the two axes.  The cam is `right` handed where a groove that moves on in +y winds
 counter-clockwise about +y.
 
-All rollers cut the same grooves one turn apart, so the cam is described by ONE roller, k = 0, over an angle `travel` t that runs on
-through several turns: roller k at the cam angle theta is roller 0 at t = theta + 2 pi k.
+A step of the turret, 2 pi/S, S stations, passes m = N/S rollers, and so the cam has m starts: grooves that wind side by side.  All rollers
+of one start cut the same groove one turn apart, so the cam is described by the rollers k = 0 .. m - 1 over an angle `travel` t that runs on
+through several turns: roller k = m q + j at the cam angle theta is roller j at t = theta + 2 pi q.
 """
 
 from dataclasses import dataclass
@@ -20,7 +22,7 @@ import numpy as np
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.errors import InputError
-from drivewright.indexing.motion import TURN, IndexMotion
+from drivewright.indexing.motion import TURN, IndexMotion, refuse_stations
 
 MM = 1e3
 
@@ -30,7 +32,8 @@ class RollerGear:
     """A roller-gear cam and its turret; make one with `barrel` or `globoidal`.  Lengths in metres, angles in radians.
 
     cosine, sine: of the inclination of the roller axes against the turret's plane; height h of the cam's axis above that plane;
-    hand_sign: sense of the cam about y; phase: place of the rollers in the dwell before theta = 0, in pitches (0.5: a rib in the middle).
+    hand_sign: sense of the cam about y; phase: place of the rollers in the dwell before theta = 0, in pitches of the rollers (0.5: a rib in
+    the middle); pins: number of rollers, a multiple of the motion's divisions.
     """
 
     kind: str
@@ -45,6 +48,17 @@ class RollerGear:
     sine: float
     hand_sign: float
     phase: float
+    pins: int
+
+    @property
+    def pin_pitch(self) -> float:
+        """Angle between neighbouring rollers [rad]."""
+        return TURN / self.pins
+
+    @property
+    def starts(self) -> int:
+        """Grooves that wind side by side: rollers that pass the cam in a step."""
+        return self.pins // self.motion.divisions
 
     @property
     def pitch_radius(self) -> float:
@@ -57,8 +71,8 @@ class RollerGear:
         radius = self.pin_circle_radius - self.cosine * self.roller_length / 2
         reach = (self.cam_length / 2 + self.roller_radius) / radius
         most = np.arcsin(reach) if reach < 1 else np.pi / 2
-        low = np.floor((-most / self.motion.pitch) - self.phase - 1) + 1
-        high = np.ceil(most / self.motion.pitch - self.phase) - 1
+        low = np.floor((-most / self.pin_pitch) - self.phase - self.starts) + 1
+        high = np.ceil(most / self.pin_pitch - self.phase) - 1
         return tuple(range(int(low), int(high) + 1))
 
     def in_blank(self, points: Floats) -> Floats:
@@ -87,14 +101,15 @@ def globoidal(
     cam_length: float,
     hand: str = "right",
     phase: float = 0.5,
+    pins: int | None = None,
 ) -> RollerGear:
     """Hour-glass cam whose rollers stand radially on the turret; pin_circle_radius: of the middles of the rollers.
 
-    Raises InputError where rollers overlap, reach the turret's centre or the cam's axis, or the cam is too short or too long.
+    pins: number of rollers, as many as the motion has divisions where not given.  Raises InputError where rollers overlap, reach the
+    turret's centre or the cam's axis, or the cam is too short or too long.
     """
-    cam = RollerGear(
-        "globoidal", motion, pin_circle_radius, roller_radius, roller_length, centre_distance, 0.0, cam_length, 1.0, 0.0, _sign(hand), phase
-    )
+    sizes = pin_circle_radius, roller_radius, roller_length, centre_distance, 0.0, cam_length
+    cam = RollerGear("globoidal", motion, *sizes, 1.0, 0.0, _sign(hand), phase, motion.divisions if pins is None else pins)
     _check_common(cam)
     foot, tip = pin_circle_radius - roller_length / 2, pin_circle_radius + roller_length / 2
     if foot <= 0:
@@ -131,16 +146,16 @@ def barrel(
     centre_distance: float | None = None,
     hand: str = "right",
     phase: float = 0.5,
+    pins: int | None = None,
 ) -> RollerGear:
     """Cylindrical cam whose rollers stand parallel to the turret's axis.
 
     cam_radius: distance of the cam's axis from the plane of the rollers' middles; centre_distance: shortest distance of the two axes,
-    pin_circle_radius where not given.  Raises InputError as `globoidal` does.
+    pin_circle_radius where not given; pins and errors as of `globoidal`.
     """
     distance = pin_circle_radius if centre_distance is None else centre_distance
-    cam = RollerGear(
-        "barrel", motion, pin_circle_radius, roller_radius, roller_length, distance, cam_radius, cam_length, 0.0, 1.0, _sign(hand), phase
-    )
+    sizes = pin_circle_radius, roller_radius, roller_length, distance, cam_radius, cam_length
+    cam = RollerGear("barrel", motion, *sizes, 0.0, 1.0, _sign(hand), phase, motion.divisions if pins is None else pins)
     _check_common(cam)
     _check_pitch(cam, pin_circle_radius, "on their circle")
     if cam_radius <= roller_length / 2:
@@ -185,12 +200,13 @@ def _check_common(cam):
         _refuse(cam, f"cam_radius = {cam.height} m; it must be positive and finite.")
     if not np.isfinite(cam.phase):
         _refuse(cam, f"phase = {cam.phase}; it must be a finite number of pitches.")
-    if cam.motion.divisions < 3:
-        _refuse(cam, f"{cam.motion.divisions} rollers; a turret needs at least 3.")
+    if cam.pins < 3:
+        _refuse(cam, f"{cam.pins} rollers; a turret needs at least 3.")
+    refuse_stations(cam.pins, cam.motion.divisions)
 
 
 def _check_pitch(cam, radius, where):
-    room = radius * np.sin(np.pi / cam.motion.divisions)
+    room = radius * np.sin(np.pi / cam.pins)
     if cam.roller_radius >= room:
         _refuse(
             cam,
@@ -200,8 +216,8 @@ def _check_pitch(cam, radius, where):
 
 
 def _check_engaged(cam):
-    """The cam is at least one pitch long, or some angle would leave no roller in it."""
-    least = 2 * cam.pin_circle_radius * np.sin(cam.motion.pitch / 2)
+    """The cam is at least one pitch of the rollers long, or some angle would leave no roller in it."""
+    least = 2 * cam.pin_circle_radius * np.sin(cam.pin_pitch / 2)
     if cam.cam_length < least:
         _refuse(
             cam,
@@ -210,6 +226,7 @@ def _check_engaged(cam):
         )
 
 
-def roller_travel(theta: ArrayLike, rollers: ArrayLike) -> Floats:
-    """Travel t (rollers, theta) of the cam angles theta for the rollers k."""
-    return np.asarray(theta, dtype=float) + TURN * np.asarray(rollers, dtype=float)[:, None]
+def roller_travel(cam: RollerGear, theta: ArrayLike, rollers: ArrayLike) -> tuple[Floats, Floats]:
+    """(travel t (rollers, theta) [rad], start (rollers, 1)) of the rollers k at the cam angles theta (theta,) [rad]."""
+    turns, start = np.divmod(np.asarray(rollers, dtype=float)[:, None], cam.starts)
+    return np.asarray(theta, dtype=float) + TURN * turns, start

@@ -24,7 +24,7 @@ from drivewright.indexing.roller_gear.design import RollerGear
 
 
 class FlankContact(NamedTuple):
-    """Contact of roller 0 with a flank at travel t and place u of the roller; arrays that broadcast, SI units, rates per radian of the cam.
+    """Contact of a roller with a flank at travel t and place u of the roller; arrays that broadcast, SI units, rates per radian of the cam.
 
     point, normal (..., 3): in the cam's frame, the normal out of the roller into the cam; angle a on the roller; psi of the roller;
     pressure_angle; arm [m]: a force F of the cam on the roller turns the turret with F arm, forward where positive; opening G [m];
@@ -57,11 +57,11 @@ class _Rates(NamedTuple):
     q_t: Floats
 
 
-def flank_contact(cam: RollerGear, travel: ArrayLike, u: ArrayLike, flank: ArrayLike) -> FlankContact:
-    """Contact of roller 0 at travel t [rad], place u [m] and flank +1 or -1, broadcast against each other."""
-    travel, u, flank = np.broadcast_arrays(np.asarray(travel, float), np.asarray(u, float), np.asarray(flank, float))
+def flank_contact(cam: RollerGear, travel: ArrayLike, u: ArrayLike, flank: ArrayLike, start: ArrayLike = 0.0) -> FlankContact:
+    """Contact of roller `start` at travel t [rad], place u [m] and flank +1 or -1, broadcast against each other."""
+    travel, u, flank, start = np.broadcast_arrays(*(np.asarray(each, float) for each in (travel, u, flank, start)))
     phi, speed, acceleration, _ = cam.motion(travel)
-    psi = phi + cam.motion.pitch * cam.phase
+    psi = phi + cam.pin_pitch * (cam.phase + start)
     rates = _rates(cam, psi, speed, acceleration, u)
     size = np.hypot(rates.p, rates.q)
     cos_a, sin_a = -flank * cam.hand_sign * rates.p / size, -flank * np.abs(rates.q) / size

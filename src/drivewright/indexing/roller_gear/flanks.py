@@ -61,8 +61,9 @@ def compute_flanks(cam: RollerGear, theta: ArrayLike | None = None, along: int =
     theta = np.linspace(0.0, TURN, 181) if theta is None else np.asarray(theta, dtype=float)
     u = np.linspace(-0.5, 0.5, along) * cam.roller_length
     trimming = TrimmingTest(cam)
-    places = FLANKS[:, None, None, None], roller_travel(theta, cam.rollers)[None, :, :, None], u
-    contact = flank_contact(cam, places[1], places[2], places[0])
+    travel, start = roller_travel(cam, theta, cam.rollers)
+    places = FLANKS[:, None, None, None], travel[None, :, :, None], u, start[None, :, :, None]
+    contact = flank_contact(cam, places[1], places[2], places[0], places[3])
     on_cam = trimming.on_cam(contact)
     return CamFlanks(cam, theta, u, contact, on_cam, _active_fractions(trimming, places, on_cam))
 
@@ -71,19 +72,19 @@ def _active_fractions(trimming, places, on_cam):
     """Live part of each stretch of u: 1 between two live ends, 0 between two dead ones, else up to the end found by bisection."""
     fraction = (on_cam[..., 1:] & on_cam[..., :-1]).astype(float)
     ends = np.nonzero(on_cam[..., 1:] != on_cam[..., :-1])
-    flank, travel, u = (np.broadcast_to(each, on_cam.shape) for each in (places[0], places[1], places[2]))
-    start, stop = u[..., :-1][ends], u[..., 1:][ends]
+    flank, travel, u, start = (np.broadcast_to(each, on_cam.shape) for each in places)
+    low, high = u[..., :-1][ends], u[..., 1:][ends]
     first = on_cam[..., :-1][ends]
-    good, bad = np.where(first, start, stop), np.where(first, stop, start)
-    edge = bisect_trim_edge(trimming, good, bad, lambda place: (travel[..., 1:][ends], place, flank[..., 1:][ends]))
-    fraction[ends] = np.abs(edge - good) / np.abs(stop - start)
+    good, bad = np.where(first, low, high), np.where(first, high, low)
+    edge = bisect_trim_edge(trimming, good, bad, lambda place: (travel[..., 1:][ends], place, flank[..., 1:][ends], start[..., 1:][ends]))
+    fraction[ends] = np.abs(edge - good) / np.abs(high - low)
     return fraction
 
 
 def bisect_trim_edge(
-    trimming: TrimmingTest, good: Floats, bad: Floats, places: Callable[[Floats], tuple[Floats, Floats, Floats]], steps: int = 24
+    trimming: TrimmingTest, good: Floats, bad: Floats, places: Callable[[Floats], tuple[Floats, ...]], steps: int = 24
 ) -> Floats:
-    """Where surviving ends between live `good` and dead `bad`, by bisection; places(x) gives travel, u and flank of the contact at x."""
+    """Where surviving ends between live `good` and dead `bad`, by bisection; places(x): travel, u, flank and start of the contact at x."""
     for _ in range(steps if good.size else 0):
         middle = (good + bad) / 2
         on_cam = trimming.on_cam(flank_contact(trimming.cam, *places(middle)))
@@ -96,10 +97,11 @@ def find_trim_edges(flanks: CamFlanks) -> Floats:
     trimming = TrimmingTest(flanks.cam)
     here, there = flanks.on_cam[:, :, :-1], flanks.on_cam[:, :, 1:]
     ends = np.nonzero(here != there)
-    travel = roller_travel(flanks.theta, flanks.cam.rollers)[ends[1]]
-    start, stop = (np.take_along_axis(travel, (ends[2] + step)[:, None], axis=1)[:, 0] for step in (0, 1))
+    all_travel, all_starts = roller_travel(flanks.cam, flanks.theta, flanks.cam.rollers)
+    travel, start = all_travel[ends[1]], all_starts[ends[1], 0]
+    low, high = (np.take_along_axis(travel, (ends[2] + step)[:, None], axis=1)[:, 0] for step in (0, 1))
     first = here[ends]
-    good, bad = np.where(first, start, stop), np.where(first, stop, start)
+    good, bad = np.where(first, low, high), np.where(first, high, low)
     u, flank = flanks.u[ends[3]], FLANKS[ends[0]]
-    edge = bisect_trim_edge(trimming, good, bad, lambda place: (place, u, flank))
-    return flank_contact(flanks.cam, edge, u, flank).point
+    edge = bisect_trim_edge(trimming, good, bad, lambda place: (place, u, flank, start))
+    return flank_contact(flanks.cam, edge, u, flank, start).point

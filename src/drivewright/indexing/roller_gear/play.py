@@ -27,9 +27,9 @@ def _free(cam: RollerGear, points: Floats, theta: float, direction: float) -> fl
     x, z = x + cam.centre_distance, z + cam.height
     away = np.hypot(x, y)
     reach, reached = _half_angle(cam, away, z)
-    psi = cam.motion(theta).d0 + cam.motion.pitch * cam.phase
+    psi = cam.motion(theta).d0 + cam.pin_pitch * cam.phase
     ahead = direction * (np.arctan2(y, x) - psi) - reach
-    free = np.mod(ahead + CLOSE, cam.motion.pitch) - CLOSE
+    free = np.mod(ahead + CLOSE, cam.pin_pitch) - CLOSE
     return max(float(np.min(free[reached & (x > 0)], initial=np.inf)), 0.0)
 
 

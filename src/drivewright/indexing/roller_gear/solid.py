@@ -8,6 +8,7 @@ from drivewright.indexing.motion import TURN
 from drivewright.indexing.roller_gear.design import RollerGear
 from drivewright.indexing.roller_gear.envelope import flank_contact
 from drivewright.indexing.roller_gear.flanks import FLANKS, compute_flanks
+from drivewright.indexing.roller_gear.trimming import FRONT
 from drivewright.indexing.roller_gear.views import groove_floor, groove_mouth, groove_travel_range
 from drivewright.scene import Arc, Bar, Grooved, Line, Outline, Part, Prism, circle, polygon
 
@@ -31,17 +32,17 @@ def cam_part(cam: RollerGear, bore: float = 0.0, name: str = "cam") -> Part:
         raise InputError(
             f"{cam.kind} cam: a bore of {1e3 * bore:g} mm; it must be from 0 to below {2e3 * floor:.4g} mm, the floor of the groove."
         )
-    walls = groove_walls(cam)
-    local = np.stack([walls[..., 1], -walls[..., 0], walls[..., 2]], axis=-1)  # the axis of a turned part is its x direction
-    body = Grooved((0.0, 0.0), cam.height, _section(cam, bore), (local,))
+    grooves = [groove_walls(cam, start) for start in range(cam.starts)]
+    local = tuple(np.stack([walls[..., 1], -walls[..., 0], walls[..., 2]], axis=-1) for walls in grooves)  # a turned part's axis is along x
+    body = Grooved((0.0, 0.0), cam.height, _section(cam, bore), local)
     return Part(name, (body,), (cam.centre_distance, 0.0, np.pi / 2))
 
 
-def groove_walls(cam: RollerGear) -> Floats:
-    """Points (2, n, m, 3) [m], in the cam's frame, of both walls of the one groove that all rollers share, floor and mouth included."""
-    travel = _rows(cam)
+def groove_walls(cam: RollerGear, start: int = 0) -> Floats:
+    """Points (2, n, m, 3) [m], in the cam's frame, of both walls of the groove of a start, floor and mouth included."""
+    travel = _rows(cam, start)
     u = np.linspace(groove_mouth(cam), groove_floor(cam), DEPTHS)
-    contact = flank_contact(cam, travel[None, :, None], u, FLANKS[:, None, None])
+    contact = flank_contact(cam, travel[None, :, None], u, FLANKS[:, None, None], start)
     if np.any(contact.opening <= 0):
         raise InputError(
             f"{cam.kind} cam: the walls of the groove fold up outside the rollers' length, at the travel "
@@ -53,7 +54,7 @@ def groove_walls(cam: RollerGear) -> Floats:
 
 def turret_part(cam: RollerGear, name: str = "turret") -> Part:
     """Part of the turret at phi = 0: a disc and all rollers, each of its full length, at their places in the dwell before theta = 0."""
-    psi = cam.motion.pitch * (cam.phase + np.arange(cam.motion.divisions))
+    psi = cam.pin_pitch * (cam.phase + np.arange(cam.pins))
     half, radius = cam.roller_length / 2, cam.pin_circle_radius
     if cam.kind == "globoidal":
         rim = radius - half - cam.roller_radius / 10
@@ -71,7 +72,7 @@ def _polar(radius: float, angle: float) -> tuple[float, float]:
     return float(radius * np.cos(angle)), float(radius * np.sin(angle))
 
 
-def _rows(cam: RollerGear) -> Floats:
+def _rows(cam: RollerGear, roller: int) -> Floats:
     """Travel of the rows of a wall: evenly in every stretch of the motion, from where the roller enters the blank to where it leaves."""
     start, stop = groove_travel_range(cam)
     foot = cam.pin_circle_radius - cam.cosine * cam.roller_length / 2
@@ -82,8 +83,8 @@ def _rows(cam: RollerGear) -> Floats:
         for s in cam.motion.segments
     ]
     travel = np.append(np.concatenate(rows), stop)
-    psi = cam.motion(travel).d0 + cam.motion.pitch * cam.phase
-    return travel[np.abs(foot * np.sin(psi)) < reach]
+    psi = cam.motion(travel).d0 + cam.pin_pitch * (cam.phase + roller)
+    return travel[(np.abs(foot * np.sin(psi)) < reach) & (np.abs(psi) < FRONT)]
 
 
 def _section(cam: RollerGear, bore: float) -> Outline:

@@ -16,6 +16,7 @@ from drivewright.indexing.roller_gear.envelope import FlankContact
 TOUCH = 1e-7  # of the roller's radius
 KNOTS = 360
 FAR = np.inf
+FRONT = np.pi / 2  # rad from the line of centres: a roller beyond it is on the far side of the turret
 
 
 def tabulate_motion(motion: IndexMotion, knots: int = KNOTS) -> tuple[Floats, Floats]:
@@ -45,7 +46,7 @@ def _quintic(h, f, d1, d2):
 
 
 def kernel_parameters(cam: RollerGear) -> Floats:
-    """(10,): parameters of the cam that the kernels read, SI units: R, r, half length, C, h, cos b, sin b, hand sign, pitch, phase."""
+    """(10,): parameters of the cam for the kernels, SI: R, r, half length, C, h, cos b, sin b, hand sign, pitch of the rollers, phase."""
     return np.array(
         [
             cam.pin_circle_radius,
@@ -56,7 +57,7 @@ def kernel_parameters(cam: RollerGear) -> Floats:
             cam.cosine,
             cam.sine,
             cam.hand_sign,
-            cam.motion.pitch,
+            cam.pin_pitch,
             cam.phase,
         ]
     )
@@ -97,7 +98,7 @@ def _gap_near(x, y, z, theta, i, j, ends, cells, parameters):
     elif i > 0:
         phi = _phi(cells, j, theta - ends[j])
     else:
-        phi = _phi(cells, j, theta + turn - ends[j])  # a pitch too much, which only names another roller
+        phi = _phi(cells, j, theta + turn - ends[j])  # a step too much, which only names another roller
     return roller_gap(x, y, z, theta, phi, parameters)
 
 
@@ -167,7 +168,7 @@ class TrimmingTest:
 
     def on_cam(self, contact: FlankContact) -> Bools:
         """True where a Contact lies inside the blank, is no undercut and is covered by no roller."""
-        on_cam = (self.cam.in_blank(contact.point) >= -1e-12) & (contact.opening > 0)
+        on_cam = (self.cam.in_blank(contact.point) >= -1e-12) & (contact.opening > 0) & (np.abs(contact.psi) < FRONT)
         on_cam[on_cam] = self.minimum_gaps(contact.point[on_cam]) >= -TOUCH * self.cam.roller_radius
         return on_cam
 

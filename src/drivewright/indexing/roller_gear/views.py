@@ -9,6 +9,7 @@ from drivewright.errors import InputError
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.roller_gear.design import RollerGear, roller_travel
 from drivewright.indexing.roller_gear.envelope import flank_contact, rotate_about_y
+from drivewright.indexing.roller_gear.trimming import FRONT
 
 STEPS = 361  # points on a turn of a groove
 
@@ -32,17 +33,16 @@ def develop_surface(cam: RollerGear, start: float = -0.5, stop: float = 1.5) -> 
         raise InputError(f"developed view: from turn {start} to turn {stop}; the first must be below the second.")
     half = _height_of(cam, cam.cam_length / 2)
     strip = box(start * TURN * cam.pitch_radius, -half, stop * TURN * cam.pitch_radius, half)
-    travel = np.linspace(*groove_travel_range(cam), len(cam.rollers) * (STEPS - 1) + 1)
-    shape = np.array([_unrolled(cam, travel, side) for side in (1.0, -1.0)])
-    groove = np.concatenate([shape[0], shape[1, ::-1]])
-    shifts = range(int(np.floor(start)) - max(cam.rollers) - 2, int(np.ceil(stop)) - min(cam.rollers) + 3)
-    grooves = [Polygon(groove + (TURN * cam.pitch_radius * k, 0.0)).buffer(0) for k in shifts]
+    first, last = groove_turns(cam)
+    shifts = range(int(np.floor(start)) - last - 2, int(np.ceil(stop)) - first + 3)
+    unrolled = [_unrolled_groove(cam, number) for number in range(cam.starts)]
+    grooves = [Polygon(groove + (TURN * cam.pitch_radius * k, 0.0)).buffer(0) for groove in unrolled for k in shifts]
     return DevelopedSurface(_polygons(strip.difference(union_all(grooves))), cam.pitch_radius)
 
 
 def developed_roller_centres(cam: RollerGear, theta: ArrayLike) -> Floats:
     """Centres (roller, theta, 2) [m] of the rollers in the developed view, the cam's rollers in order of psi."""
-    psi = _psi(cam, roller_travel(np.atleast_1d(theta), cam.rollers))
+    psi = _psi(cam, *roller_travel(cam, np.atleast_1d(theta), cam.rollers))
     if cam.kind == "globoidal":
         return np.stack([np.zeros_like(psi), cam.pin_circle_radius * psi], axis=-1)
     across = cam.hand_sign * (cam.pin_circle_radius * np.cos(psi) - cam.centre_distance)
@@ -71,9 +71,15 @@ def blank_section(cam: RollerGear, count: int = 65) -> Floats:
     return np.concatenate([[[-end, 0.0], [end, 0.0]], top])
 
 
+def groove_turns(cam: RollerGear) -> tuple[int, int]:
+    """First and last turn of the travel in which a roller of some start is near the cam."""
+    return min(cam.rollers) // cam.starts, max(cam.rollers) // cam.starts
+
+
 def groove_travel_range(cam: RollerGear) -> tuple[float, float]:
-    """(start, stop) [rad] of the travel of roller 0 in which it is near the cam: the whole turns of the rollers that meet it."""
-    return TURN * min(cam.rollers), TURN * (max(cam.rollers) + 1)
+    """(start, stop) [rad] of the travel in which a roller is near the cam: the whole turns of the rollers that meet it."""
+    first, last = groove_turns(cam)
+    return TURN * first, TURN * (last + 1)
 
 
 def groove_floor(cam: RollerGear) -> float:
@@ -88,8 +94,8 @@ def groove_mouth(cam: RollerGear) -> float:
     return -cam.roller_length / 2 - sagitta - cam.roller_radius / 20
 
 
-def _psi(cam, travel):
-    return cam.motion(travel).d0 + cam.motion.pitch * cam.phase
+def _psi(cam, travel, start):
+    return cam.motion(travel).d0 + cam.pin_pitch * (cam.phase + start)
 
 
 def _height_of(cam: RollerGear, axial: float) -> float:
@@ -104,8 +110,17 @@ def _lag(cam: RollerGear, point: Floats, travel: Floats) -> Floats:
     return -cam.hand_sign * away
 
 
-def _unrolled(cam: RollerGear, travel: Floats, side: float) -> Floats:
-    point = flank_contact(cam, travel, 0.0, side).point
+def _unrolled_groove(cam: RollerGear, start: int) -> Floats:
+    """Closed polygon (n, 2) [m] of the groove of a start in the developed view."""
+    first, last = groove_turns(cam)
+    travel = np.linspace(*groove_travel_range(cam), (last - first + 1) * (STEPS - 1) + 1)
+    travel = travel[np.abs(_psi(cam, travel, start)) < FRONT]
+    shape = np.array([_unrolled(cam, travel, side, start) for side in (1.0, -1.0)])
+    return np.concatenate([shape[0], shape[1, ::-1]])
+
+
+def _unrolled(cam: RollerGear, travel: Floats, side: float, start: int) -> Floats:
+    point = flank_contact(cam, travel, 0.0, side, start).point
     distance = cam.pitch_radius * (travel + _lag(cam, point, travel))
     away = np.hypot(point[:, 0], point[:, 2])
     chi = np.arctan2(point[:, 1], cam.centre_distance - away)
@@ -114,14 +129,14 @@ def _unrolled(cam: RollerGear, travel: Floats, side: float) -> Floats:
 
 def _groove(cam: RollerGear, theta: float, roller: int) -> Floats:
     """Section (n, 2) of the groove of a roller: down one wall, along the floor, up the other."""
-    travel = roller_travel(np.linspace(theta - 0.6, theta + 0.6, 121), [roller])[0]
+    travel, start = (each[0] for each in roller_travel(cam, np.linspace(theta - 0.6, theta + 0.6, 121), [roller]))
     down, flat = np.linspace(groove_mouth(cam), groove_floor(cam), 17), np.linspace(1, -1, 9)[1:-1]
     u = np.concatenate([down, np.full(len(flat), groove_floor(cam)), down[::-1]])[:, None]
     side = np.concatenate([np.ones(len(down)), flat, -np.ones(len(down))])[:, None]  # from flank +1 through the axis to flank -1
-    contact = flank_contact(cam, travel, u, 1.0)
+    contact = flank_contact(cam, travel, u, 1.0, start)
     point = contact.point + (side[..., None] - 1) * cam.roller_radius * contact.normal
     passing = travel + _lag(cam, point, travel)
-    at = theta + TURN * roller
+    at = theta + TURN * (roller // cam.starts)
     spots = np.stack([point[..., 1], np.hypot(point[..., 0], point[..., 2])], axis=-1)
     return np.array([[np.interp(at, when, where[:, i]) for i in (0, 1)] for when, where in zip(passing, spots, strict=True)])
 

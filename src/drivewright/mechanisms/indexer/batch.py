@@ -17,7 +17,7 @@ from drivewright.indexing.batch.pin_wheels import PinWheelValues
 from drivewright.indexing.motion import TURN, step_angle
 from drivewright.mechanisms.indexer import geometry, loads, stiffness
 from drivewright.mechanisms.indexer.build import IndexerModel, build, law_parameters, motion_to_dwell
-from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, required
+from drivewright.mechanisms.indexer.refusals import POINTS, TRANSLATING, law_name, refuse_contradictions, required
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.result import Answer, Check
 from drivewright.spec import value_at
@@ -50,6 +50,10 @@ def batch(spec: IndexerSpec, keys: Sequence[str], names: Sequence[str]) -> Calla
         spec.kind not in TRANSLATING
         or spec.bodies != "rigid"
         or spec.load.angle is not None
+        or (spec.stations or spec.pins) != spec.pins
+        or (spec.stations is not None and "pins" in keys)
+        or spec.pin_phase
+        or law_name(spec) in POINTS
         or not all(_is_number(spec, key) for key in keys)
     ):
         return None

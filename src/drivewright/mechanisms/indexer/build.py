@@ -7,12 +7,12 @@ from typing import Any, Literal, TypeVar
 
 import numpy as np
 
-from drivewright import bearings, materials
+from drivewright import bearings, materials, motion
 from drivewright._typing import Floats
 from drivewright.bearings import BallBearing, Entry, RollerBearing
 from drivewright.errors import InputError, SpecError
 from drivewright.indexing import drivetrain
-from drivewright.indexing.motion import IndexMotion, index_motion
+from drivewright.indexing.motion import IndexMotion, index_motion, index_motion_of_rows
 from drivewright.indexing.parallel import ParallelIndexer
 from drivewright.indexing.pin_wheel import PinWheel
 from drivewright.indexing.plane import index_angles
@@ -20,7 +20,7 @@ from drivewright.indexing.roller_gear.design import RollerGear, barrel, globoida
 from drivewright.indexing.solid import Solids
 from drivewright.indexing.stiffness.loading import LoadedWheel
 from drivewright.mechanisms.indexer.bodies import solid_parts
-from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, required, unused
+from drivewright.mechanisms.indexer.refusals import TRANSLATING, law_name, refuse_contradictions, required, stations, unused
 from drivewright.mechanisms.indexer.spec import IndexerBearings, IndexerShafts, IndexerSpec
 
 PartT = TypeVar("PartT")
@@ -149,19 +149,36 @@ def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT
 def build(spec: IndexerSpec) -> IndexerModel:
     """The `IndexerModel` of a spec; InputError where it has no cam."""
     refuse_contradictions(spec)
-    moving = _index_motion(law_name(spec), spec.pins, motion_to_dwell(spec), **law_parameters(spec))
+    moving, told = wheel_motion(spec)
+    findings = (*told, *unused(spec))
     if spec.kind not in TRANSLATING:
-        return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=tuple(unused(spec)))
-    wheel = PinWheel(spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "eccentricity"), moving, spec.side)
+        return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=findings)
+    sizes = spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "eccentricity")
+    wheel = PinWheel(*sizes, moving, spec.side, 0.0 if spec.pin_phase is None else spec.pin_phase)
     wheel.refuse()
     tables = {"crank_bearings": spec.crank_bearings, "support_bearings": spec.support_bearings}
     rolling = {key: rolling_bearing(spec, key, given) for key, given in tables.items() if given is not None and given.bearing is not None}
-    return IndexerModel(spec, wheel, drive_train(spec, rolling), rolling, tuple(unused(spec)))
+    return IndexerModel(spec, wheel, drive_train(spec, rolling), rolling, findings)
 
 
-def law_parameters(spec: IndexerSpec) -> dict[str, float]:
-    """The parameters of the motion law that are given."""
-    given = {key: getattr(spec.motion, key) for key in ("b", "c", "d")}
+def wheel_motion(spec: IndexerSpec) -> tuple[IndexMotion, tuple[str, ...]]:
+    """The motion of the wheel, and what the rows of its table make of it."""
+    if law_name(spec) != "table":
+        return _index_motion(law_name(spec), stations(spec), motion_to_dwell(spec), **law_parameters(spec)), ()
+    try:
+        rows = motion.law("table", file=spec.motion.file, degree=spec.motion.degree or 5, ends="clamped")
+        assert isinstance(rows, motion.TableLaw)
+        moving = index_motion_of_rows(rows, stations(spec))
+    except SpecError:
+        raise
+    except InputError as error:
+        raise SpecError(str(error).removesuffix("."), "motion.file") from None
+    return moving, tuple(filter(None, [rows.ripple.message]))
+
+
+def law_parameters(spec: IndexerSpec) -> dict[str, Any]:
+    """The parameters of the motion law that are given; those of a table are its rows."""
+    given = {key: getattr(spec.motion, key) for key in ("b", "c", "d", "points", "degree")}
     return {key: value for key, value in given.items() if value is not None}
 
 
@@ -171,19 +188,26 @@ def motion_to_dwell(spec: IndexerSpec) -> float | Literal["no-dwell"]:
 
 
 def _parallel(spec: IndexerSpec, moving: IndexMotion) -> ParallelIndexer:
-    drive = ParallelIndexer(spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "centre_distance"), moving)
+    sizes = spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "centre_distance")
+    drive = ParallelIndexer(*sizes, moving, 0.25 if spec.pin_phase is None else spec.pin_phase)
     drive.refuse()
     return drive
 
 
 def _globoidal(spec: IndexerSpec, moving: IndexMotion) -> RollerGear:
     length, distance, cam_length = (required(spec, key) for key in ("pin_length", "centre_distance", "cam_length"))
-    return globoidal(moving, spec.pin_circle_radius, spec.pin_radius, length, distance, cam_length, spec.hand)
+    return globoidal(moving, spec.pin_circle_radius, spec.pin_radius, length, distance, cam_length, spec.hand, *_rollers(spec))
 
 
 def _barrel(spec: IndexerSpec, moving: IndexMotion) -> RollerGear:
     length, radius, cam_length = (required(spec, key) for key in ("pin_length", "cam_radius", "cam_length"))
-    return barrel(moving, spec.pin_circle_radius, spec.pin_radius, length, radius, cam_length, spec.centre_distance, spec.hand)
+    rollers = spec.pin_circle_radius, spec.pin_radius, length
+    return barrel(moving, *rollers, radius, cam_length, spec.centre_distance, spec.hand, *_rollers(spec))
+
+
+def _rollers(spec: IndexerSpec) -> tuple[float, int]:
+    """Place of the rollers in the dwell, in pitches, and their number."""
+    return 0.5 if spec.pin_phase is None else spec.pin_phase, spec.pins
 
 
 _index_motion = lru_cache(maxsize=16)(index_motion)  # designs of one search have it in common, more often than not

@@ -22,9 +22,14 @@ def claims(spec: IndexerSpec) -> Claims:
     if spec.load is not None and spec.load.speed is not None:
         powers = {"motion.peak_speed": 1, "motion.peak_acceleration": 2, "motion.velocity_factor": 0}
         speed = (Scaling("load.speed", powers, ("motion",)),)
-    if spec.kind in ("globoidal", "barrel"):
+    if spec.kind == "globoidal" or (spec.kind == "barrel" and _symmetric(spec)):
         mirror = (Mirror(image, analyses=("motion", "profile", "contacts")),)
     return Claims(derivatives, balances, speed=speed, mirror=mirror, reasons=REASONS)
+
+
+def _symmetric(spec: IndexerSpec) -> bool:
+    """Whether a step run backwards is that step: the image of a barrel, whose cam lies on one side of the wheel, runs backwards."""
+    return spec.pin_phase in (None, 0.0, 0.5) and spec.motion.law not in ("table", "spline")
 
 
 def image(tables: dict[str, Any]) -> dict[str, Any]:

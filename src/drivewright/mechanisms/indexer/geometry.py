@@ -43,7 +43,7 @@ def motion(model: IndexerModel, done: Answers) -> Answer:
 def profile(model: IndexerModel, done: Answers) -> Answer:
     """The trimmed profile of every cam that differs: measures, points, curvature, undercut."""
     levels = model.plane.levels
-    tables = tuple(profile_table(level.profile, f"profile{suffix}") for level, suffix in zip(levels, SUFFIXES, strict=False))
+    tables = tuple(profile_table(level, f"profile{suffix}") for level, suffix in zip(levels, SUFFIXES, strict=False))
     values = {name: value for level, table in zip(levels, tables, strict=True) for name, value in profile_values(level, table).items()}
     checks = chain(_curvature_checks(model, values), _wall_checks(model, values))
     return Answer(values, tables, tuple(checks), tuple(_findings(model)))
@@ -123,6 +123,6 @@ def _play_checks(model: IndexerModel, angle: Floats, rotations: Mapping[str, Flo
             where = f"largest over the cycle at {np.degrees(angle[at]):.4g} deg" if free[at] > 0 else "over the whole cycle"
             largest, message = free[at], f"free rotation of the wheel {name}, {where}"
         else:
-            largest = max(model.drive.motion.pitch, 2 * limit)
+            largest = max(model.drive.pin_pitch, 2 * limit)
             message = f"free rotation {name}: nothing stops the wheel within a whole pitch"
         yield Check(f"play.{name}", largest, limit, "<=", "rad", message, ("wheel", "cam"))

@@ -2,7 +2,10 @@
 
 from collections.abc import Iterator
 
-from drivewright.errors import SpecError
+import numpy as np
+
+from drivewright.errors import InputError, SpecError
+from drivewright.indexing.motion import refuse_stations
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 
 TRANSLATING = ("pin-wheel", "cycloid")
@@ -28,6 +31,7 @@ OWN = {  # keys that only some kinds have
     "cam_radius": ("barrel",),
 }
 LARGEST_RATIO = 1000.0
+POINTS = {"table": "file", "spline": "points"}  # by law the key that holds its points
 
 
 def required(spec: IndexerSpec, key: str) -> float:
@@ -40,7 +44,7 @@ def required(spec: IndexerSpec, key: str) -> float:
 
 def refuse_contradictions(spec: IndexerSpec) -> None:
     """SpecError for the first key that is missing for the kind or contradicts another."""
-    for check in (_kind, _motion, _pins, _drive, _bearings, _bodies):
+    for check in (_kind, _stations, _motion, _points, _pins, _drive, _bearings, _bodies):
         check(spec)
 
 
@@ -74,6 +78,36 @@ def law_name(spec: IndexerSpec) -> str:
 def _kind(spec: IndexerSpec) -> None:
     for key in NEEDED[spec.kind]:
         required(spec, key)
+
+
+def stations(spec: IndexerSpec) -> int:
+    """Steps in a turn of the wheel: as many as pins unless given."""
+    return spec.pins if spec.stations is None else spec.stations
+
+
+def _stations(spec: IndexerSpec) -> None:
+    try:
+        refuse_stations(spec.pins, stations(spec))
+    except InputError as error:
+        raise SpecError(str(error).removesuffix("."), "stations") from None
+    phase = spec.pin_phase
+    if phase is not None and not 0 <= phase < 1:
+        same = f"; {phase % 1:.6g} is the same place" if np.isfinite(phase) else ""
+        raise SpecError(f"{phase:g}: the place of a pin in the dwell is from 0 to below 1 pitch of the pins{same}", "pin_phase")
+
+
+def _points(spec: IndexerSpec) -> None:
+    name = law_name(spec)
+    for law, key in POINTS.items():
+        given = getattr(spec.motion, key) is not None
+        if given and name != law:
+            raise SpecError(f"is for law = {law!r}; the law is {name!r}", f"motion.{key}")
+        if name == law and not given:
+            raise SpecError(f"is missing: law = {law!r} needs it", f"motion.{key}")
+    if spec.motion.degree is not None and name not in POINTS:
+        raise SpecError(f"is for law = 'table' or 'spline'; the law is {name!r}", "motion.degree")
+    if name == "table" and spec.motion.motion_to_dwell is not None:
+        raise SpecError("the last row of the table tells where the dwell begins; leave motion_to_dwell out", "motion.motion_to_dwell")
 
 
 def _motion(spec: IndexerSpec) -> None:

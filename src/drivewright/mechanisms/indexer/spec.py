@@ -26,6 +26,15 @@ class IndexerMotion(Spec):
     motion_to_dwell: Number | Literal["no-dwell"] | None = Field(
         None, description=f'angle of the step over that of the dwell; 1 unless given; "{NO_DWELL}": a full turn', examples=[1.0]
     )
+    file: DataFile | None = Field(
+        None,
+        description='CSV of law = "table": angle [deg],lift [deg], the input from the start of the step and the wheel; the last row is the '
+        "end of the step, so motion_to_dwell is left out",
+    )
+    points: tuple[tuple[Number, Number], ...] | None = Field(
+        None, description='(u, s) of law = "spline": parts of the motion angle and of the step, both from 0 to 1'
+    )
+    degree: Integer | None = Field(None, description="degree of a spline or table, 3 or 5; 5 unless given")
     b: Number | None = Field(None, description='part of the sine ramps, for law = "scca"')
     c: Number | None = Field(None, description="part of constant acceleration (scca) or velocity (mcv)")
     d: Number | None = Field(None, description='part of the cosine, for law = "scca"')
@@ -133,8 +142,18 @@ class IndexerSpec(MechanismSpec):
         description="pin-wheel: cams that translate on cranks; cycloid: the same, uniform; parallel: two plate cams; barrel, "
         "globoidal: roller gears",
     )
-    pins: Integer = Field(
-        ge=3, le=200, description="pins (rollers) of the wheel, of one level where it has two; steps in a turn", examples=[12]
+    pins: Integer = Field(ge=3, le=200, description="pins (rollers) of the wheel, of one level where it has two", examples=[12])
+    stations: Integer | None = Field(
+        None,
+        ge=1,
+        description="steps in a turn of the wheel, as many as pins unless given; divides pins: a step passes pins/stations of them",
+        examples=[4],
+    )
+    pin_phase: Number | None = Field(
+        None,
+        description="where a pin stands in the dwell, in pitches of the pins (0 to below 1) ahead of the line to the cam's axis, on cranks "
+        "of the crank; unless given 0 on cranks, 0.25 in the first level of parallel, 0.5 (a rib in the middle) in barrel and globoidal",
+        examples=[0.25],
     )
     pin_circle_radius: Length = Field(gt=0, description="radius on which the pins sit", examples=["120 mm"])
     pin_radius: Length = Field(gt=0, description="radius of a pin", examples=["8 mm"])
@@ -179,10 +198,4 @@ class IndexerSpec(MechanismSpec):
         law = self.motion.law
         if law is not None and law not in motion.names():
             raise SpecError(str(UnknownName("motion law", law, motion.names())), "motion.law")
-        if law in ("table", "spline"):
-            raise SpecError(
-                f"law {law!r} needs points of its own, for which an indexing drive has no key; take a law by formula, or "
-                "register one as a plug-in",
-                "motion.law",
-            )
         return self

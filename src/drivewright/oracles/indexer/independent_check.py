@@ -42,12 +42,12 @@ def verify(model: IndexerModel, result: Result[Any]) -> Iterator[Row]:
 
 def _profile(drive: PlaneDrive, suffix: str) -> Iterator[Row]:
     """Area and perimeter of the cam as what the widened centre curve leaves."""
-    from shapely import LineString, Point, Polygon
+    from shapely import LineString, MultiLineString, Point, Polygon
 
     theta = np.linspace(0, TURN, CHORDS, endpoint=False)
-    points = drive.pin_paths(theta).d0.T.ravel()
-    closed = np.append(points, points[0])
-    curve = LineString(np.stack([np.real(closed), np.imag(closed)], axis=1))
+    paths, kinds = drive.pin_paths(theta).d0.T, drive.pins_passed  # where a step passes several pins, each runs along a curve of its own
+    loops = [np.append(paths[kind::kinds].ravel(), paths[kind, 0]) for kind in range(kinds)]
+    curve = MultiLineString([LineString(np.stack([np.real(loop), np.imag(loop)], axis=1)) for loop in loops])
     swept = curve.buffer(drive.pin_radius, quad_segs=128)
     if drive.side == "inside":
         left = next(ring for ring in swept.interiors if Polygon(ring).contains(Point(0, 0)))
@@ -81,7 +81,7 @@ def _flanks(cam: RollerGear, count: int = 200) -> Iterator[Row]:
     least = np.full(count, np.inf)
     at = rotate_about_y(points[None], angle) + (cam.centre_distance, 0.0, cam.height)
     for roller in cam.rollers:
-        psi = cam.motion(theta).d0 + cam.motion.pitch * (cam.phase + roller)
+        psi = cam.motion(theta).d0 + cam.pin_pitch * (cam.phase + roller)
         along, across = np.exp(1j * psi)[:, None], at[..., 0] + 1j * at[..., 1]
         local = across / along - cam.pin_circle_radius  # radially from the middle of the roller, and sideways
         u, sideways, height = (local.real, local.imag, at[..., 2]) if cam.kind == "globoidal" else (at[..., 2], local.imag, local.real)
