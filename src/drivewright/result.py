@@ -85,7 +85,12 @@ class UncertainNumber(Protocol):
         ...
 
 
-BOUNDED = ("mesh", "outlines", "periodic")  # intervals that bound an error of computing; all others are of 95 %
+BOUNDED = (
+    "given",
+    "mesh",
+    "outlines",
+    "periodic",
+)  # intervals of what the spec gives, or that bound an error of computing; all others: 95 %
 
 
 class Value(NamedTuple):
@@ -94,7 +99,8 @@ class Value(NamedTuple):
     `label` is the short name for people, from the meaning where it is not given; `meaning` is the sentence.
 
     `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "visits", "sample", "fit", "periodic" (rounding),
-    "outlines" (by how finely they are divided), "mesh" (of finite elements, from a finer one).  A bound that is None is not known; a value
+    "outlines" (by how finely they are divided), "mesh" (of finite elements, from a finer one), "given" (of a range that the spec
+    gives).  A bound that is None is not known; a value
     without interval is exact to its printed digits.  What has not `settled`, a statistic that still drifted when its run ended, is no
     property of the design yet: it is in the result, but never among the headline values.
     `error` is the standard error, for those who average over many values; result.json does not have it.

@@ -39,6 +39,7 @@ __all__ = [
     "Length",
     "LineForce",
     "Mass",
+    "Power",
     "Pressure",
     "RotationalDamping",
     "RotationalStiffness",
@@ -546,6 +547,7 @@ Temperature: TypeAlias = Annotated[float, BY_NAME["temperature"]]
 TemperatureDifference: TypeAlias = Annotated[float, TEMPERATURE_DIFFERENCE]
 Unbalance: TypeAlias = Annotated[float, BY_NAME["unbalance"]]
 WearCoefficient: TypeAlias = Annotated[float, BY_NAME["wear coefficient"]]
+Power: TypeAlias = Annotated[float, BY_NAME["power"]]
 Slowness: TypeAlias = Annotated[float, BY_NAME["slowness"]]
 Density: TypeAlias = Annotated[float, BY_NAME["density"]]
 LineForce: TypeAlias = Annotated[float, Dimension("force per length", "N/m", "N/mm", inch="lbf/in")]  # of the same kind as a stiffness

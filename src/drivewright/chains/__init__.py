@@ -20,6 +20,7 @@ closure          the rigid chain around two sprockets: centre distance and trans
 explicit         simulation with short explicit steps, ensembles, batches over speed and scatter
 implicit         equilibrium and simulation with implicit steps
 plots            how the tables of chains are looked at
+wear             elongation of a chain by wear of its hinges
 stress           pins under pressure and bending, plates by finite elements, life
 """
 

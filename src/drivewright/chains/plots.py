@@ -29,6 +29,7 @@ PLOTS = (
     ),
     Plot("means", "Mean centre distance over that of a hinged chain", "trade_off", "rolling_radius", ("running_deviation",)),
     Plot("phase_map", "Fluctuation by the number of links", "phase_map", "links", ("fluctuation",), by="design"),
+    Plot("wear", "Elongation by wear over the running time", "wear", "hours", ("elongation", "limit")),
     Plot("running", "The running chain", "running", "time", ("centre_distance", "transmission_error", "tension")),
     Plot("flanks", "Flanks of a plate that goes round", "running", "time", ("plate.left_flank", "plate.right_flank")),
     Plot("spectrum", "Spectrum of the centre distance by mesh orders", "spectrum", "order", ("centre_distance",), log=True),

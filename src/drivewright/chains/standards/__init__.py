@@ -4,14 +4,15 @@ Roller chains (ISO 606 and ISO 10823 family) and inverted-tooth chains (ASME B29
 Each formula is checked by a closed form or a second route; of those recalled or read `SOURCES` says so.  Left out, as neither would
 verify it:
 
-- the standards' tables: pitches, rollers, strengths, power ratings, service factors; enter your own
-- the power equations behind the ratings, limits of speed and life that stem from them, the fatigue and dynamic strength of chains
+- the standards' tables of power ratings and service factors; enter your own (sizes of chains: `drivewright.chains.sizes`)
+- the speed at which pins gall, life beyond that of the ratings, the dynamic strength of chains; ratings of European chains
 - lubrication classes, tooth-width and rim profiles, run-out and tolerances, also those of measuring pins
 - guide grooves, face widths and tip diameters of inverted-tooth sprockets; their dimension over pins follows from the involute tooth of
   `drivewright.chains` and not from a table
 
 The chordal rise of a strand is `drivewright.chains.link.chordal_rise`.
 
+ansi_power  power of American chains by the formulas behind the tables of ASME B29.1
 given     what the formulas of chain drives refuse to work with
 layout    two sprockets and the taut chain around them
 loop      a taut loop around any number of circles, inside and outside of it
@@ -20,6 +21,7 @@ running   a chain at speed
 sprocket  sprockets of roller chains (ISO 606 family)
 """
 
+from drivewright.chains.standards.ansi_power import RollerChainPower, ansi_power, strand_factor
 from drivewright.chains.standards.layout import (
     approximate_centre_distance,
     approximate_links,
@@ -72,9 +74,11 @@ __all__ = [
     "Circle",
     "Loop",
     "RatingTable",
+    "RollerChainPower",
     "SOURCES",
     "StrandForces",
     "ToothGap",
+    "ansi_power",
     "approximate_centre_distance",
     "approximate_links",
     "articulation_pressure",
@@ -104,6 +108,7 @@ __all__ = [
     "speed_fluctuation",
     "speed_range",
     "strand_angle",
+    "strand_factor",
     "strand_forces",
     "strand_frequency",
     "strand_length",

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.silent_chain import closure, compare, contact, dynamics, layout, many, missing, solid, stress
+from drivewright.mechanisms.silent_chain import capacity, closure, compare, contact, dynamics, layout, many, missing, solid, stress
 from drivewright.mechanisms.silent_chain.build import build
 from drivewright.mechanisms.silent_chain.chain_drive import compile_ahead
 from drivewright.mechanisms.silent_chain.claims import claims
@@ -21,6 +21,8 @@ ANALYSES = (
     Analysis("geometry", geometry, "plates and sprockets: walls, teeth, measuring pins, gaps"),
     Analysis("closure", closure.closure, "centre distance and transmission error over a tooth", missing=missing.no_closure),
     Analysis("contact", contact.contact, "pins under the force of a strand: pressure, shakedown, bending", missing=missing.no_contact),
+    Analysis("wear", capacity.wear, "elongation by wear of the joints, and the life until its limit", missing=missing.no_wear),
+    Analysis("rating", capacity.rating, "rated power against the power transmitted", missing=missing.no_rating),
     Analysis("trade_off", compare.trade_off, "what the rolling radius trades", missing=missing.no_trade_off),
     Analysis("phase_map", compare.phases, "fluctuation over links, teeth and rolling radius", missing=missing.no_phase_map),
     Analysis("dynamics", dynamics.dynamics, "the running chain: centre distance, forces, spectrum", missing=missing.no_dynamics),
@@ -60,6 +62,9 @@ HEADLINE = (
     "centre_distance.fluctuation",
     "transmission_error",
     "pin.contact_pressure",
+    "chain.static_safety",
+    "wear.life",
+    "rating.rated_power",
     "dynamics.centre_distance.mean",
     "dynamics.centre_distance.fluctuation",
     "dynamics.centre_distance.mesh_order_amplitude",

@@ -3,20 +3,22 @@
 from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
 from drivewright._typing import Numbers
-from drivewright.chains import meshing
+from drivewright.chains import meshing, wear
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.closure.model import Closure
 from drivewright.chains.link import Link, design_link
 from drivewright.chains.plate import LinkMass, Plate, bar_link_mass, design_plate, mean_link_mass
-from drivewright.chains.plate_holes import Pins, joint_pins
+from drivewright.chains.plate_holes import HingePin, Pins, joint_pins
 from drivewright.chains.published_design import PublishedSprocket, published_sprocket
 from drivewright.chains.roller_link import RollerLink, design_roller_link
 from drivewright.chains.roller_sprocket import RollerSprocket, design_roller_sprocket
 from drivewright.chains.sprocket import Sprocket, design_sprocket
 from drivewright.chains.standards import StrandForces, pitch_diameter, strand_forces
 from drivewright.chains.tooth import Cutter, matching_cutter
-from drivewright.errors import InputError
+from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 from drivewright.mechanisms.silent_chain.sizing import SizedSpec, size_findings, sized
@@ -25,6 +27,7 @@ from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 BUSH = 0.9  # length of a roller chain's bushes over the pitch
 BORE = 0.4  # of the smaller pitch circle
 SHEET = 2e-3  # thickness of a plate  [m]
+LONGEST = 0.05  # elongation
 SIDES = ("drive", "driven")
 
 
@@ -61,7 +64,34 @@ class ChainModel:
 
     def lengthened(self, link: Link) -> Link:
         """A link with the wear of this chain."""
-        return link._replace(hole_pitch=link.hole_pitch + self.spec.closure.elongation * link.pitch)
+        return link._replace(hole_pitch=link.hole_pitch + self.elongation * link.pitch)
+
+    @cached_property
+    def joint_wear(self) -> wear.JointWear | None:
+        """Wear of a joint by the coefficient, then by the ends of its range; None where nothing is known of it, or nothing slides."""
+        given, radius = self.spec.wear, self.pins.radius if isinstance(self.pins, HingePin) else 0.0
+        if given is None or self.spec.drive is None or self.link.radius:
+            return None
+        forces, length = self.strands, self.contact_length if self.spec.roller else min(self.spec.plate.lacing) * self.sheet
+        turns = wear.articulations(self.teeth, forces.tension, forces.slack + forces.centrifugal)
+        depths = wear.joint_wear(given.coefficients, 2 * radius, length, turns, self.rows)
+        time = self.spec.links * self.spec.pitch / forces.speed
+        return wear.JointWear(wear.sliding_per_revolution(2 * radius, turns), np.asarray(depths), time)
+
+    @cached_property
+    def elongation(self) -> float:
+        """Of the chain relative to its pitch, as given and by wear over the running time  [-]."""
+        given, worn = self.spec.wear, self.joint_wear
+        if given is None or worn is None or not given.running_time:
+            return self.spec.closure.elongation
+        total = self.spec.closure.elongation + float(worn.elongation(given.running_time, self.spec.pitch)[0])
+        if total > LONGEST:
+            raise SpecError(
+                f"wears the chain {100 * total:.3g} % longer than its pitch; no chain runs on its teeth beyond {100 * LONGEST:g} %. Take a "
+                f"shorter time, or a smaller wear.coefficient",
+                "wear.running_time",
+            )
+        return total
 
     @cached_property
     def closure(self) -> Closure:

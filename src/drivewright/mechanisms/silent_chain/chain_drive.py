@@ -49,7 +49,7 @@ def _chain(model: ChainModel) -> Chain:
         centre_offset=mass.height,
         toe=toe,
         crotch=crotch,
-        elongation=spec.closure.elongation,
+        elongation=model.elongation,
         articulation_damping=masses.articulation_damping(ratio, model.strands.tension, model.link.hole_pitch, mass.inertia),
     )
 

@@ -66,8 +66,8 @@ def _fixed(model):
 def _remarks(model):
     if model.spec.guides:
         yield "the closure leaves guides out: its strands are free between the sprockets"
-    if model.spec.closure.elongation:
+    if model.elongation:
         yield (
-            f"the chain is {100 * model.spec.closure.elongation:.3g} % longer than its pitch: it rides on the polygon of its own pitch, "
+            f"the chain is {100 * model.elongation:.3g} % longer than its pitch: it rides on the polygon of its own pitch, "
             "rigid; which flanks it then touches is told by the analysis 'quasi_static'"
         )

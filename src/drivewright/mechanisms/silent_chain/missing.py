@@ -5,7 +5,7 @@ from functools import wraps
 
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain.build import ChainModel
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.mechanisms.silent_chain.spec import SilentChainSpec, size_of
 from drivewright.result import Answer, Answers
 
 
@@ -51,6 +51,25 @@ def no_solid_stress(spec: SilentChainSpec) -> str | None:
     if _hinged(spec):
         return "it is for joints whose two pins roll on each other"
     return no_stress(spec)
+
+
+def no_wear(spec: SilentChainSpec) -> str | None:
+    """Why there is no elongation by wear."""
+    if spec.wear is None:
+        return "nothing is known of its wear: write [wear] with a coefficient or its range"
+    if not _hinged(spec):
+        return "pins that roll on each other do not slide: Archard's law knows no wear of theirs"
+    return no_phase_map(spec) or no_dynamics(spec)
+
+
+def no_rating(spec: SilentChainSpec) -> str | None:
+    """Why there is no power rating."""
+    size = size_of(spec)
+    if spec.rating.rated_power is None and not (size and size.ansi):
+        return "no rating is known: give rating.rated_power of the maker, or an American chain by its number, which has formulas"
+    if spec.drive and not spec.drive.load_torque:
+        return "no power is transmitted: drive.load_torque is 0"
+    return no_phase_map(spec) or no_dynamics(spec)
 
 
 def _hinged(spec: SilentChainSpec) -> bool:

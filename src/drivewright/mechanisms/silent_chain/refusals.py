@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from drivewright.errors import SpecError
+from drivewright.mechanisms.silent_chain.capacity_tables import Wear
 from drivewright.mechanisms.silent_chain.sizing import SizedSpec
 from drivewright.mechanisms.silent_chain.spec import Plate
 
@@ -19,6 +20,8 @@ def refuse_contradictions(spec: SizedSpec) -> None:
         raise SpecError('a rolling joint needs its radius: give rolling_radius, or take kind = "revolute"', "joint.rolling_radius")
     if joint.rolling_radius is not None and np.any(joint.rolling_radius > FLATTEST * spec.pitch):
         raise SpecError(f"is more than {FLATTEST:g} pitches, as good as flat; take a smaller one", "joint.rolling_radius")
+    if spec.wear is not None:
+        _refuse_wear(spec.wear)
     for guide in spec.guides:
         if (guide.force is None) != (guide.direction is None):
             raise SpecError(
@@ -36,6 +39,14 @@ def refuse_contradictions(spec: SizedSpec) -> None:
     if (plate.apothem is None) == (plate.standard_apothem is None):
         how = "neither is" if plate.apothem is None else "both are"
         raise SpecError(f"give one of apothem (from the hole) and standard_apothem (from the pitch line); {how} given", "plate.apothem")
+
+
+def _refuse_wear(given: Wear) -> None:
+    ends = given.coefficient_range
+    if given.coefficient is None and ends is None:
+        raise SpecError("is missing, and nothing is assumed; give it, or coefficient_range", "wear.coefficient")
+    if ends is not None and not ends[0] <= (given.coefficients[0]) <= ends[1]:
+        raise SpecError("has to run from the least to the greatest value, with the coefficient between them", "wear.coefficient_range")
 
 
 def unused(spec: SizedSpec) -> Iterator[str]:

@@ -8,6 +8,7 @@ from drivewright.chains.meshing import Ideal
 from drivewright.chains.sizes import ChainSize, chain_size
 from drivewright.errors import InputError, SpecError
 from drivewright.fatigue.material import StrainLife
+from drivewright.mechanisms.silent_chain.capacity_tables import Rating, Wear
 from drivewright.plugins import installed
 from drivewright.spec import Integer, MechanismSpec, Name, Number, Spec
 from drivewright.spec.fields import Designation, Field
@@ -304,6 +305,9 @@ class Limits(Spec):
     wall: Length = Field("0.5 mm", ge=0, description="least width of a plate around and between its holes")
     tip_thickness: Length = Field("0.3 mm", ge=0, description="of the teeth at their tips")
     static_safety: Number = Field(6.0, gt=0, description="breaking load over the force of the tight strand, at least")
+    wear_life: Time | None = Field(
+        None, gt=0, description="time until wear elongates the chain to its limit, at least", examples=["5000 h"]
+    )
     overlap: Length = Field("5 um", ge=0, description="of plates with teeth, seated or coming in")
 
 
@@ -354,6 +358,8 @@ class SilentChainSpec(MechanismSpec):
     scatter: Scatter = Field(Scatter(), description="scatter of manufacture")
     fatigue: Fatigue = Field(Fatigue(), description="stress and life")
     solid: Solid = Field(Solid(), description="plate and pins as solids")
+    wear: Wear | None = Field(None, description="wear of the joints")
+    rating: Rating = Field(Rating(), description="power rating")
     limits: Limits = Field(Limits(), description="requirements")
 
     @property

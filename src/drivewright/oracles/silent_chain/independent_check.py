@@ -210,7 +210,7 @@ class Loop:
 def _rest(model, result):
     """Mean centre distance of rigid plates as the limit of stiff ones at rest, which find their seats by contact alone."""
     spec = model.spec
-    odd = spec.closure.elongation or spec.dynamics.thickness_deviation or spec.guides or spec.sprockets or spec.roller
+    odd = model.elongation or spec.dynamics.thickness_deviation or spec.guides or spec.sprockets or spec.roller
     if not spec.drive or odd or spec.closure.strands != "equilibrium" or spec.meshing.apothem_reference == "pin":
         return
     system = replace(chain_drive(model), gravity=(0.0, 0.0))
