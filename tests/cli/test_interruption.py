@@ -82,7 +82,7 @@ def quiet(said):
 
 
 @pytest.mark.usefixtures("compiled")
-@pytest.mark.parametrize("name", SIGNALS)
+@pytest.mark.parametrize("name", ["INT", "TERM", pytest.param("HUP", marks=pytest.mark.slow)])  # the next test sends HUP, too
 def test_a_sweep_that_is_ended_keeps_what_is_done_and_leaves_nothing_behind(tmp_path, name):
     code, said = interrupted(sweep(tmp_path / "S"), parts(tmp_path / "S", 3), getattr(signal, f"SIG{name}"))
     assert code == SIGNALS[name]

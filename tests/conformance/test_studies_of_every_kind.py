@@ -63,7 +63,10 @@ def test_every_case_has_its_row_and_its_numbers(serial, kind):
     assert all(study.unit(name) and study.meaning(name) for name in study.value_names)
 
 
-@pytest.mark.parametrize("kind", registry.kinds())
+FIRST = ("cam", "silent-chain")  # the other kinds go the same ways, in the slow tests
+
+
+@pytest.mark.parametrize("kind", [kind if kind in FIRST else pytest.param(kind, marks=pytest.mark.slow) for kind in registry.kinds()])
 def test_processes_give_the_same_bytes(serial, kind):
     assert dw.sweep(*study_of(kind), workers=2).table.equals(serial[kind].table)
 

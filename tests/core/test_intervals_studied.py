@@ -116,6 +116,7 @@ def test_processes_give_the_same_bytes(elsewhere):
 
 
 @pytest.mark.needs_cluster
+@pytest.mark.slow
 def test_dask_gives_the_same_bytes(elsewhere):
     import distributed
 

@@ -303,7 +303,7 @@ def test_a_damaged_file_is_compiled_again_and_mended(tmp_path, squares):
     for damaged in (whole[:-1], whole[:100] + bytes([whole[100] ^ 1]) + whole[101:], b""):
         file.write_bytes(damaged)
         assert squares() == "9.0 0" and len(file.read_bytes()) == len(whole)
-        assert squares() == "9.0 1"
+    assert squares() == "9.0 1"
 
 
 def test_a_disk_that_takes_nothing_costs_time_and_not_the_result(squares):

@@ -7,14 +7,14 @@ pytestmark = pytest.mark.property
 
 FAULTS = ["kill", "torn", "full", "read-only", "once"]
 STEPS = {  # every so many operations, for a few seconds; the slow tests try all of them
-    "run-folder": 8,
-    "run-folder-by-two-renames": 8,
-    "sweep": 25,
+    "run-folder": 16,
+    "run-folder-by-two-renames": 16,
+    "sweep": 40,
     "sweep-without-ledger": 12,
-    "sweep-with-damaged-ledger": 12,
+    "sweep-with-damaged-ledger": 20,
     "sweep-with-damaged-part": 25,
     "optimise": 60,
-    "table": 12,
+    "table": 24,
 }
 LONG = {"answers": 9, "run": 9, "export": 9, "export-for-the-shop": 9}  # commands that write the same kinds of file again and again
 

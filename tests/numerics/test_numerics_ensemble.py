@@ -21,7 +21,7 @@ from drivewright.result import Value
 
 pytestmark = pytest.mark.analytical
 
-TRIALS = 2000
+TRIALS = 1000
 # (members, windows, coefficient): from 4 members on any length, one run from 16 effective samples on.
 SIZES = (
     (1, 64, 0.0),
@@ -203,7 +203,7 @@ STATISTICS = {"largest": np.max, "percentile": partial(np.quantile, q=0.9), "roo
 def test_interval_covers_the_statistic_of_a_run(name, size):
     members, windows, coefficient = size
     statistic = STATISTICS[name]
-    known = float(np.mean(statistic(autoregressive(1, 200_000, windows, coefficient, seed=7)[0], axis=1)))
+    known = float(np.mean(statistic(autoregressive(1, 50_000, windows, coefficient, seed=7)[0], axis=1)))
     found = [estimate_statistic(x, statistic) for x in autoregressive(1000, *size)]
     assert 0.92 <= share(e.low <= known <= e.high for e in found) <= 0.98
 
@@ -230,9 +230,9 @@ def test_statistics_of_few_windows_are_never_settled(shape):
 
 
 def test_both_tests_of_a_statistic_share_the_false_alarm():
-    """Half of it each: no more than 1 % of 4000 settled ensembles, and four standard deviations of that count."""
-    alarms = share(not estimate_statistic(x, np.max).settled for x in autoregressive(4000, 8, 16, 0.0, seed=11))
-    assert alarms <= FALSE_ALARM + 4 * np.sqrt(FALSE_ALARM / 4000)
+    """Half of it each: no more than 1 % of 2000 settled ensembles, and three standard deviations of that count."""
+    alarms = share(not estimate_statistic(x, np.max).settled for x in autoregressive(2000, 8, 16, 0.0, seed=11))
+    assert alarms <= FALSE_ALARM + 3 * np.sqrt(FALSE_ALARM / 2000)
 
 
 def test_a_statistic_of_one_member_has_no_interval_and_of_a_constant_no_width():

@@ -4,10 +4,11 @@ import math
 
 import numpy as np
 import pytest
+from shaft_steel import STEEL
 
 from drivewright import materials, shafts
 from drivewright.errors import InputError, UnknownName
-from drivewright.materials import Source, Strength
+from drivewright.materials import Strength
 from drivewright.shafts.fatigue_strength import (
     NominalStress,
     Service,
@@ -35,7 +36,6 @@ from drivewright.shafts.strength_sections import ASSUMED_FILLET, assumed_fillets
 pytestmark = pytest.mark.analytical
 
 MM, MPA, INCH, KPSI, LBF_IN = 1e-3, 1e6, 25.4e-3, 6.894757e6, 0.1129848
-STEEL = Strength(1000 * MPA, 800 * MPA, Source("a steel of these tests", recalled=False))
 PLAIN = NotchFactors(1.0, 1.0, 1.0, "none")
 RIGID = math.inf
 

@@ -3,9 +3,9 @@
 import math
 
 import pytest
+from shaft_steel import STEEL
 
 from drivewright.errors import InputError, UnknownName
-from drivewright.materials import Source, Strength
 from drivewright.shafts.notches import (
     CrossHole,
     Keyway,
@@ -25,7 +25,6 @@ from drivewright.shafts.notches import (
 pytestmark = pytest.mark.analytical
 
 MM = 1e-3
-STRONG = Strength(1000e6, 800e6, Source("a steel of these tests", recalled=False))
 
 
 def shoulder(larger, smaller, radius):
@@ -140,18 +139,18 @@ def test_cross_holes_of_tubes():
     ],
 )
 def test_measured_factors_at_the_diameter_they_were_measured_at(notch, outer, expected):
-    assert measured_factors(notch, outer, STRONG)[:3] == pytest.approx(expected, rel=1e-5)
+    assert measured_factors(notch, outer, STEEL)[:3] == pytest.approx(expected, rel=1e-5)
 
 
 def test_measured_factors_follow_the_tensile_strength():
-    weak = STRONG._replace(tensile=500e6)
+    weak = STEEL._replace(tensile=500e6)
     assert measured_factors(Keyway("k", 0.1), 0.04, weak).bending == pytest.approx(3 * 0.5**0.38)
     assert measured_factors(PressFit("p", 0.1), 0.04, weak).bending == pytest.approx(2.7 * 0.5**0.43)
     assert measured_factors(Spline("s", 0.1, form="straight"), 0.029, weak).torsion == pytest.approx(math.exp(0.105))
 
 
 def test_measured_factors_on_other_diameters():
-    small, usual, large, huge = (measured_factors(Keyway("k", 0.1), d, STRONG).bending for d in (0.0075, 0.04, 0.15, 0.3))
+    small, usual, large, huge = (measured_factors(Keyway("k", 0.1), d, STEEL).bending for d in (0.0075, 0.04, 0.15, 0.3))
     effect = 0.2 * math.log10(3.0)
     assert small == pytest.approx(3 * (1 - effect * math.log10(40 / 7.5) / math.log10(20)))
     assert large == pytest.approx(small / (1 - effect)) and huge == large and small < usual < large
@@ -162,7 +161,7 @@ def test_a_retaining_ring_groove_by_hand():
     groove = RectangularGroove("g", 0.1, 1.3 * MM, 2.0 * MM, 0.2 * MM)
     g, h = math.sqrt(1.3 / (0.2 + 2.9 * 0.053211)), math.sqrt(1.3 / 0.253211)
     expected = (0.9 * (1.27 + 1.17 * g), 0.9 * (1.14 + 1.08 * g), 1.48 + 0.45 * h)
-    strength = STRONG._replace(yield_strength=500e6)
+    strength = STEEL._replace(yield_strength=500e6)
     assert measured_factors(groove, 0.0326, strength)[:3] == pytest.approx(expected, rel=1e-5)
     narrow = measured_factors(groove._replace(width=1.04 * MM), 0.0326, strength)[:3]
     assert narrow == pytest.approx([1.08 * 0.8**-0.2 * each for each in expected], rel=1e-5)
@@ -188,7 +187,7 @@ def test_elastic_factors_know_no_metre(notch):
 
 
 def test_a_smooth_place_has_no_factor():
-    assert kt(SmoothPlace("s", 0.1)) == (1, 1, 1) and measured_factors(SmoothPlace("s", 0.1), 0.05, STRONG) is None
+    assert kt(SmoothPlace("s", 0.1)) == (1, 1, 1) and measured_factors(SmoothPlace("s", 0.1), 0.05, STEEL) is None
 
 
 def test_the_net_section_and_the_root():
@@ -199,7 +198,7 @@ def test_the_net_section_and_the_root():
 
 @pytest.mark.parametrize("notch", [*ELASTIC, *MEASURED], ids=kind_of)
 def test_a_notch_has_factors_of_one_of_the_two_kinds(notch):
-    measured = measured_factors(notch, 0.05, STRONG)
+    measured = measured_factors(notch, 0.05, STEEL)
     assert (measured is not None) == (notch in MEASURED)
     if measured:
         with pytest.raises(InputError, match=f"a {kind_of(notch)} has no elastic stress concentration factor"):
@@ -230,7 +229,7 @@ def test_impossible_notches_are_refused(notch, message):
 @pytest.mark.error
 def test_impossible_measured_notches_are_refused():
     with pytest.raises(UnknownName, match=r"no form of a spline is called 'involut' \(did you mean 'involute'\?\)"):
-        measured_factors(Spline("s", 0.1, form="involut"), 0.05, STRONG)
+        measured_factors(Spline("s", 0.1, form="involut"), 0.05, STEEL)
     for key in ("depth", "width", "radius"):
         with pytest.raises(InputError, match=f"the {key} of a rectangular groove must be above 0"):
-            measured_factors(MEASURED[3]._replace(**{key: 0.0}), 0.05, STRONG)
+            measured_factors(MEASURED[3]._replace(**{key: 0.0}), 0.05, STEEL)

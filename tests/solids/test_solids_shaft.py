@@ -145,7 +145,7 @@ def test_units_do_not_matter():
 
 
 @needs_fe
-@pytest.mark.parametrize("bore", [0.0, 16.0])
+@pytest.mark.parametrize("bore", [pytest.param(0.0, marks=pytest.mark.slow), 16.0])
 def test_cowpers_coefficient_is_the_solids(bore):
     """Between two sections away from the loads  w' + phi = V/(kappa G A), w and phi the means of displacement and turn."""
     import ngsolve as ng

@@ -13,6 +13,7 @@ from drivewright.spec.shared_tables import share_tables
 from drivewright.units import SI
 
 pytestmark = pytest.mark.property
+PAIRS = 25  # of keys of a spec, spread over all of them
 SPECS = sorted(EXAMPLES.glob("*.toml"))
 
 
@@ -52,7 +53,8 @@ def test_specs_from_shared_tables_are_those_from_raw_ones(path):
     tables, spec = drive(path)
     keys = list(quantities(tables, spec))
     assert keys
-    for first, second in zip(keys, keys[1:] + keys[:1], strict=True):
+    pairs = list(zip(keys, keys[1:] + keys[:1], strict=True))
+    for first, second in pairs[:: -(-len(pairs) // PAIRS)]:
         shared, raw = share_tables(document(spec), spec, (first, second)), document(spec)
         for factor in (1.001, 0.5):
             given = {key: SI(factor * value_at(spec, key)) for key in (first, second)}

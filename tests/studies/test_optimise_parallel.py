@@ -163,7 +163,7 @@ def test_a_finished_search_given_again_answers_from_the_store(tmp_path, undistur
     assert same(again, first) and same(again, undisturbed)
 
 
-@pytest.mark.parametrize("stop", [1, 11, 18])
+@pytest.mark.parametrize("stop", [11, *(pytest.param(stop, marks=pytest.mark.slow) for stop in (1, 18))])
 def test_ctrl_c_loses_nothing_finished_and_the_search_goes_on(tmp_path, undisturbed, counted, stop):
     def interrupting(done, total, what):
         if len(counted) >= stop:

@@ -198,10 +198,11 @@ def test_a_ledger_and_a_part_that_are_damaged(study, whole, counted):
     assert len(list((study / "parts").glob(f"{file.name}.damaged-*"))) == 1 and len(list(study.glob("ledger.sqlite.damaged-*"))) == 1
 
 
-def test_any_bit_of_the_ledger_may_change(study, whole):
-    """Every 71st byte, and more of the head, so that each page is met: the same rows, or a refusal; and the same rows after a sweep."""
+@pytest.mark.parametrize(("head", "step"), [(9, 401), pytest.param(3, 71, marks=pytest.mark.slow)])
+def test_any_bit_of_the_ledger_may_change(study, whole, head, step):
+    """Some bytes of every page, and more of the head: the same rows, or a refusal; and the same rows after a sweep."""
     ledger, told = (study / "ledger.sqlite").read_bytes(), 0
-    for place in [*range(0, 100, 3), *range(100, len(ledger), 71)]:
+    for place in [*range(0, 100, head), *range(100, len(ledger), step)]:
         (study / "ledger.sqlite").write_bytes(ledger)
         flip(study / "ledger.sqlite", place, place % 8)
         try:

@@ -341,6 +341,7 @@ def test_processes_give_the_same_bytes(gears):
 
 
 @pytest.mark.needs_cluster
+@pytest.mark.slow
 def test_dask_gives_the_same_bytes(gears):
     vary = {"gears.pinion.torque + -gears.wheel.torque": linspace("20 N m", "40 N m", 5)}
     assert dw.sweep(gears, vary, on="local:2").table.equals(dw.sweep(gears, vary, on="serial").table)

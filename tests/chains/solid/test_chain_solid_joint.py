@@ -94,6 +94,7 @@ def test_the_rolling_table_is_hertz_along_the_pins():
     assert table["height"].data == pytest.approx(np.linspace(0, 3e-3, 13))
 
 
+@pytest.mark.slow
 def test_an_endless_stack_is_held_in_its_last_plane_and_another_is_not():
     """Poisson's contraction moves the outer face of a stack that ends."""
 

@@ -62,12 +62,12 @@ def outputs_of(spec, keys, design, analyses=ANALYSES):
     return {name: output.value for name, output in case_outputs(values, [check for a in answers for check in a.checks]).items()}
 
 
-def designs_of(ranges, count=24):
+def designs_of(ranges, count=12):
     low, high = np.array(list(ranges.values())).T
     return np.random.default_rng(7).uniform(low, high, (count, len(low)))
 
 
-def assert_same(spec, ranges, analyses=ANALYSES, count=24):
+def assert_same(spec, ranges, analyses=ANALYSES, count=12):
     """The batch equals the runs in every name that any of them has; how many of the designs were refused."""
     keys, designs = tuple(ranges), designs_of(ranges, count)
     runs = [outputs_of(spec, keys, design, analyses) for design in designs]
@@ -85,7 +85,7 @@ def assert_same(spec, ranges, analyses=ANALYSES, count=24):
 @pytest.mark.parametrize("name", RANGES)
 def test_the_batch_gives_what_the_runs_give(name):
     refused = assert_same(preset(name), RANGES[name])
-    assert refused < 12
+    assert refused < 6
     assert refused or name == "conjugate"
 
 
@@ -93,7 +93,7 @@ def test_a_flat_face_on_a_lever():
     spec = from_document(
         {"mechanism": "cam", "follower": LEVER, "programme": [{"angle": "120 deg", "law": "modified-sine", "rise": "12 deg"}, *TURN[1:]]}
     )
-    assert assert_same(spec, {"follower.base_radius": (0.01, 0.07), "follower.pivot_distance": (0.05, 0.1)}) > 0
+    assert assert_same(spec, {"follower.base_radius": (0.01, 0.07), "follower.pivot_distance": (0.05, 0.1)}, count=24) > 0
 
 
 def test_each_design_has_a_motion_of_its_own():
@@ -167,7 +167,7 @@ def test_a_search_by_the_batch_finds_the_cam_that_a_search_by_runs_finds(monkeyp
 
 @pytest.mark.parametrize("name", [name if name == "default" else pytest.param(name, marks=pytest.mark.slow) for name in RANGES])
 def test_who_else_is_in_the_batch_changes_no_bit(name):
-    spec, designs = preset(name), designs_of(RANGES[name], 40)
+    spec, designs = preset(name), designs_of(RANGES[name], 20)
     names = tuple(outputs_of(spec, (), ()))
     evaluate = CAM.batch(spec, tuple(RANGES[name]), names)
     together, alone = evaluate(designs), [evaluate(design[None]) for design in designs]
@@ -182,7 +182,7 @@ DRIVE = {"spring.stiffness": (0.0, 2e4), "drive.speed": (10.0, 160.0), "face.wid
 def test_forces_spring_and_pressure_of_many_loads():
     """Some springs hold the follower at no stiffness, some followers leave the cam at rest, some at no speed."""
     spec, ranges = preset("default"), FORCES | DRIVE | {"follower.roller_radius": (0.004, 0.039)}
-    assert assert_same(spec, ranges, count=40) == 0
+    assert assert_same(spec, ranges, count=20) == 0
     designs = designs_of(ranges, 40)
     found = CAM.batch(spec, tuple(ranges), names := ("spring.needed_stiffness", "spring.jump_speed", "max_contact_pressure"))(designs)
     absent = {name: int(np.isnan(found[name]).sum()) for name in names}
@@ -209,7 +209,7 @@ def test_a_follower_without_any_load_has_no_forces_among_others_that_have():
 def test_profiles_are_trimmed_only_where_they_may_be_undercut(name, monkeypatch):
     """Of wide ranges some designs are undercut, and have the numbers of a run; near the preset none is trimmed at all."""
     wide = {key: bounds for key, bounds in RANGES[name].items() if key != "follower.face_angle"}
-    assert_same(preset(name), wide, ("profile",), count=12)
+    assert_same(preset(name), wide, ("profile",), count=8)
     spec, key = preset(name), next(iter(RANGES[name]))
     names = [each for each in outputs_of(spec, (), (), ("profile",)) if each not in BEYOND]
     monkeypatch.setattr(cams, "finished_profile", lambda *told: pytest.fail("trimmed"))
