@@ -4,10 +4,12 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from drivewright._typing import Floats
+from drivewright.chains.link import Link
 from drivewright.chains.roller_sprocket import roller_plate
 from drivewright.scene import Drawing, Outline, Part, Prism, Shape, circle
 
 END, WAIST = 0.45, 0.5  # radii of the plate's round ends and of the arcs of its waist, over the pitch
+BAR = 0.3  # radius of the ends of a plate that stands for another, over the pitch
 
 
 class RollerLink(NamedTuple):
@@ -64,3 +66,9 @@ class RollerLink(NamedTuple):
 def design_roller_link(pitch: float, roller_diameter: float, inner_width: float, thickness: float, back: float | None = None) -> RollerLink:
     """A `RollerLink` with plates of one thickness, of a height `back` above the pins: 0.45 pitches unless given  [m]."""
     return RollerLink(pitch, roller_diameter, inner_width, thickness, thickness, END * pitch if back is None else back)
+
+
+def pair_plate(link: Link) -> Outline:
+    """A plate of two round ends about its places of contact in the straight chain, which stands for one whose pins are not drawn."""
+    plate = roller_plate(link.pitch, BAR * link.pitch, WAIST * link.pitch)
+    return plate.transformed((-link.skew, 0.0, 0.0), False)

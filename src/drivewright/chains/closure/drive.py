@@ -11,6 +11,7 @@ from drivewright.chains.closure.measures import measure
 from drivewright.chains.closure.model import Closure, Drive, States, Strands
 from drivewright.chains.closure.start import layout_of
 from drivewright.chains.link import Link
+from drivewright.contact import hertz
 from drivewright.errors import DoesNotAssemble, InputError, SolverError, UnknownName, brief
 
 POSITIONS = 48
@@ -58,12 +59,23 @@ def _closure(drive, track):
 
 
 def refuse_joint(joint: Link) -> None:
-    """InputError for a joint that leaves no pitch."""
+    """InputError for a joint that leaves no pitch, or whose surfaces do not touch on one line."""
+    if joint.skew:
+        refuse_pair(joint)
+        return
     if not (np.isfinite(joint.hole_pitch) and 0 <= joint.radius < joint.hole_pitch / 2):
         raise InputError(
             f"chain: a joint with hole pitch {joint.hole_pitch * 1e3:.4g} mm and rolling radius {joint.radius * 1e3:.4g} mm; the radius "
             "must be 0 or more, and twice as much less than the hole pitch: what is left is the pitch of the chain."
         )
+
+
+def refuse_pair(joint: Link) -> None:
+    """InputError for rolling surfaces of two radii that do not touch on one line, or leave no pitch."""
+    right, left = joint.radii
+    if not (np.all(np.isfinite(joint)) and joint.pitch > 0):
+        raise InputError(f"chain: a joint with the radii {1e3 * right:.4g} and {1e3 * left:.4g} mm and no pitch between.")
+    hertz.effective_radius(right, left)
 
 
 def refuse_count(name: str, value: int, least: int) -> None:

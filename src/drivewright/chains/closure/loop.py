@@ -23,18 +23,22 @@ _QUARTER = 0.5 * np.pi
 
 
 class Layout(NamedTuple):
-    """Joint A, r [pitches]; whether strands bend; tooth angles [rad] and seat heights [pitches] of both sprockets; number of plates.
+    """Joint A, r, skew k [pitches]; whether strands bend; tooth angles [rad] of both sprockets; heights and shifts of the plates seated on
+    them [pitches]; number of plates.
 
     `lead`: the plate on tooth 0 of the driven sprocket is this many plates ahead of that on tooth 0 of the driver.
     """
 
     A: float
     r: float
+    k: float
     bent: bool
     phi_1: float
     phi_2: float
     height_1: float
     height_2: float
+    shift_1: float
+    shift_2: float
     links: int
     lead: int
 
@@ -104,10 +108,12 @@ def _equations(layout, seats, psi, x, work):
     upper, lower = free_plates(layout, seats)
     off_1, on_2 = psi + seats[0] * layout.phi_1, x[0] + seats[1] * layout.phi_2
     off_2, on_1 = x[0] + seats[2] * layout.phi_2, psi + seats[3] * layout.phi_1 - 2 * np.pi
-    arm_1, arm_2 = layout.height_1 - 0.5j * layout.A, layout.height_2 - 0.5j * layout.A
-    over = _side(layout, upper, arm_1, off_1, arm_2, on_2, x[2], work.strand)
+    half = 0.5 * layout.A
+    leave_1, leave_2 = layout.height_1 - 1j * (half + layout.shift_1), layout.height_2 - 1j * (half + layout.shift_2)
+    meet_1, meet_2 = layout.height_1 + 1j * (half - layout.shift_1), layout.height_2 + 1j * (half - layout.shift_2)
+    over = _side(layout, upper, leave_1, off_1, meet_2, on_2, x[2], work.strand)
     _margins(layout, layout.phi_1, layout.phi_2, 0, off_1 - x[2], on_2 - x[2], upper, work)
-    under = _side(layout, lower, arm_2, off_2, arm_1, on_1, x[3], work.strand)
+    under = _side(layout, lower, leave_2, off_2, meet_1, on_1, x[3], work.strand)
     _margins(layout, layout.phi_2, layout.phi_1, 2, off_2 - x[3], on_1 - x[3], lower, work)
     _fill(work, 0, over.miss - x[1], over.by_end, -1.0, over.by_start)
     _fill(work, 2, under.miss + x[1], under.by_start, 1.0, under.by_end)
@@ -131,11 +137,11 @@ def _fill(work, row, miss, by_driven, by_distance, by_driver):
 def _side(layout, count, arm_start, start, arm_end, end, direction, scratch):
     """The `Side` of a strand from the seated plate at the polar angle `start` of one sprocket to that at `end` of the other one.
 
-    The last pin seated is at arm u(start), the first one seated again at conj(arm) u(end), from the sprockets' centres.
+    The last pin seated is at arm_start u(start), the first one seated again at arm_end u(end), from the sprockets' centres.
     """
-    found = reach(layout.A, layout.r, layout.bent, count, start - _QUARTER - direction, end - _QUARTER - direction, scratch)
+    found = reach(layout.A, layout.r, layout.k, layout.bent, count, start - _QUARTER - direction, end - _QUARTER - direction, scratch)
     turn = np.exp(1j * direction)
-    here, there = arm_start * np.exp(1j * start), arm_end.conjugate() * np.exp(1j * end)
+    here, there = arm_start * np.exp(1j * start), arm_end * np.exp(1j * end)
     by_start, by_end = turn * found.by_start, turn * found.by_end
     by_direction = 1j * turn * found.vector - by_start - by_end  # turned as a whole, the seated plates left behind
     return Side(here + turn * found.vector - there, 1j * here + by_start, by_end - 1j * there, by_direction)
@@ -147,16 +153,17 @@ def _margins(layout, phi_start, phi_end, end, start_angle, end_angle, count, wor
     first, last = 0.0, 0.0
     if layout.bent:
         first, last = work.strand[0, 1], work.strand[0, count]
-    _margin(layout, phi_start, start_angle - _QUARTER, first, 2 * end, work.margins)
-    _margin(layout, phi_end, _QUARTER - end_angle, -last, 2 * end + 2, work.margins)
+    _margin(layout, layout.k, phi_start, start_angle - _QUARTER, first, 2 * end, work.margins)
+    _margin(layout, -layout.k, phi_end, _QUARTER - end_angle, -last, 2 * end + 2, work.margins)
 
 
 @inner
-def _margin(layout, phi, seated, first, place, margins):
+def _margin(layout, k, phi, seated, first, place, margins):
     """The gap of the first free plate to the next seat [rad], and what presses the last seated one onto its own, see `pressing`.
 
-    `seated` and `first`: their directions against the force, turned back from it.  A strand that is straight by decree drops a plate when
-    it points along the strand, as with r = 0.
+    `seated` and `first`: their directions against the force, turned back from it; k: the skew as seen from this end.  A strand that is
+    straight by decree drops a plate when it points along the strand, as with r = 0.
     """
     margins[place] = phi - (seated - first)
-    margins[place + 1] = pressing(layout.A, layout.r if layout.bent else 0.0, phi, seated, first)
+    bent = layout.bent
+    margins[place + 1] = pressing(layout.A, layout.r if bent else 0.0, k if bent else 0.0, phi, seated, first)

@@ -9,7 +9,7 @@ from drivewright.chains.closure import tracking
 from drivewright.chains.closure.loop import free_plates
 from drivewright.chains.closure.model import Closure, States
 from drivewright.chains.closure.start import layout_of
-from drivewright.chains.closure.strand import plate_directions
+from drivewright.chains.closure.strand import first_share, plate_directions
 from drivewright.errors import InputError, SolverError
 
 
@@ -90,15 +90,19 @@ def _directions(layout, psi_1, psi_2, _, strand_angle, seats):
     around_1 = psi_1 + np.arange(on_1, off_1 - 1, -1) * layout.phi_1 - 2.5 * np.pi
     leaving = around_1[-1] + 2 * np.pi
     up, down = strand_angle
-    over = up + plate_directions(layout.A, layout.r, layout.bent, upper, leaving - up, around_2[0] - up)
-    under = down + plate_directions(layout.A, layout.r, layout.bent, lower, around_2[-1] - down, around_1[0] - down)
+    over = up + plate_directions(layout.A, layout.r, layout.k, layout.bent, upper, leaving - up, around_2[0] - up)
+    under = down + plate_directions(layout.A, layout.r, layout.k, layout.bent, lower, around_2[-1] - down, around_1[0] - down)
     return np.concatenate([[leaving], over, around_2, under, around_1[:-1]])
 
 
 def _places(layout, state, direction):
     """Complex places of the pin frames [pitches], joint after joint from the plate that leaves the driver."""
-    first = layout.height_1 * np.exp(1j * (state.driver_angle + state.seats[0] * layout.phi_1))
-    half, joint = 0.5 * layout.A * np.exp(1j * direction), 2 * layout.r * np.exp(0.5j * (direction[:-1] + direction[1:]))
+    first = (layout.height_1 - 1j * layout.shift_1) * np.exp(1j * (state.driver_angle + state.seats[0] * layout.phi_1))
+    share = first_share(layout.r, layout.k)
+    half, joint = (
+        0.5 * layout.A * np.exp(1j * direction),
+        2 * layout.r * np.exp(1j * (share * direction[:-1] + (1 - share) * direction[1:])),
+    )
     return first + np.concatenate([[0], np.cumsum(half[:-1] + half[1:] - joint)])
 
 

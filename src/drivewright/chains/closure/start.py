@@ -5,7 +5,7 @@ import numpy as np
 from drivewright._typing import Floats, Ints
 from drivewright.chains.closure.loop import Layout
 from drivewright.chains.closure.model import Drive
-from drivewright.chains.link import seat_height
+from drivewright.chains.link import seat_height, seat_shift
 from drivewright.errors import DoesNotAssemble
 
 _HALVINGS = 60
@@ -24,9 +24,12 @@ def layout_of(drive: Drive) -> tuple[Layout, Ints, Floats]:
     off_1, on_1 = np.ceil(tangent / phi_1), np.floor((2 * np.pi - tangent) / phi_1)
     on_2, off_2 = np.floor((tangent - psi_2) / phi_2), np.ceil((-tangent - psi_2) / phi_2)
     seats = np.array([off_1, on_2, off_2, on_1]).astype(np.int64)
-    height_1, height_2 = (seat_height(drive.link, teeth) / p for teeth in (drive.driver_teeth, drive.driven_teeth))
+    link, both = drive.link, (drive.driver_teeth, drive.driven_teeth)
+    height_1, height_2 = (seat_height(link, teeth) / p for teeth in both)
+    shift_1, shift_2 = (seat_shift(link, teeth) / p for teeth in both)
     bent = drive.strands == "equilibrium"
-    layout = Layout(drive.link.hole_pitch / p, drive.link.radius / p, bent, phi_1, phi_2, height_1, height_2, drive.links, lead)
+    joint = link.hole_pitch / p, link.radius / p, link.skew / p
+    layout = Layout(*joint, bent, phi_1, phi_2, height_1, height_2, shift_1, shift_2, drive.links, lead)
     return layout, seats, np.array([psi_2, distance, rise, -np.pi - rise])
 
 

@@ -22,7 +22,7 @@ from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 from drivewright.mechanisms.silent_chain.sizing import SizedSpec, size_findings, sized
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
+from drivewright.mechanisms.silent_chain.spec import PAIRS, SilentChainSpec, signed_seat
 
 BUSH = 0.9  # length of a roller chain's bushes over the pitch
 BORE = 0.4  # of the smaller pitch circle
@@ -103,6 +103,8 @@ class ChainModel:
     def plate(self) -> Plate:
         """The plate of a silent chain; InputError where the lengths given leave none."""
         given = self.spec.plate
+        if self.link.skew:
+            raise InputError("plates are drawn with pins of one radius; those of a joint of two radii are a drawing of your own")
         lengths = _given(back=given.back, toe=given.toe, crotch=given.crotch, crotch_radius=given.crotch_radius)
         return design_plate(self.link, self.pins, thickness=self.sheet, **lengths)
 
@@ -168,12 +170,14 @@ class ChainModel:
     def pins(self) -> Pins:
         """Pins of the joints and the holes they need."""
         given = self.spec.joint
-        return joint_pins(self.joint_kind, self.spec.pitch, min(self.teeth), given.pin_diameter)
+        return joint_pins(
+            "round-pin" if self.joint_kind in PAIRS else self.joint_kind, self.spec.pitch, min(self.teeth), given.pin_diameter
+        )
 
     @cached_property
     def sprockets(self) -> tuple[Sprocket | RollerSprocket, ...]:
         """Both sprockets with all their teeth; InputError where the lengths given leave no teeth."""
-        if self.spec.roller:
+        if not self.sides:
             return tuple(map(self.sprocket, self.teeth))
         return tuple(replace(self.sprocket(side.teeth), tooth=side.tooth) for side in self.sides)
 
@@ -242,6 +246,8 @@ def _sized_model(spec: SizedSpec, findings: tuple[str, ...]) -> ChainModel:
     radius = 0.0 if spec.joint.kind == "revolute" or spec.joint.rolling_radius is None else spec.joint.rolling_radius
     if spec.roller:
         return ChainModel(spec, design_link(spec.pitch, 0.0, spec.plate.flank_angle, 0.0), findings=findings)
+    if spec.joint.kind in PAIRS:
+        return _pair_model(spec, findings)
     offset = offset_of(spec, radius)
     angle = spec.plate.flank_angle
     apothem: Numbers | None = spec.plate.apothem
@@ -254,6 +260,16 @@ def _sized_model(spec: SizedSpec, findings: tuple[str, ...]) -> ChainModel:
     sides = tuple(published_sprocket(spec.pitch, radius, offset, standard, angle, cutter, z, spec.meshing.ideal) for z in spec.teeth)
     link = design_link(spec.pitch, radius, angle, apothem)  # pyright: ignore[reportArgumentType]  arrays, of many designs
     return ChainModel(spec, link, offset, standard, cutter, sides, findings)
+
+
+def _pair_model(spec: SizedSpec, findings: tuple[str, ...]) -> ChainModel:
+    """Of a joint of two radii: without the measures of the published method, which has one."""
+    own, seat, angle, apothem = spec.joint.rolling_radius, signed_seat(spec.joint), spec.plate.flank_angle, spec.plate.apothem
+    assert own is not None and apothem is not None  # else refused
+    link = design_link(spec.pitch, 0.5 * (own + seat), angle, apothem, 0.5 * (own - seat))
+    cutter = matching_cutter(spec.pitch, angle, spec.cutter.half_angle)
+    cutter = cutter if spec.cutter.pitch is None else cutter._replace(pitch=spec.cutter.pitch)
+    return ChainModel(spec, link, cutter=cutter, findings=findings)
 
 
 def offset_of(spec: SizedSpec, radius: Numbers) -> Numbers:

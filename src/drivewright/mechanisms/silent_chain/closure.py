@@ -2,7 +2,7 @@
 
 from drivewright.chains.closure import departure
 from drivewright.chains.closure.tables import closure_table
-from drivewright.chains.link import seat_height
+from drivewright.chains.link import contact_pitch, rolled_length, seat_height
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.result import Answer, Answers, Check, Value
@@ -35,6 +35,12 @@ def _sides(model):
         values[f"wrap.{side}"] = Value(
             model.closure.mean_wrap(number), "rad", f"angle of the {words} that the chain takes in, mean over a tooth"
         )
+        if model.link.radius:
+            worn, teeth = model.worn, model.teeth[number]
+            change = contact_pitch(worn, teeth) - worn.pitch
+            values[f"pitch_change.{side}"] = Value(change, "m", f"pitch change of the seat, {words}: of the distance of a plate's contacts")
+            rolled = f"rolled length of a joint, {words}: on either surface"
+            values[f"rolled_length.{side}"] = Value(rolled_length(worn, teeth), "m", rolled)
     return values
 
 

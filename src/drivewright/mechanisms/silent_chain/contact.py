@@ -64,11 +64,12 @@ def _strength(model):
 
 def _rolling(model, force):
     material = model.spec.material
-    line = rolling.rolling_contact(force, model.contact_length, 2 * (model.link.radius,), material.youngs_modulus, material.poisson_ratio)
+    line = rolling.rolling_contact(force, model.contact_length, model.link.radii, material.youngs_modulus, material.poisson_ratio)
     limits = rolling.pressure_limits(material.yield_strength, material.poisson_ratio)
     safety, least = float(limits.shakedown / line.pressure), model.spec.limits.shakedown_safety
     message = "shakedown limit of the rolling pins over their contact pressure; a larger rolling radius lowers the pressure"
     return {
+        "joint.effective_radius": Value(model.link.effective_radius, "m", "effective radius of the rolling surfaces"),
         "pin.contact_pressure": Value(float(line.pressure), "Pa", "greatest pressure of the pins on each other, Hertz"),
         "pin.half_width": Value(float(line.half_width), "m", "half the width of their contact"),
         "pin.max_shear": Value(float(line.shear), "Pa", "greatest shear stress below their surface"),
@@ -90,6 +91,8 @@ def _hinge(model, force):
 def _bending(model, force):
     """The pin as a beam across the pack of plates."""
     sheet, rolls, link = model.sheet, bool(model.link.radius), model.roller_link
+    if model.link.skew:
+        raise InputError("the sections of the pins of a joint of two radii are not given")
     model.pins.check(model.link)
     if link:
         load = pins.roller_pin_load(sheet, model.contact_length, force, link.bush_gap(model.contact_length))

@@ -10,7 +10,7 @@ from drivewright.chains import standards
 from drivewright.mechanisms.silent_chain.build import SIDES, build
 from drivewright.mechanisms.silent_chain.layout import side_measures, teeth_checks
 from drivewright.mechanisms.silent_chain.meshing import measures, offset_checks, seated_measures
-from drivewright.mechanisms.silent_chain.spec import LEAST_TEETH, SilentChainSpec
+from drivewright.mechanisms.silent_chain.spec import LEAST_TEETH, PAIRS, SilentChainSpec
 from drivewright.spec import value_at
 from drivewright.spec.designs import evaluator, within_limits
 
@@ -37,7 +37,12 @@ def batch(spec: SilentChainSpec, keys: Sequence[str], names: Sequence[str]) -> C
 
     A design that the spec refuses, or for which one of the values asked for does not exist, is nan in every name.
     """
-    if spec.meshes_rollers or not set(keys) <= set(KEYS) or (spec.drive is None and any(key.startswith("drive.") for key in keys)):
+    if (
+        spec.meshes_rollers
+        or spec.joint.kind in PAIRS
+        or not set(keys) <= set(KEYS)
+        or (spec.drive is None and any(key.startswith("drive.") for key in keys))
+    ):
         return None
     return evaluator(spec, keys, names, _quantities, partial(_possible, spec))
 

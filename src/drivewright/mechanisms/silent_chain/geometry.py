@@ -22,6 +22,7 @@ KEYS = {  # that decide on a body
 def geometry(model: ChainModel, done: Answers) -> Answer:
     """Measures of plate and teeth, walls, least gaps of the plates; a body that cannot be is a failed check."""
     values, checks = {}, []
+    findings = (f"walls and gaps of the plates are left out: {model.plate_refusal}",) if model.link.skew else ()
     for part, measured in (("plate", _plate), ("sprockets", _sprockets), ("meeting", _meeting)):
         try:
             part_values, part_checks = measured(model)
@@ -30,11 +31,11 @@ def geometry(model: ChainModel, done: Answers) -> Answer:
             break
         values |= part_values
         checks += part_checks
-    return Answer(values, (), tuple(checks))
+    return Answer(values, (), tuple(checks), findings)
 
 
 def _plate(model):
-    if model.spec.roller:
+    if model.spec.roller or model.link.skew:
         return {}, ()
     plate, limits, density = model.plate, model.spec.limits, model.spec.material.density
     back, forward = plate.pins.limits(model.link)
@@ -72,7 +73,7 @@ def _sprockets(model):
         checks.append(
             Check(f"tip_thickness.{side}", sprocket.tip_thickness, model.spec.limits.tip_thickness, ">=", "m", message, (side,), True)
         )
-        if not model.spec.roller:
+        if not (model.spec.roller or model.link.skew):
             values |= _flank_values(model, side, sprocket, words)
             checks += _flank_checks(model, side, sprocket, words)
     return values, [*checks, *bores(model)]
@@ -127,7 +128,7 @@ def _flank_checks(model, side, sprocket, words):
 
 def _meeting(model):
     """Least gap of all plates near each sprocket over a tooth of the driver."""
-    if model.spec.roller or model.spec.sprockets:
+    if model.spec.roller or model.spec.sprockets or model.link.skew:
         return {}, ()
     gaps, within = min_drive_gaps(model.closure, model.plate, model.sprockets), TOLERANCE * model.spec.pitch
     values, checks = {}, []

@@ -5,12 +5,14 @@ from functools import wraps
 
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain.build import ChainModel
-from drivewright.mechanisms.silent_chain.spec import SilentChainSpec, size_of
+from drivewright.mechanisms.silent_chain.spec import PAIRS, SilentChainSpec, size_of
 from drivewright.result import Answer, Answers
 
 
 def no_meshing(spec: SilentChainSpec) -> str | None:
     """Why there are no measures of the published method."""
+    if spec.joint.kind in PAIRS:
+        return "the published method has pins of one radius"
     return "the published method is for chains whose plates mesh, not for rollers" if spec.meshes_rollers else None
 
 
@@ -21,6 +23,8 @@ def no_closure(spec: SilentChainSpec) -> str | None:
 
 def no_phase_map(spec: SilentChainSpec) -> str | None:
     """Why there is no phase map."""
+    if spec.joint.kind in PAIRS:
+        return "it compares joints of two equal radii"
     return "it is for two sprockets" if spec.sprockets else None
 
 
@@ -38,6 +42,16 @@ def no_trade_off(spec: SilentChainSpec) -> str | None:
 
 def no_dynamics(spec: SilentChainSpec) -> str | None:
     """Why there is no running chain."""
+    if spec.joint.kind in PAIRS:
+        return (
+            "the joints of the moving chain turn by the mean of their plates' angles, as two equal radii roll. Take round pins of twice "
+            "the effective radius (joint.effective_radius), which move alike to second order in the angles"
+        )
+    return no_drive(spec)
+
+
+def no_drive(spec: SilentChainSpec) -> str | None:
+    """Why there are no forces of the strands."""
     return None if spec.drive else "speed and preload are not given: write [drive]"
 
 
@@ -59,7 +73,7 @@ def no_wear(spec: SilentChainSpec) -> str | None:
         return "nothing is known of its wear: write [wear] with a coefficient or its range"
     if not _hinged(spec):
         return "pins that roll on each other do not slide: Archard's law knows no wear of theirs"
-    return no_phase_map(spec) or no_dynamics(spec)
+    return no_closure(spec) or no_drive(spec)
 
 
 def no_rating(spec: SilentChainSpec) -> str | None:
@@ -69,7 +83,7 @@ def no_rating(spec: SilentChainSpec) -> str | None:
         return "no rating is known: give rating.rated_power of the maker, or an American chain by its number, which has formulas"
     if spec.drive and not spec.drive.load_torque:
         return "no power is transmitted: drive.load_torque is 0"
-    return no_phase_map(spec) or no_dynamics(spec)
+    return no_closure(spec) or no_drive(spec)
 
 
 def _hinged(spec: SilentChainSpec) -> bool:

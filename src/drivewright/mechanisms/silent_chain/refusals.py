@@ -4,10 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from drivewright._typing import Numbers
 from drivewright.errors import SpecError
 from drivewright.mechanisms.silent_chain.capacity_tables import Wear
 from drivewright.mechanisms.silent_chain.sizing import SizedSpec
-from drivewright.mechanisms.silent_chain.spec import Plate
+from drivewright.mechanisms.silent_chain.spec import PAIRS, Joint, Plate, signed_seat
 
 USUAL = Plate()
 FLATTEST = 1e9  # largest rolling radius over the pitch, which rounding would lose beside a larger one
@@ -16,6 +17,7 @@ FLATTEST = 1e9  # largest rolling radius over the pitch, which rounding would lo
 def refuse_contradictions(spec: SizedSpec) -> None:
     """SpecError for the first two keys that contradict each other, or one that lacks another."""
     joint, plate = spec.joint, spec.plate
+    _refuse_seat(joint, spec.pitch)
     if joint.kind != "revolute" and joint.rolling_radius is None:
         raise SpecError('a rolling joint needs its radius: give rolling_radius, or take kind = "revolute"', "joint.rolling_radius")
     if joint.rolling_radius is not None and np.any(joint.rolling_radius > FLATTEST * spec.pitch):
@@ -36,9 +38,26 @@ def refuse_contradictions(spec: SizedSpec) -> None:
         if spec.roller.diameter >= spec.pitch:
             raise SpecError("rollers as large as the pitch overlap; take a smaller one", "roller.diameter")
         return
+    if joint.kind in PAIRS and plate.apothem is None:
+        raise SpecError("a joint of two radii has no standard_apothem, which counts from one radius; give apothem", "plate.apothem")
     if (plate.apothem is None) == (plate.standard_apothem is None):
         how = "neither is" if plate.apothem is None else "both are"
         raise SpecError(f"give one of apothem (from the hole) and standard_apothem (from the pitch line); {how} given", "plate.apothem")
+
+
+def _refuse_seat(joint: Joint, pitch: Numbers) -> None:
+    """The second rolling surface of a joint of two radii."""
+    seat, own, key = joint.seat_radius, joint.rolling_radius, "joint.seat_radius"
+    if joint.kind not in PAIRS or own is None:
+        return
+    if seat is None:
+        raise SpecError(f"is missing: a joint of kind {joint.kind!r} has two rolling surfaces; give it beside rolling_radius", key)
+    if seat == 0 or (joint.kind != "rolling-pair" and seat < 0):
+        raise SpecError(f"must be above 0 for kind {joint.kind!r}, which says whether the seat is hollow", key)
+    if np.any(abs(seat) > FLATTEST * pitch):
+        raise SpecError(f"is more than {FLATTEST:g} pitches, as good as flat; take a smaller one", key)
+    if 1 / own + 1 / signed_seat(joint) <= 0:
+        raise SpecError(f"a hollow of {1e3 * abs(seat):.4g} mm does not take in a pin of {1e3 * own:.4g} mm; make it wider", key)
 
 
 def _refuse_wear(given: Wear) -> None:
@@ -60,5 +79,7 @@ def unused(spec: SizedSpec) -> Iterator[str]:
             yield f"plate.{', plate.'.join(given)} {'has' if len(given) == 1 else 'have'} no effect: rollers mesh, not plates"
     if spec.joint.kind == "revolute" and spec.joint.rolling_radius is not None:
         yield "joint.rolling_radius has no effect: a revolute joint does not roll"
+    if spec.joint.seat_radius is not None and spec.joint.kind not in PAIRS:
+        yield f"joint.seat_radius has no effect: both surfaces of a joint of kind {spec.joint.kind or 'round-pin'!r} have one radius"
     if spec.joint.kind != "revolute" and spec.joint.pin_diameter is not None:
         yield "joint.pin_diameter has no effect: the pins of a rolling joint have its rolling_radius"

@@ -1,7 +1,13 @@
 """The chain drive on screen and for manufacture: scene over two teeth, drawings, parts."""
 
+import numpy as np
+
 from drivewright.chains.drive_scene import SprocketView, closure_scene, first_links, plate_shapes, sprocket_parts, sprocket_shapes
+from drivewright.chains.link import seat_shift
 from drivewright.chains.plate_stack import strand_parts
+from drivewright.chains.roller_link import pair_plate
+from drivewright.chains.roller_sprocket import RollerSprocket
+from drivewright.chains.sprocket import Sprocket
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
@@ -17,20 +23,33 @@ def scene(model: ChainModel) -> Scene:
     if model.spec.sprockets:
         raise InputError("a chain around more than two sprockets is shown by its dynamics, not by its closure")
     sprockets = [
-        SprocketView(side, SIDE_WORDS[side], tuple(sprocket_shapes(sprocket, model.bore)), COLOURS[side])
+        SprocketView(side, SIDE_WORDS[side], _under_the_chain(model, sprocket), COLOURS[side])
         for side, sprocket in zip(SIDES, model.sprockets, strict=True)
     ]
     return closure_scene(model.closure, sprockets, link_shapes(model))
 
 
+def _under_the_chain(model: ChainModel, sprocket: Sprocket | RollerSprocket) -> tuple[Shape, ...]:
+    """Shapes of a sprocket, its teeth turned under plates whose pins of two radii shift them along the chain."""
+    shapes = tuple(sprocket_shapes(sprocket, model.bore))
+    if not model.link.skew or isinstance(sprocket, RollerSprocket):
+        return shapes
+    turn = -seat_shift(model.worn, sprocket.tooth.teeth) * np.cos(model.link.flank_angle) / sprocket.tooth.base_radius
+    return tuple(shape._replace(outline=shape.outline.transformed((0.0, 0.0, float(turn)), False)) for shape in shapes)
+
+
 def link_shapes(model: ChainModel) -> tuple[tuple[Shape, ...], ...]:
     """Shapes of the links in turn: plates with their own pins, or the figure of eight and its roller."""
     roller = model.roller_link
+    if model.link.skew:
+        return ((Shape("body", pair_plate(model.link)),),)
     return (roller.shapes,) if roller else tuple(tuple(plate_shapes(model.plate, holes)) for holes in (True, False))
 
 
 def drawings(model: ChainModel) -> tuple[Drawing, ...]:
     """Plate and both sprockets; what cannot be drawn raises InputError."""
+    if model.link.skew:
+        raise InputError(model.plate_refusal)
     bore, width, roller = model.bore, model.chain_width, model.roller_link
     sprockets = [sprocket.drawing(bore, width, f"sprocket_{side}") for side, sprocket in zip(SIDES, model.sprockets, strict=True)]
     return (roller.drawing() if roller else model.plate.drawing(), *sprockets)

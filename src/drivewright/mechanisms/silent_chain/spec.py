@@ -22,6 +22,7 @@ else:
 TURN = 6.283185307179586
 FINEST = 3.0  # fineness of solids: beyond, memory and time run out
 LEAST_TEETH = 6  # below, a polygon is no sprocket
+PAIRS = ("asymmetric", "kidney", "rolling-pair")  # kinds of joints with two radii
 
 
 Radius = Annotated[Length, Field(ge=0)]
@@ -31,13 +32,20 @@ Offset = Annotated[float | str, length_or_rule("match-drive", "minimax")]
 class Joint(Spec):
     """What joins two plates."""
 
-    kind: Literal["round-pin", "arc", "revolute"] | None = Field(
+    kind: Literal["round-pin", "arc", "asymmetric", "kidney", "rolling-pair", "revolute"] | None = Field(
         None,
-        description="round-pin: two round pins that roll on each other; arc: rockers of a larger radius (classical Hy-Vo); "
-        "revolute: one pin, a hinge; round-pin unless given, revolute of a chain by number",
+        description="round-pin: two round pins that roll on each other; arc: rockers of a larger radius (classical Hy-Vo); asymmetric: pin "
+        "and rocker of two radii; kidney: a pin in a hollow seat; rolling-pair: any two radii, a hollow one negative; revolute: one pin, a "
+        "hinge; round-pin unless given, revolute of a chain by number",
         examples=["round-pin"],
     )
     rolling_radius: Length | None = Field(None, gt=0, description="of the rolling surfaces; not for a revolute joint", examples=["1.2 mm"])
+    seat_radius: Length | None = Field(
+        None,
+        description="of the other rolling surface of an asymmetric, kidney or rolling-pair joint, on the left of a plate; rolling_radius "
+        "is that on the right",
+        examples=["6 mm"],
+    )
     offset: Offset = Field(
         "match-drive",
         description="centre of the pins below the pitch line, or its rule: match-drive, minimax; a label, nothing physical depends on it",
@@ -394,6 +402,12 @@ def _refuse_nonsense(spec: SilentChainSpec) -> None:
                 raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{name}.name")
     if min(spec.plate.lacing) < 1:
         raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; count one or more in each", "plate.lacing")
+
+
+def signed_seat(joint: Joint) -> float:
+    """Radius of the left rolling surface of a joint of two radii, negative where it is hollow  [m]."""
+    assert joint.seat_radius is not None
+    return -joint.seat_radius if joint.kind == "kidney" else joint.seat_radius
 
 
 def size_of(spec: SilentChainSpec) -> ChainSize | None:

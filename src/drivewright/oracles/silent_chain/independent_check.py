@@ -187,10 +187,17 @@ class Loop:
         places = []
         for number, (seat, side) in enumerate(zip(self.seats(x[0]), (-0.5, 0.5, -0.5, 0.5), strict=True)):
             driven = number in (1, 2)
-            t = np.pi / self.teeth[driven]
-            height = (0.5 * self.link.hole_pitch * np.cos(t) - self.link.radius) / np.sin(t)
-            places.append((height + 1j * side * self.link.hole_pitch) / self.pitch * np.exp(1j * seat) + (x[1] if driven else 0.0))
+            middle = self.seat(self.teeth[driven])
+            places.append((middle + 1j * side * self.link.hole_pitch) / self.pitch * np.exp(1j * seat) + (x[1] if driven else 0.0))
         return (places[0], places[1]), (places[2], places[3])
+
+    def seat(self, teeth: int) -> complex:
+        """Middle of a seated plate's pins from the sprocket's centre, outward and against the running direction [m]: the centre about which
+        a plate turned by a tooth meets the joint of the plate before it."""
+        half, turn = 0.5 * self.link.hole_pitch, np.exp(-2j * np.pi / teeth)
+        joint = 2 * self.link.radius * np.exp(-2j * np.pi / teeth * (1 - self.link.first_share))
+        centre = (half + turn * half - joint) / (1 - turn)
+        return complex(1j * centre)
 
     def misses(self, x: Floats) -> Floats:
         """By how much both strands miss their ends (4,)."""
@@ -201,7 +208,8 @@ class Loop:
         for strand, (leave, meet), count, first, last in zip(free, self.ends(x), self.counts, seats[::2], seats[1::2], strict=True):
             directions = np.concatenate([[first - quarter], np.broadcast_to(strand, count), [last - quarter]])
             plates = self.link.hole_pitch * np.exp(1j * directions[1:-1]).sum()
-            joints = 2 * self.link.radius * np.exp(0.5j * (directions[1:] + directions[:-1])).sum()
+            share = self.link.first_share
+            joints = 2 * self.link.radius * np.exp(1j * (share * directions[:-1] + (1 - share) * directions[1:])).sum()
             miss = leave + (plates - joints) / self.pitch - meet
             components += [miss.real, miss.imag]
         return np.array(components)
@@ -210,7 +218,7 @@ class Loop:
 def _rest(model, result):
     """Mean centre distance of rigid plates as the limit of stiff ones at rest, which find their seats by contact alone."""
     spec = model.spec
-    odd = model.elongation or spec.dynamics.thickness_deviation or spec.guides or spec.sprockets or spec.roller
+    odd = model.link.skew or model.elongation or spec.dynamics.thickness_deviation or spec.guides or spec.sprockets or spec.roller
     if not spec.drive or odd or spec.closure.strands != "equilibrium" or spec.meshing.apothem_reference == "pin":
         return
     system = replace(chain_drive(model), gravity=(0.0, 0.0))
@@ -232,7 +240,8 @@ def _pressure(model, result):
     between = np.cos(np.pi * (2 * np.arange(1, NODES + 2) - 1) / (2 * (NODES + 1)))[NODES // 4]
     modulus = 0.5 * material.youngs_modulus / (1 - material.poisson_ratio**2)
     slope = 2 * peak / (np.pi * modulus) * np.sum(weight / (between - x))  # of the surfaces that the pressure flattens: x b/R
-    yield "rolling radius of the pins", model.link.radius, float(2 * between * b / slope), "m", 1e-9 * model.link.radius, HERTZ
+    radius = 2 * model.link.effective_radius
+    yield "rolling radius of the pins", radius, float(2 * between * b / slope), "m", 1e-9 * radius, HERTZ
     z = result["pin.shear_depth"] / b
     across = -2 * z / np.pi * np.sum(weight * x**2 / (x**2 + z**2) ** 2)
     down = -2 * z**3 / np.pi * np.sum(weight / (x**2 + z**2) ** 2)
