@@ -47,9 +47,14 @@ def joint_stiffness(contact_stiffness: float) -> float:
     return contact_stiffness / IN_LINE
 
 
+def strand_stiffness(stiffness: float, free: float) -> float:
+    """Stiffness [N/m] of one strand with so many free plates between joints of a stiffness [N/m]."""
+    return stiffness / (free + 1)
+
+
 def strands_stiffness(stiffness: float, free: float) -> float:
     """Stiffness [N/m] of both strands side by side, each with so many free plates between joints of a stiffness [N/m]."""
-    return 2 * stiffness / (free + 1)
+    return 2 * strand_stiffness(stiffness, free)
 
 
 def strand_damping(ratio: float, stiffness: float, inertia: float, arm: float = 1.0) -> float:

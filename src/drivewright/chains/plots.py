@@ -13,6 +13,13 @@ PLOTS = (
         ("centre_distance", "transmission_error"),
     ),
     Plot(
+        "phased_rows",
+        "Two rows out of phase, and one alone",
+        "phased_rows",
+        "angle",
+        ("centre_distance", "single_distance", "transmission_error", "single_error"),
+    ),
+    Plot(
         "trade_off",
         "What the rolling radius trades",
         "trade_off",

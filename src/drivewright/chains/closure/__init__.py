@@ -20,7 +20,7 @@ tracking   the motion over one tooth of the driver, compiled
 from drivewright.chains.closure.departure import Departure, departure
 from drivewright.chains.closure.drive import POSITIONS, close, phase_map
 from drivewright.chains.closure.model import Closure, Drive, States
-from drivewright.chains.closure.positions import Phased, phased, plates, states_at
+from drivewright.chains.closure.positions import Phased, mesh_order, phased, plates, states_at
 
 __all__ = [
     "POSITIONS",
@@ -31,6 +31,7 @@ __all__ = [
     "States",
     "close",
     "departure",
+    "mesh_order",
     "phase_map",
     "phased",
     "plates",

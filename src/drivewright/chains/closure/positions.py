@@ -16,6 +16,9 @@ from drivewright.errors import InputError, SolverError
 class Phased(NamedTuple):
     """Two chains on one pair of shafts over one tooth: driver_angle, centre_distance, transmission_error (S,) [rad, m, rad], mean centre
     distance [m], and greatest less least of it [m] and of the transmission error [rad].
+
+    single_distance, single_error (S,): of the first chain alone, in the same zero.  distance_gap, angle_gap (S,): by how much the places
+    that the first and the second chain ask for differ [m, rad]; each is held off by half of it.
     """
 
     driver_angle: Floats
@@ -24,6 +27,10 @@ class Phased(NamedTuple):
     mean: float
     fluctuation: float
     transmission_ripple: float
+    single_distance: Floats
+    single_error: Floats
+    distance_gap: Floats
+    angle_gap: Floats
 
 
 def states_at(closure: Closure, driver_angle: ArrayLike) -> States:
@@ -75,11 +82,23 @@ def phased(closure: Closure, share: float = 0.5) -> Phased:
     angle = np.insert(grid, np.arange(1, len(grid)), 0.5 * (grid[:-1] + grid[1:]))
     one, other = states_at(closure, angle), states_at(closure, angle + share * period)
     ratio = closure.drive.driver_teeth / closure.drive.driven_teeth
-    distance = 0.5 * (one.centre_distance + other.centre_distance)
-    error = 0.5 * ((one.driven_angle - ratio * one.driver_angle) + (other.driven_angle - ratio * other.driver_angle))
+    own_error, other_error = (each.driven_angle - ratio * each.driver_angle for each in (one, other))
+    distance, error = 0.5 * (one.centre_distance + other.centre_distance), 0.5 * (own_error + other_error)
     mean, low, high = _parabolas(angle, distance)
     offset, behind, ahead = _parabolas(angle, error)
-    return Phased(angle, distance, error - offset, mean, high - low, ahead - behind)
+    single = one.centre_distance, own_error - offset
+    gaps = one.centre_distance - other.centre_distance, own_error - other_error
+    return Phased(angle, distance, error - offset, mean, high - low, ahead - behind, *single, *gaps)
+
+
+def mesh_order(angle: Floats, signal: Floats, order: int) -> float:
+    """Amplitude of a harmonic of the meshing in a signal over one tooth, at samples (S,) as of `Phased`: |2/T int s exp(-i k 2 pi x/T) dx|.
+
+    Simpson's rule over each two intervals, the middle point halfway.
+    """
+    wave = signal * np.exp(-2j * np.pi * order * (angle - angle[0]) / (angle[-1] - angle[0]))
+    width = angle[2::2] - angle[:-2:2]
+    return float(2 * abs(np.sum(width * (wave[:-2:2] + 4 * wave[1:-1:2] + wave[2::2]) / 6)) / (angle[-1] - angle[0]))
 
 
 def _directions(layout, psi_1, psi_2, _, strand_angle, seats):

@@ -1,6 +1,7 @@
 """Tables of the rigid chain."""
 
 from drivewright.chains.closure.model import Closure
+from drivewright.chains.closure.positions import Phased
 from drivewright.result import Column, Table
 
 
@@ -16,5 +17,21 @@ def closure_table(found: Closure) -> Table:
             Column("transmission_error", "rad", "driven angle off the ratio of teeth", found.transmission_error),
             Column("seated_drive", "-", "plates seated on the driving sprocket", seated[:, 0].astype(float)),
             Column("seated_driven", "-", "plates seated on the driven sprocket", seated[:, 1].astype(float)),
+        ),
+    )
+
+
+def phased_table(found: Phased) -> Table:
+    """Table "phased_rows": centre distance and transmission error of one row, and of both together, over one tooth of the driver."""
+    return Table(
+        "phased_rows",
+        "Two rows out of phase over one tooth of the driving sprocket",
+        (
+            Column("angle", "rad", "angle of the driving sprocket", found.driver_angle),
+            Column("centre_distance", "m", "centre distance of both rows", found.centre_distance),
+            Column("single_distance", "m", "centre distance of one row alone", found.single_distance),
+            Column("transmission_error", "rad", "transmission error of both rows", found.transmission_error),
+            Column("single_error", "rad", "transmission error of one row alone", found.single_error),
+            Column("distance_gap", "m", "difference of the rows' centre distances", found.distance_gap),
         ),
     )

@@ -5,6 +5,7 @@ from drivewright.chains.closure.tables import closure_table
 from drivewright.chains.link import contact_pitch, rolled_length, seat_height
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
+from drivewright.mechanisms.silent_chain.phased_rows import phased_rows
 from drivewright.result import Answer, Answers, Check, Value
 
 SLACK = 0.01  # of it that a fixed one may be shorter
@@ -21,7 +22,8 @@ def closure(model: ChainModel, done: Answers) -> Answer:
         **_sides(model),
     }
     checks = (*_wraps(model, values), _clearance(model), *_fixed(model))
-    return Answer(values, (closure_table(motion),), checks, tuple(_remarks(model)), data=motion)
+    together, tables, findings = phased_rows(model)
+    return Answer(values | together, (closure_table(motion), *tables), checks, (*_remarks(model), *findings), data=motion)
 
 
 def _sides(model):

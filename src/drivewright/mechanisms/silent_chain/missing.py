@@ -47,6 +47,11 @@ def no_dynamics(spec: SilentChainSpec) -> str | None:
             "the joints of the moving chain turn by the mean of their plates' angles, as two equal radii roll. Take round pins of twice "
             "the effective radius (joint.effective_radius), which move alike to second order in the angles"
         )
+    if spec.row_phase:
+        return (
+            "two rows out of phase are two chains on common shafts, and the moving chain is one. closure tells what their phase does at "
+            "rest; take row_phase = 0 for the motion of rows in phase"
+        )
     return no_drive(spec)
 
 

@@ -8,7 +8,7 @@ from drivewright._typing import Numbers
 from drivewright.errors import SpecError
 from drivewright.mechanisms.silent_chain.capacity_tables import Wear
 from drivewright.mechanisms.silent_chain.sizing import SizedSpec
-from drivewright.mechanisms.silent_chain.spec import PAIRS, Joint, Plate, signed_seat
+from drivewright.mechanisms.silent_chain.spec import PAIRS, Joint, Plate, signed_seat, size_of
 
 USUAL = Plate()
 FLATTEST = 1e9  # largest rolling radius over the pitch, which rounding would lose beside a larger one
@@ -22,6 +22,7 @@ def refuse_contradictions(spec: SizedSpec) -> None:
         raise SpecError('a rolling joint needs its radius: give rolling_radius, or take kind = "revolute"', "joint.rolling_radius")
     if joint.rolling_radius is not None and np.any(joint.rolling_radius > FLATTEST * spec.pitch):
         raise SpecError(f"is more than {FLATTEST:g} pitches, as good as flat; take a smaller one", "joint.rolling_radius")
+    _refuse_phase(spec)
     if spec.wear is not None:
         _refuse_wear(spec.wear)
     for guide in spec.guides:
@@ -58,6 +59,17 @@ def _refuse_seat(joint: Joint, pitch: Numbers) -> None:
         raise SpecError(f"is more than {FLATTEST:g} pitches, as good as flat; take a smaller one", key)
     if 1 / own + 1 / signed_seat(joint) <= 0:
         raise SpecError(f"a hollow of {1e3 * abs(seat):.4g} mm does not take in a pin of {1e3 * own:.4g} mm; make it wider", key)
+
+
+def _refuse_phase(spec: SizedSpec) -> None:
+    """Rows out of phase that cannot be."""
+    size = size_of(spec)
+    if spec.row_phase and size and size.rows > 1:
+        raise SpecError(
+            f"the rows of chain {size.name} share their pins; take {size.number}-1 with rows = 2 for two chains out of phase", "row_phase"
+        )
+    if spec.row_phase and (spec.rows or 1) != 2:
+        raise SpecError(f"is for two rows, and there {'is 1' if (spec.rows or 1) == 1 else f'are {spec.rows}'}; give rows = 2", "row_phase")
 
 
 def _refuse_wear(given: Wear) -> None:

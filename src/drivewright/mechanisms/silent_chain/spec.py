@@ -346,6 +346,14 @@ class SilentChainSpec(MechanismSpec):
     row_pitch: Length | None = Field(
         None, gt=0, description="distance of the rows' middle planes; the width of one unless given", examples=["13.92 mm"]
     )
+    row_phase: Number = Field(
+        0.0,
+        ge=0,
+        lt=1,
+        description="by how much of a pitch the teeth of the second of two rows are ahead of the first's, each row a chain of its own; 0: "
+        "rows on common pins",
+        examples=[0.5],
+    )
     breaking_load: Force | None = Field(
         None, gt=0, description="minimum tensile strength of the chain, all rows together", examples=["17.8 kN"]
     )
