@@ -21,11 +21,11 @@ def wear(model: ChainModel, done: Answers) -> Answer:
     drive, pitch = model.drive, model.spec.pitch
     limit = joint.elongation_limit(model.spec.wear.elongation_limit, model.teeth)
     lives = found.turn_time * np.asarray(joint.revolutions_to(limit, pitch, found.depths))
-    life = _interval(lives[0], lives[1:], "s", "time until wear elongates the chain to its limit")
+    life = _interval(lives[0], lives[1:], "s", "wear life: time until wear elongates the chain to its limit")
     values = {
-        "wear.sliding": Value(found.sliding, "m", "sliding of a pin in its bush in a revolution of the chain"),
-        "wear.depth": _interval(found.depths[0], found.depths[1:], "m", "wear of a joint along the chain in a revolution of the chain"),
-        "wear.elongation_limit": Value(limit, "-", "elongation that ends the chain's life"),
+        "wear.sliding": Value(found.sliding, "m", "sliding in a joint per chain revolution: of the pin in its bush"),
+        "wear.depth": _interval(found.depths[0], found.depths[1:], "m", "wear of a joint per chain revolution: by how much it gets longer"),
+        "wear.elongation_limit": Value(limit, "-", "elongation limit: that ends the chain's life"),
         "wear.life": life,
     }
     if model.spec.wear.running_time:

@@ -39,10 +39,10 @@ def _sides(model):
         )
         if model.link.radius:
             worn, teeth = model.worn, model.teeth[number]
-            change = contact_pitch(worn, teeth) - worn.pitch
-            values[f"pitch_change.{side}"] = Value(change, "m", f"pitch change of the seat, {words}: of the distance of a plate's contacts")
-            rolled = f"rolled length of a joint, {words}: on either surface"
-            values[f"rolled_length.{side}"] = Value(rolled_length(worn, teeth), "m", rolled)
+            change, where = contact_pitch(worn, teeth) - worn.pitch, f"on the {words}"
+            moved, rolled = "change of the distance of a seated plate's contacts", "length rolled in a joint, on either surface"
+            values[f"pitch_change.{side}"] = Value(change, "m", f"{moved}, {where}", label=f"Pitch change {where}")
+            values[f"rolled_length.{side}"] = Value(rolled_length(worn, teeth), "m", f"{rolled}, {where}", label=f"Rolled length {where}")
     return values
 
 

@@ -52,7 +52,9 @@ def _strength(model):
     safety = tensile_safety(load, model.strands.tension if drive else model.pin_force)
     values = {
         "chain.breaking_load": Value(load, "N", "minimum tensile strength of the chain, all rows together"),
-        "chain.static_safety": Value(safety, "-", "breaking load over the force of the tight strand, the centrifugal one included"),
+        "chain.static_safety": Value(
+            safety, "-", "static safety factor: breaking load over the force of the tight strand, the centrifugal one included"
+        ),
     }
     if drive:
         mean = 0.5 * (model.strands.tight + model.strands.slack) + model.strands.centrifugal

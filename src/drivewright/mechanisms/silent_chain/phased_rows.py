@@ -46,8 +46,10 @@ def _load_sharing(model: ChainModel, both: Phased) -> tuple[dict[str, Value], tu
     more = strand * float(np.max(off))
     mean = 0.25 * (model.strands.tight + model.strands.slack)
     values = {
-        "phased.force_difference": Value(more, "N", "greatest force that a strand of one row pulls beyond the mean of both rows"),
-        "phased.load_share": Value(0.5 + 0.5 * more / mean, "-", "greatest share of a row in the load, of strands at their mean force"),
+        "phased.force_difference": Value(
+            more, "N", "force difference of the rows: greatest pull of a strand of one row beyond the mean of both"
+        ),
+        "phased.load_share": Value(0.5 + 0.5 * more / mean, "-", "greatest share of a row in the load: of strands at their mean force"),
     }
     slack = more > 0.5 * model.strands.slack
     lost = (
