@@ -41,6 +41,7 @@ __all__ = [
     "Mass",
     "Power",
     "Pressure",
+    "PressureViscosity",
     "RotationalDamping",
     "RotationalStiffness",
     "SI",
@@ -550,6 +551,7 @@ WearCoefficient: TypeAlias = Annotated[float, BY_NAME["wear coefficient"]]
 Power: TypeAlias = Annotated[float, BY_NAME["power"]]
 Slowness: TypeAlias = Annotated[float, BY_NAME["slowness"]]
 Density: TypeAlias = Annotated[float, BY_NAME["density"]]
+PressureViscosity: TypeAlias = Annotated[float, Dimension("pressure-viscosity coefficient", "1/Pa", "1/GPa", inch="in^2/lbf")]
 LineForce: TypeAlias = Annotated[float, Dimension("force per length", "N/m", "N/mm", inch="lbf/in")]  # of the same kind as a stiffness
 
 

@@ -10,6 +10,8 @@
 `track`              a surface of a cam and what runs on it, with the tables of its geometry
 `closure`            yoke, groove, conjugate cam
 `loads`, `pressure`  forces, torque, spring; Hertz pressure
+`film`               the oil film between cam and follower
+`spring_surge`       the waves in a spring with mass
 `valve`              the second arm of a rocker and the valve that it drives
 `vibration`          the follower train as one mass on a damped spring
 `conjugate`          a lever between conjugate cams whose pivot is carried around them: profiles, pressure angles, forces
@@ -24,6 +26,7 @@ from drivewright.cams import oscillating, translating
 from drivewright.cams.closure import Breadth, breadth, crossovers, opposite_contact, play
 from drivewright.cams.conjugate import ConjugateCam, ConjugatePair
 from drivewright.cams.cycle import Cycle, Extreme
+from drivewright.cams.film import cam_film, entrainment, reversals
 from drivewright.cams.finished import (
     FinishedProfile,
     display_profile,
@@ -68,6 +71,7 @@ from drivewright.cams.pressure import (
 from drivewright.cams.profile import FlatFollower, Follower, Overtravel, RoundFollower, family, overtravel, path, spans
 from drivewright.cams.refusals import first_refused, nan_unless
 from drivewright.cams.sizing import face_ends, min_base_radius, min_flat_radius, min_pitch_radius
+from drivewright.cams.spring_surge import COARSE, Harmonics, PeriodicSurge, SurgingSpring, jump_with_surge, lift_harmonics
 from drivewright.cams.track import CamTrack
 from drivewright.cams.valve import ArcArm, GuidedArm, GuidedLift
 from drivewright.cams.vibration import (
@@ -85,6 +89,7 @@ from drivewright.cams.vibration import (
 __all__ = [
     "ArcArm",
     "Breadth",
+    "COARSE",
     "CamContact",
     "CamTrack",
     "ConjugateCam",
@@ -99,14 +104,17 @@ __all__ = [
     "FollowerShapes",
     "GuidedArm",
     "GuidedLift",
+    "Harmonics",
     "Jump",
     "LoadPath",
     "OscillatingFlat",
     "OscillatingRound",
     "Overtravel",
+    "PeriodicSurge",
     "Response",
     "RoundFollower",
     "STIFFEST",
+    "SurgingSpring",
     "TranslatingFlat",
     "TranslatingRound",
     "breadth",
@@ -116,8 +124,10 @@ __all__ = [
     "curvature",
     "display_profile",
     "drive_torque",
+    "entrainment",
     "face_ends",
     "family",
+    "cam_film",
     "finished_profile",
     "first_refused",
     "flat_radius",
@@ -126,6 +136,8 @@ __all__ = [
     "inspection_table",
     "is_star_shaped",
     "jump",
+    "jump_with_surge",
+    "lift_harmonics",
     "mass_acceleration",
     "min_base_radius",
     "min_flat_radius",
@@ -149,6 +161,7 @@ __all__ = [
     "propagator",
     "relative_curvature",
     "response_peak",
+    "reversals",
     "roller_pressure",
     "spans",
     "transient_response",

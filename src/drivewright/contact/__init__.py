@@ -9,6 +9,7 @@
 `conforming` a pin in a hole with clearance.
 `impact`     impact laws, restitution and damping; a cylinder in a hollow.
 `friction`   Coulomb, Ambrosio, Stribeck and LuGre friction.
+`elastohydrodynamic`  oil film of a line contact under pressure.
 `film`       closed forms of a journal bearing's oil film; `reynolds` solves its equation.
 `wear`       Archard wear of a bearing over its angle.
 """
@@ -16,6 +17,7 @@
 from importlib import import_module
 from typing import Any
 
+from drivewright.contact.elastohydrodynamic import LineFilm, film_ratio, line_film
 from drivewright.contact.hertz import (
     LineContact,
     PointContact,
@@ -62,6 +64,7 @@ __all__ = [
     "HuntCrossley",
     "KelvinVoigt",
     "LineContact",
+    "LineFilm",
     "PointContact",
     "PowerLaw",
     "PowerLawResponse",
@@ -69,10 +72,12 @@ __all__ = [
     "cylinder_compression",
     "effective_modulus",
     "effective_radius",
+    "film_ratio",
     "gaussian_strip_approach",
     "hertz_beyond_strip",
     "hunt_crossley_chi",
     "line_contact",
+    "line_film",
     "line_greatest_shear",
     "line_shear",
     "normal_force",

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from drivewright.mechanisms.cam import geometry, loads, profiles
+from drivewright.mechanisms.cam import film, geometry, loads, profiles, surge
 from drivewright.mechanisms.cam.batch import batch
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.claims import claims
@@ -17,6 +17,8 @@ ANALYSES = (
     Analysis("profile", profiles.finished_profiles, "the finished profile: undercut, walls, inspection"),
     Analysis("forces", loads.forces, "contact force and pressure, torque, sliding", missing=loads.no_forces),
     Analysis("spring", loads.spring, "what the spring must do, and the jump speed", missing=loads.no_spring),
+    Analysis("surge", surge.surge, "surge of the spring and the force that it adds", missing=surge.no_surge),
+    Analysis("film", film.film, "oil film between cam and follower", missing=film.no_film),
     Analysis("vibration", loads.vibration, "steady vibration of the follower", missing=loads.no_vibration),
     Analysis("energy", energy, "energy audit over the turn", default=False, missing=loads.no_forces),
 )
@@ -42,6 +44,7 @@ mechanism = Mechanism(
     ),
     headline=(
         "lift",
+        "valve.lift",
         "max_pressure_angle",
         "min_pressure_angle",
         "min_convex_radius",
@@ -53,6 +56,8 @@ mechanism = Mechanism(
         "max_contact_pressure",
         "max_torque",
         "spring.jump_speed",
+        "surge.max_force",
+        "film.at_peak_pressure",
         "vibration.residual",
     ),
 )

@@ -29,7 +29,7 @@ def batch(spec: CamSpec, keys: Sequence[str], names: Sequence[str]) -> Callable[
 
     A design that the spec or the build refuses is nan in every name; a value that does not exist for a design is nan.
     """
-    if spec.valve or spec.follower.lift_at:  # the motion depends on the arms
+    if spec.valve or spec.follower.lift_at or (spec.spring and spec.spring.mass):  # the motion depends on the arms, surge on the speed
         return None
     of_motion = [key for key in keys if _is_of_motion(spec, key)]
     rest = [key for key in keys if key not in of_motion]

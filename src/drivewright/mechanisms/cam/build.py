@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from drivewright import cams, materials, motion
-from drivewright._typing import Bools
+from drivewright._typing import Bools, Floats
 from drivewright.cams import CamTrack, FollowerShapes
 from drivewright.errors import DoesNotAssemble, InputError, SpecError
 from drivewright.mechanisms.cam.spec import CamSpec, Groove
@@ -104,6 +104,24 @@ class CamModel:
         """Width of a groove less the diameter of its roller [m]."""
         return (self.spec.groove or Groove()).clearance
 
+    @cached_property
+    def surging_spring(self) -> cams.SurgingSpring | None:
+        """The spring with the mass of its coils, where the spec states one."""
+        spring = self.spec.spring
+        return (
+            cams.SurgingSpring(spring.stiffness, spring.mass, spring.damping_ratio) if spring and spring.mass and spring.stiffness else None
+        )
+
+    @cached_property
+    def surge(self) -> cams.PeriodicSurge | None:
+        """The surge of the spring at the cam's speed."""
+        spring = self.surging_spring
+        return cams.PeriodicSurge(spring, cams.lift_harmonics(self.load_travel), self.speed) if spring and self.turns else None
+
+    def load_travel(self, angle: Floats) -> Floats:
+        """Travel [m] of what carries load and spring, at cam angles [rad]."""
+        return self.path.travel(self.cycle.at_angle(angle)[1]).d0
+
     @property
     def load(self) -> cams.FollowerLoad:
         """What acts along the follower's travel, or at its valve."""
@@ -113,7 +131,8 @@ class CamModel:
 
     def required(self, angle: Jet, lift: Jet) -> Jet:
         """Force that the cam must exert along the travel [N]; a jet."""
-        return self.path.force(lift, self.load, self.speed)
+        force = self.path.force(lift, self.load, self.speed)
+        return force + self.path.ratio(lift) * self.surge.force(angle) if self.surge else force
 
     def normal_force(self, track: CamTrack, angle: Jet, lift: Jet) -> Jet:
         """Normal force between the surfaces of a track [N], negative where it falls to another one; a jet."""

@@ -20,7 +20,8 @@ def energy(model: CamModel, done: Answers) -> Answer:
     place, lift = model.cycle.at(piece, angle)
     load, speed, moved = model.load, model.speed, model.path.travel(lift)
     torque, travel, velocity = model.torque(place, lift).d0, moved.d0, moved.d1 * speed
-    powers = [torque * speed, -(load.stiffness * travel + load.preload) * velocity, -load.force * velocity, -load.damping * velocity**2]
+    elastic = load.stiffness * travel + load.preload + (model.surge.force(place).d0 if model.surge else 0.0)
+    powers = [torque * speed, -elastic * velocity, -load.force * velocity, -load.damping * velocity**2]
     kinetic = 0.5 * load.mass * velocity**2 + 0.5 * model.path.inertia * (lift.d1 * speed) ** 2
     audit = audit_of_powers(angle / speed, np.stack(np.broadcast_arrays(*powers), axis=1), kinetic, kinetic, drives=0)
     return audit_answer(audit, MEANING, LIMIT, ROWS)

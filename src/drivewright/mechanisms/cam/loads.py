@@ -10,6 +10,7 @@ from drivewright._typing import Bools
 from drivewright.mechanisms.cam.build import CamModel
 from drivewright.mechanisms.cam.geometry import existing
 from drivewright.mechanisms.cam.spec import CamSpec
+from drivewright.mechanisms.cam.surge import jump_with_surge, surge_force
 from drivewright.result import Answer, Answers, Check, Column, Table, Value, merge_answers
 
 NO_SPEED = "no [drive] speed"
@@ -151,7 +152,9 @@ def spring(model: CamModel, done: Answers) -> Answer:
     """Does the spring hold the follower on the cam; what preload, stiffness and speed are the limits."""
     measured = merge_answers(measure(model) for measure in spring_measures(model))
     absent = {
-        "spring.needed_stiffness": "none holds the follower at zero lift; give preload",
+        "spring.needed_stiffness": "with its mass the spring surges otherwise at another stiffness"
+        if model.surge
+        else "none holds the follower at zero lift; give preload",
         "spring.jump_speed": "the follower leaves the cam at no speed",
     }
     findings = tuple(f"{name} is absent: {reason}" for name, reason in absent.items() if np.isnan(measured.values[name].value))
@@ -176,24 +179,28 @@ def _separation(model):
 
 
 def _needed_preload(model):
-    needed = cams.needed_preload(model.cycle, model.path, model.load, model.speed)
+    also = surge_force(model) if model.surge else None
+    needed = cams.needed_preload(model.cycle, model.path, model.load, model.speed, also)
     return Answer({"spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness")})
 
 
 def _needed_stiffness(model):
-    stiffness = cams.needed_stiffness(model.cycle, model.path, model.load, model.speed)
+    stiffness = np.inf if model.surge else cams.needed_stiffness(model.cycle, model.path, model.load, model.speed)
     stiffness = cams.nan_unless(np.isfinite(stiffness), stiffness)
     return Answer({"spring.needed_stiffness": Value(stiffness, "N/m", "least stiffness at this speed and preload")})
 
 
 def _jump(model):
-    """Speed from which on the follower leaves the cam, against the speed of the drive."""
-    found = cams.jump(model.cycle, model.path, model.load)
+    """Speed from which on the follower leaves the cam, against the speed of the drive; with surge where the spring has a mass."""
+    quiet = cams.jump(model.cycle, model.path, model.load)
+    found = jump_with_surge(model, quiet.speed) if model.surge else quiet
     speed = cams.nan_unless(np.isfinite(found.speed), found.speed)
     values = {
         "spring.jump_speed": Value(speed, "rad/s", "cam speed at which the follower leaves the cam"),
         "spring.jump_speed.at": Value(found.angle % (2 * np.pi), "rad", "cam angle of separation, at the jump speed"),
     }
+    if model.surge and np.isfinite(quiet.speed):
+        values["spring.jump_speed.without_surge"] = Value(quiet.speed, "rad/s", "jump speed without surge, a spring without mass")
     return Answer(values, (), (_jump_check(model, speed, found.angle),))
 
 

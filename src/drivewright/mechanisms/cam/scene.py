@@ -45,6 +45,12 @@ PLOTS = (
             Plot(f"pressure{suffix}", f"Contact pressure{words}", f"pressure{suffix}", "angle", ("contact_pressure",)),
         )
     ),
+    Plot("surge", "Force of the spring over the turn", "surge", "angle", ("spring_force", "surge_force"), reference=("static_force",)),
+    Plot("surge_harmonics", "Harmonics of lift and surge", "surge_harmonics", "harmonic", ("lift", "surge_force"), style="stems"),
+    *(
+        Plot(f"film{suffix}", f"Oil film{words}", f"film{suffix}", "angle", ("entrainment_speed", "central_thickness", "min_thickness"))
+        for suffix, words in SURFACES
+    ),
     Plot("vibration", "Vibration of the follower", "vibration", "angle", ("error", "acceleration")),
 )
 

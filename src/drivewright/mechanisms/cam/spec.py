@@ -8,7 +8,20 @@ from drivewright import materials, motion
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.spec.fields import Field
 from drivewright.spec.length_or_angle import LengthOrAngle
-from drivewright.units import Angle, Damping, Force, Frequency, Inertia, Length, Mass, Pressure, Speed, Stiffness
+from drivewright.units import (
+    Angle,
+    Damping,
+    Force,
+    Frequency,
+    Inertia,
+    Length,
+    Mass,
+    Pressure,
+    PressureViscosity,
+    Speed,
+    Stiffness,
+    Viscosity,
+)
 
 TURN = 6.283185307179586
 Sense = Literal["counter-clockwise", "clockwise"]
@@ -112,12 +125,29 @@ class Spring(Spec):
 
     stiffness: Stiffness = Field("0 N/m", ge=0, description="stiffness along the travel", examples=["5 N/mm"])
     preload: Force = Field("0 N", ge=0, description="force at zero lift", examples=["50 N"])
+    mass: Mass | None = Field(
+        None,
+        gt=0,
+        description="mass of the active coils; with it the spring surges, and carries its own third of inertia",
+        examples=["60 g"],
+    )
+    damping_ratio: Number = Field(0.01, gt=0, lt=0.5, description="damping of the surging spring over critical damping, in each mode")
 
 
 class Face(Spec):
     """The cam across its plane."""
 
     width: Length = Field("10 mm", gt=0, description="width of the contact, and of the cam")
+
+
+class Lubricant(Spec):
+    """The oil between cam and follower."""
+
+    viscosity: Viscosity = Field(gt=0, description="dynamic viscosity of the oil where it enters the contact", examples=["8 mPa s"])
+    pressure_viscosity: PressureViscosity = Field("18 1/GPa", gt=0, description="pressure-viscosity coefficient of the oil")
+    roughness: Length | None = Field(
+        None, gt=0, description="rms roughness of both surfaces together, sqrt(Rq1^2 + Rq2^2)", examples=["0.3 um"]
+    )
 
 
 class Vibration(Spec):
@@ -168,6 +198,7 @@ class CamSpec(MechanismSpec):
     drive: Drive | None = Field(None, description="drive; without it no velocities and forces")
     load: Load = Field(Load(), description="load on the follower")
     spring: Spring | None = Field(None, description="spring")
+    lubricant: Lubricant | None = Field(None, description="oil between cam and follower")
     face: Face = Field(Face(), description="width of the contact")
     vibration: Vibration | None = Field(None, description="vibration of the follower train")
     manufacture: Manufacture = Field(Manufacture(), description="exports")
