@@ -1,9 +1,13 @@
 """Do the rows of a table carry enough digits?  A spline goes through every one of them, rounding included.
 
+The last printed digit says how far each row may be off, evenly within half a step: rms q/sqrt(12).  `rounding` is what that makes of the
+jerk; `ripple` asks the rows themselves:
+
 A lift rounded to r, sampled every h, makes the acceleration of an interpolating spline wrong by about r/h^2: finer
 sampling makes it worse.  A smoothing spline, its softness chosen by generalised cross-validation, tells scatter from motion.
 """
 
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -44,6 +48,91 @@ def ripple(x: Floats, y: Floats, function: Piecewise) -> Ripple:
     size = np.sqrt(np.mean(wanted**2))
     difference = np.sqrt(np.mean((acceleration - wanted) ** 2))
     return Ripple(float(np.sqrt(np.mean((smooth(x) - y) ** 2))), float(difference / size) if size > 0 else 0.0)
+
+
+class Smoothing(NamedTuple):
+    """What smoothing within a band did: band and largest departure from a row [unit of the lift], rms jerk over that of the spline through
+    all rows, number of rows."""
+
+    band: float
+    departure: float
+    jerk: float
+    rows: int
+
+    def message(self, unit: str | None) -> str:
+        """The finding in a sentence."""
+        return (
+            f"the lift of the table is the smoothest (least integral of the squared jerk) within {_length(self.band, unit)} of each of its "
+            f"{self.rows} rows: it departs from them by at most {_length(self.departure, unit)}, and the rms jerk is {self.jerk:.2g} of "
+            "that of a spline through all rows"
+        )
+
+
+class Rounding(NamedTuple):
+    """Step of the last digit and spacing of the rows [unit of the lift, part of the table's span], rms jerk that rounding makes and that of
+    the motion itself [unit of the lift per span^3]."""
+
+    digit: float
+    spacing: float
+    jerk: float
+    wanted: float
+
+    @property
+    def share(self) -> float:
+        """Jerk of rounding over that of the motion."""
+        return self.jerk / self.wanted if self.wanted > 0 else 0.0
+
+    def message(self, unit: str | None) -> str:
+        """The finding in a sentence; empty where rounding does not show."""
+        if not self.share > LIMIT:
+            return ""
+        return (
+            f"the lifts of the table are printed to {_length(self.digit, unit)}: at so close rows this rounding alone makes an rms jerk "
+            f"{self.share:.2g} times that of the motion. Give more digits or fewer rows, or smooth the lifts with "
+            f'band = "{_length(0.5 * self.digit, unit)}", half the last digit'
+        )
+
+
+def _length(value, unit):
+    factor, shown = (1e3, "mm") if unit == "m" else (180 / np.pi, "deg") if unit == "rad" else (1.0, "(SI)")
+    return f"{factor * value:.4g} {shown}"
+
+
+def rounding(x: Floats, y: Floats, digit: float, function: Piecewise) -> Rounding:
+    """`Rounding` of rows x, y on 0..1 printed to a digit, against the interpolating `Piecewise` function.
+
+    Independent errors of rms q/sqrt(12) make the third derivative of the spline through them wrong by `gain` q/(sqrt(12) h^3) rms, h the
+    spacing of the rows; the motion's own jerk is that of the smoothing spline.
+    """
+    spacing = np.diff(x)
+    near = float(np.sqrt(np.average(spacing**-6.0, weights=spacing)))
+    wanted = _smoothed(x, y, function.closed)(np.linspace(0, 1, 20 * len(x)), nu=3)
+    jerk = digit / np.sqrt(12) * jerk_gain(function.poly.shape[1] - 1) * near
+    return Rounding(digit, float(np.mean(spacing)), jerk, float(np.sqrt(np.mean(wanted**2))))
+
+
+@cache
+def jerk_gain(degree: int) -> float:
+    """Rms third derivative of an interpolating spline of a degree through independent unit errors at unit spacing.
+
+    sqrt(int (d3L/dx3)^2 dx) of the cardinal spline L, which is 1 at one row and 0 at all others: each row adds its own L.
+    """
+    from scipy.interpolate import make_interp_spline
+
+    rows = np.arange(65.0)
+    cardinal = make_interp_spline(rows, np.where(rows == 32, 1.0, 0.0), k=degree, bc_type="periodic")
+    node, weight = np.polynomial.legendre.leggauss(4)
+    third = cardinal(rows[:-1, None] + 0.5 * (1 + node), nu=3)
+    return float(np.sqrt(np.sum(0.5 * weight * third**2)))
+
+
+def rms_jerk(function: Piecewise) -> float:
+    """Root of the mean square of the third derivative over 0..1."""
+    node, weight = np.polynomial.legendre.leggauss(4)
+    pieces = np.arange(function.count)[:, None]
+    width = np.diff(function.breaks)[:, None]
+    third = function.on_piece(pieces, function.breaks[:-1, None] + 0.5 * width * (1 + node)).j
+    return float(np.sqrt(np.sum(0.5 * width * weight * third**2)))
 
 
 def _smoothed(x, y, closed):

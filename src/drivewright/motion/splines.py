@@ -1,7 +1,7 @@
 """Motion through given points: interpolating splines of degree 3 or 5."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -23,11 +23,15 @@ def through_points(x: Floats, y: Floats, degree: int, ends: str, what: str) -> P
         raise InputError(f"{what}: degree {degree} is not offered; give 3 (a continuous) or 5 (j and its derivative continuous too).")
     if ends not in ("periodic", "clamped"):
         raise InputError(f"{what}: ends {ends!r} are unknown; give 'periodic' or 'clamped'.")
-    spline = _interpolated(x, y, degree, ends)
+    return of_spline(_interpolated(x, y, degree, ends), x, degree, ends == "periodic")
+
+
+def of_spline(spline: Callable[..., Floats], x: Floats, degree: int, closed: bool) -> Piecewise:
+    """The `Piecewise` of a spline (x, nu) of a degree with its breaks at x."""
     middle = 0.5 * (x[:-1] + x[1:])
     poly = np.stack([spline(middle, nu=order) / math.factorial(order) for order in range(degree + 1)], axis=1)
     empty = np.zeros((len(middle), 0))
-    return Piecewise(x, poly, empty.astype(complex), empty, closed=ends == "periodic")
+    return Piecewise(x, poly, empty.astype(complex), empty, closed=closed)
 
 
 def _interpolated(x, y, degree, ends):

@@ -1,7 +1,8 @@
 """Motion given row by row: a CSV file or arrays of angle and absolute lift."""
 
 import math
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import NamedTuple
@@ -12,10 +13,12 @@ from drivewright._typing import Floats
 from drivewright.errors import InputError, SpecError
 from drivewright.motion.laws import MotionLaw, register
 from drivewright.motion.piecewise import CLOSURE
-from drivewright.motion.ripple import Ripple, ripple
-from drivewright.motion.splines import LEAST_POINTS, refuse_disorder, through_points
+from drivewright.motion.ripple import Ripple, Rounding, Smoothing, ripple, rms_jerk, rounding
+from drivewright.motion.splines import LEAST_POINTS, of_spline, refuse_disorder, through_points
+from drivewright.numerics.smoothing import smoothest_within
 from drivewright.spec.csv_headings import Wanted
 from drivewright.spec.csv_table import read_csv
+from drivewright.spec.length_or_angle import AngleGiven
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +27,23 @@ class TableLaw(MotionLaw):
 
     rows: Floats | None = field(default=None, repr=False)  # (n, 2): u and lift
     lift_unit: str | None = None
+    digit: float = 0.0  # step of the last printed digit of the lift; 0 where it is not known
+    smoothing: Smoothing | None = None
+
+    @property
+    def findings(self) -> Iterator[str]:
+        """What rounding does to acceleration and jerk, or what the smoothing did."""
+        if self.smoothing:
+            yield self.smoothing.message(self.lift_unit)
+            return
+        yield from (message for message in (self.ripple.message, self.rounding.message(self.lift_unit)) if message)
+
+    @cached_property
+    def rounding(self) -> Rounding:
+        """What the last printed digit of the rows does to the jerk."""
+        assert self.rows is not None
+        u, lift = self.rows.T
+        return rounding(u, lift, self.digit, self.function)
 
     @cached_property
     def ripple(self) -> Ripple:
@@ -45,10 +65,11 @@ class Rows(NamedTuple):
 
 
 @register("table")
-def _table(file=None, angle=None, lift=None, degree=5, ends=None):
+def _table(file=None, angle=None, lift=None, degree=5, ends=None, band=None):
     """Spline through the rows of a CSV file (header "angle [deg],lift [mm]") or of two arrays in SI.
 
     The angle runs from 0; the lift is absolute.  `ends` unless given: "periodic" over a full turn, otherwise "clamped" (v = a = 0).
+    With a `band` [m or rad] the smoothest lift within the band of every row (`numerics.smoothing`) instead of the spline through them.
     """
     if (file is None) == (angle is None) or (angle is None) != (lift is None):
         raise InputError("motion law 'table': give either a file, or the arrays angle [rad] and lift [m or rad].")
@@ -60,9 +81,31 @@ def _table(file=None, angle=None, lift=None, degree=5, ends=None):
         _refuse_open(rows)
     u = rows.angle / span
     function = through_points(u, rows.lift, degree, ends, rows.what)
-    return TableLaw("table", function, span, np.column_stack([u, rows.lift]), rows.lift_unit)
+    law = TableLaw("table", function, span, np.column_stack([u, rows.lift]), rows.lift_unit, rows.digit)
+    if rows.lift_unit is not None and band is not None and isinstance(band, AngleGiven) == (rows.lift_unit == "m"):
+        raise InputError(f"{rows.what}: the band must be {'a length' if rows.lift_unit == 'm' else 'an angle'}, as the lifts of the table.")
+    return law if band is None else _smoothed(law, float(band), degree, ends, rows.what)
 
 
+def _smoothed(law, band, degree, ends, what):
+    """The law with the smoothest lift within a band of the rows."""
+    u, lift = law.rows.T
+    if degree != 5:
+        raise InputError(
+            f"{what}: degree {degree} is given with a band, but the smoothest lift within it has degree 5; leave the degree out."
+        )
+    if len(u) < LEAST_SMOOTHED:
+        raise InputError(f"{what}: {len(u)} rows are too few to smooth; give at least {LEAST_SMOOTHED}, or leave the band out.")
+    if band >= 0.5 * np.ptp(lift):
+        raise InputError(f"{what}: the band of {band:.6g} (SI) is half the stroke of {np.ptp(lift):.6g} or more; give a narrower one.")
+    spline = smoothest_within(u, lift, band, ends == "periodic")
+    smooth = of_spline(spline, u, degree, ends == "periodic")
+    at = [rms_jerk(function) for function in (smooth, law.function)]
+    found = Smoothing(band, float(np.max(np.abs(spline(u) - lift))), at[0] / at[1] if at[1] else 1.0, len(u))
+    return replace(law, function=smooth, smoothing=found)
+
+
+LEAST_SMOOTHED = 7  # rows
 ANGLE = Wanted("angle", {"angle": "deg"}, ("theta", "phi", "rotation", "cam", "winkel", "nockenwinkel", "drehwinkel"))
 LIFT = Wanted("lift", {"length": "mm", "angle": "deg"}, ("displacement", "rise", "stroke", "travel", "position", "swing", "hub", "s", "y"))
 

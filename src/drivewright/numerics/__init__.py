@@ -9,6 +9,7 @@
 `linear`         null spaces and pivots of small matrices.
 `least_squares`  fits with the covariance of their parameters.
 `splines`        splines through points, as piecewise polynomials.
+`smoothing`      the smoothest curve within a band about points.
 `jets`           a value with its first three derivatives.
 `signals`        maxima, means and spectra of sampled signals.
 `ensemble`       means of correlated samples with their intervals.

@@ -14,7 +14,7 @@ from drivewright.mechanisms.cam.spec import CamSpec, Groove
 from drivewright.numerics.jets import Jet
 from drivewright.spec.length_or_angle import AngleGiven
 
-LAW_KEYS = ("file", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
+LAW_KEYS = ("file", "band", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
 USED = {  # keys of the follower that each motion and face reads
     "translating": ("offset",),
     "oscillating": ("pivot_distance", "arm_length", "lift_at", "inertia"),
@@ -255,9 +255,8 @@ def _findings(spec, programme):
     for name in sorted(name for name in spec.follower.model_fields_set - used if np.any(getattr(spec.follower, name))):
         yield f"follower.{name} has no meaning for a {kind}; it is not used"
     for segment in programme.segments:
-        message = segment.law.ripple.message if isinstance(segment.law, motion.TableLaw) else ""
-        if message:
-            yield message
+        if isinstance(segment.law, motion.TableLaw):
+            yield from segment.law.findings
     if spec.valve is not None and spec.follower.motion != "oscillating":
         yield "[valve] is given, but only an oscillating follower has a second arm; it is not used"
     for name in ("groove", "conjugate"):

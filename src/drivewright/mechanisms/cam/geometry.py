@@ -9,6 +9,7 @@ import numpy as np
 from drivewright import cams, curves
 from drivewright.mechanisms.cam.build import CamModel
 from drivewright.mechanisms.cam.spec import TURN
+from drivewright.motion import TableLaw
 from drivewright.result import Answer, Answers, Check, Column, Table, Value, merge_answers
 
 
@@ -28,6 +29,7 @@ def motion(model: CamModel, done: Answers) -> Answer:
 def motion_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
     """The functions that give the values and checks of the motion, as `geometry_measures`."""
     yield _lift
+    yield _smoothing
     if model.turns:
         yield _peaks
     if model.arm:
@@ -44,6 +46,21 @@ def _lift(model):
         {
             "lift": Value(float(np.ptp(model.cycle.sampled()[1].d0)), _unit(model), "stroke of the follower"),
             "continuity": Value(float(model.programme.continuity), "-", "order of the highest derivative of the lift that does not jump"),
+        }
+    )
+
+
+def _smoothing(model):
+    """How far smoothed lifts depart from the rows of their tables."""
+    found = [law.smoothing for segment in model.programme.segments if isinstance(law := segment.motion_law, TableLaw) and law.smoothing]
+    if not found:
+        return Answer()
+    departure, jerk = max(each.departure for each in found), max(each.jerk for each in found)
+    unit = model.programme.lift_unit
+    return Answer(
+        {
+            "smoothing.departure": Value(departure, unit, "largest departure of the smoothed lift from a row of its table"),
+            "smoothing.jerk": Value(jerk, "-", "rms jerk of the smoothed lift over that of a spline through all rows"),
         }
     )
 

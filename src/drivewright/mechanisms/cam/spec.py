@@ -87,6 +87,9 @@ class Segment(Spec):
     end: tuple[Number, ...] | None = Field(None, description="the same at the end")
     interior: tuple[tuple[Number, Integer, Number], ...] | None = Field(None, description="further (u, order, value) of a polynomial")
     points: tuple[tuple[Number, Number], ...] | None = Field(None, description='(u, s) of law = "spline", both from 0 to 1')
+    band: LengthOrAngle | None = Field(
+        None, gt=0, description='smooth the lifts of law = "table": the smoothest motion within this of every row', examples=["2 um"]
+    )
     degree: Integer | None = Field(None, description="degree of a spline or table, 3 or 5")
     ends: Literal["clamped", "periodic"] | None = Field(None, description="ends of a spline or table")
 
