@@ -61,10 +61,10 @@ def test_by_differences_of_the_points(follower, programme):
     motion = programme(theta)
     swings = hasattr(follower, "pivot_distance")
     body = -1j * motion.v * (point - follower.pivot_distance) if swings else 1j * motion.v
-    expected = np.real((0.5 * (cam + body) - contact) * np.conj(tangent))
+    expected = np.real((contact - 0.5 * (cam + body)) * np.conj(tangent))
     contact_at = follower.contact(Jet(theta, np.ones_like(theta), 0 * theta, 0 * theta), Jet(*motion))
     assert cams.entrainment(contact_at, rolls=False).d0 == pytest.approx(expected, abs=1e-8)
-    rolling = np.real((cam - contact) * np.conj(tangent))
+    rolling = np.real((contact - cam) * np.conj(tangent))
     assert cams.entrainment(contact_at, rolls=True).d0 == pytest.approx(rolling, abs=1e-8)
 
 

@@ -14,12 +14,12 @@ SAME = 1e-6  # rad; reversals nearer than this are one
 
 
 def entrainment(contact: CamContact, rolls: bool) -> Jet:
-    """Mean speed of both surfaces against the point of contact, per unit of cam speed [m], a jet; its sign says from which side.
+    """Mean speed at which the contact runs along both surfaces, per unit of cam speed [m], a jet; negative against the usual sense.
 
-    The cam's surface moves past the contact with -rolling, the follower's body with sliding - rolling: u = sliding/2 - rolling.
-    A roller rolls with the cam's surface: u = -rolling.
+    Along the cam's surface it runs with `rolling`, along the follower's body with rolling - sliding: u = rolling - sliding/2.
+    A roller rolls with the cam's surface: u = rolling.
     """
-    return -contact.rolling if rolls else 0.5 * contact.sliding - contact.rolling
+    return contact.rolling if rolls else contact.rolling - 0.5 * contact.sliding
 
 
 def reversals(cycle: Cycle, speed: Quantity) -> Floats:

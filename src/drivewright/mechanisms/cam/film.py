@@ -46,7 +46,7 @@ def _values(model, track, contact, force, thickness, places):
     at_worst, of, name = float(thickness.minimum[worst]), track.of, f"{track.prefix}film"
     found = {
         f"{name}.max_thickness": Value(float(np.nanmax(thickness.minimum)), "m", f"largest film thickness over the turn{of}, steady"),
-        f"{name}.reversals": Value(float(len(places)), "-", f"reversals of the entrainment speed per turn{of}"),
+        f"{name}.reversals": Value(float(len(places)), "-", f"reversals of the entrainment{of}, per turn"),
     }
     if at_worst > 0:
         found[f"{name}.at_peak_pressure"] = Value(at_worst, "m", f"least film thickness at peak pressure{of}, steady")
@@ -55,7 +55,7 @@ def _values(model, track, contact, force, thickness, places):
         )
     if at_worst > 0 and roughness:
         found[f"{name}.ratio"] = Value(
-            float(film_ratio(at_worst, roughness)), "-", f"film thickness over roughness at peak pressure{of}: below 1 the surfaces touch"
+            float(film_ratio(at_worst, roughness)), "-", f"film over roughness at peak pressure{of}, below 1 the surfaces touch"
         )
     return found if np.any(np.isfinite(thickness.minimum)) else {f"{name}.reversals": found[f"{name}.reversals"]}
 

@@ -103,7 +103,7 @@ def _valve(model):
         "valve.lift": Value(moved, "m", "lift of the valve"),
         "valve.min_rocker_ratio": Value(least, "-", "least rocker ratio: travel of the valve per travel at the cam's arm"),
         "valve.max_rocker_ratio": Value(greatest, "-", "greatest rocker ratio: travel of the valve per travel at the cam's arm"),
-        "valve.wipe": Value(wiped, "m", "travel of the pad's contact across the end of the valve's stem"),
+        "valve.wipe": Value(wiped, "m", "wipe of the pad, travel of its contact across the end of the valve's stem"),
     }
     return Answer(values | (_valve_peaks(model) if model.turns else {}))
 
@@ -121,7 +121,7 @@ def _valve_peaks(model):
     meaning = "largest acceleration of the valve"
     values = {
         "valve.max_velocity": (peaks.Vm * speed, "m/s", "largest velocity of the valve, magnitude"),
-        "valve.max_acceleration": (acceleration[1], "m/s^2", f"{meaning} away from its seat"),
+        "valve.max_acceleration": (acceleration[1], "m/s^2", f"{meaning}, away from its seat"),
         "valve.min_acceleration": (acceleration[0], "m/s^2", "least acceleration of the valve, negative where the spring brings it back"),
         "valve.max_jerk": (peaks.Jm * speed**3, "m/s^3", "largest jerk of the valve, magnitude"),
     }

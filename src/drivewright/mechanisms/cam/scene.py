@@ -46,10 +46,14 @@ PLOTS = (
         )
     ),
     Plot("surge", "Force of the spring over the turn", "surge", "angle", ("spring_force", "surge_force"), reference=("static_force",)),
-    Plot("surge_harmonics", "Harmonics of lift and surge", "surge_harmonics", "harmonic", ("lift", "surge_force"), style="stems"),
+    Plot("surge_harmonics", "Harmonics of lift and surge", "surge_harmonics", "harmonic", ("lift", "surge_force"), style="bars"),
     *(
-        Plot(f"film{suffix}", f"Oil film{words}", f"film{suffix}", "angle", ("entrainment_speed", "central_thickness", "min_thickness"))
+        plot
         for suffix, words in SURFACES
+        for plot in (
+            Plot(f"entrainment{suffix}", f"Entrainment speed{words}", f"film{suffix}", "angle", ("entrainment_speed",)),
+            Plot(f"film{suffix}", f"Oil film{words}", f"film{suffix}", "angle", ("central_thickness", "min_thickness"), unit="um"),
+        )
     ),
     Plot("vibration", "Vibration of the follower", "vibration", "angle", ("error", "acceleration")),
 )

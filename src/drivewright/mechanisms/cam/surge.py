@@ -63,10 +63,10 @@ def _values(model, found):
     amplitude = abs(found.lift.amplitude[harmonic]) if harmonic < len(found.lift.amplitude) else 0.0
     ends = [extreme(lambda angle, _: found.force(angle)).value for extreme in (model.cycle.maximum, model.cycle.minimum)]
     return {
-        "surge.natural_frequency": Value(found.spring.frequency / (2 * np.pi), "Hz", "first natural frequency of the spring's surge"),
-        "surge.harmonic": Value(float(harmonic), "-", "harmonic of the cam nearest to the spring's first natural frequency"),
+        "surge.natural_frequency": Value(found.spring.frequency / (2 * np.pi), "Hz", "first natural frequency of the spring, both ends held"),
+        "surge.harmonic": Value(float(harmonic), "-", "nearest harmonic of the cam, to the spring's first natural frequency"),
         "surge.resonance_speed": Value(model.speed / ratio, "rad/s", "cam speed of surge resonance, by the nearest harmonic"),
-        "surge.harmonic_lift": Value(float(amplitude), "m", "amplitude of the nearest harmonic in the lift"),
+        "surge.harmonic_lift": Value(float(amplitude), "m", "lift of the nearest harmonic, amplitude"),
         "surge.max_force": Value(max(map(abs, ends)), "N", "largest force of surge, magnitude, beside the static spring force"),
         "spring.max_force": Value(_spring_force(model, found, model.cycle.maximum), "N", "largest force of the spring, surge included"),
         "spring.min_force": Value(_spring_force(model, found, model.cycle.minimum), "N", "least force of the spring, surge included"),
