@@ -19,6 +19,13 @@ FOLDER = EXAMPLES
 PINNED = {
     "disc_cam": {"max_pressure_angle": 0.47777217340123485, "min_convex_radius": 0.031610820401744206, "max_contact_force": 206.6133},
     "oscillating_cam": {"max_pressure_angle": 0.42140923293097693, "min_convex_radius": 0.03150449711976596},
+    "valve_train": {
+        "valve.lift": 0.010000278965755465,
+        "max_contact_force": 1535.68822,
+        "spring.jump_speed": 373.84576,
+        "surge.max_force": 150.422014,
+        "film.at_peak_pressure": 3.34533984e-07,
+    },
     "yoke_cam": {"min_convex_radius": 0.042, "min_half_face": 0.01613085562113285},
     "seedling_pusher": {
         "tip.track_height": 0.18232325075379263,

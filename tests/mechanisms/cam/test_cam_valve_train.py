@@ -2,8 +2,12 @@
 
 import numpy as np
 import pytest
+from places import EXAMPLES
+from scipy.interpolate import CubicHermiteSpline
+from scipy.optimize import brentq
 
 import drivewright as dw
+from drivewright import cams
 from drivewright.cams import PeriodicSurge, lift_harmonics
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.spec import CamSpec
@@ -152,3 +156,39 @@ def test_jets_of_the_required_force_hold_the_slope_of_surge():
     sides = [model.required(*model.cycle.at_angle(theta + k * step)).d0 for k in (-1, 1)]
     assert at.d1 == pytest.approx((sides[1] - sides[0]) / (2 * step), rel=1e-5)
     assert model.surge.force(variable(theta)).d0.shape == theta.shape
+
+
+@pytest.fixture(scope="module")
+def example():
+    return dw.run(dw.load(EXAMPLES / "valve_train.toml"))
+
+
+@pytest.mark.analytical
+def test_rocker_of_the_example_by_root_finding(example):
+    """The swing at which the pad stands at the printed lift, to what half of its last digit makes of the swing."""
+    text = (EXAMPLES / "valve_lift.csv").read_text().replace(",", ".").splitlines()[2:]
+    rows = np.array([[float(cell) for cell in line.split(";")] for line in text])
+    start, arm = np.radians(-7), 0.040
+    swing = [brentq(lambda a, h=h: arm * (np.sin(start + a) - np.sin(start)) - h / 1e3, -0.1, 0.6) for h in rows[:, 1]]
+    ours = build(example.spec).programme(np.radians(rows[:, 0])).s
+    assert ours == pytest.approx(swing, abs=0.51e-6 / (arm * np.cos(0.13)))
+    assert len(rows) == 131 and example.ok
+
+
+@pytest.mark.analytical
+def test_spring_force_of_the_example_by_its_modes(example):
+    """60 modes as masses on springs, carried in time over the motion of the valve; the modes left out act as mass."""
+    model, modes = build(example.spec), 60
+    spring, speed = model.surging_spring, model.speed
+    cycle = cams.Cycle(model.valve_motion)
+    table = example.tables["surge"]
+    angle = np.unique(table["angle"].data)[1:-1:5]
+    left = np.pi**2 / 6 - np.sum(1 / np.arange(1, modes + 1) ** 2)
+    force = 2 * spring.stiffness * left * speed**2 / spring.frequency**2 * cycle.at_angle(angle)[1].d2
+    for n in range(1, modes + 1):
+        response = cams.periodic_response(cycle, 1.0, speed, n * spring.frequency, spring.damping)
+        places = np.flatnonzero(np.diff(response.angle, prepend=-1) > 0)
+        error, rate = (part[places] for part in (response.error.d0, response.error.d1))
+        force -= 2 * spring.stiffness * CubicHermiteSpline(response.angle[places], error, rate / speed)(angle)
+    ours = np.interp(angle, table["angle"].data, table["surge_force"].data)
+    assert ours == pytest.approx(force, abs=2e-3 * np.max(np.abs(force)))

@@ -63,7 +63,7 @@ def _values(model, found):
     amplitude = abs(found.lift.amplitude[harmonic]) if harmonic < len(found.lift.amplitude) else 0.0
     ends = [extreme(lambda angle, _: found.force(angle)).value for extreme in (model.cycle.maximum, model.cycle.minimum)]
     return {
-        "surge.natural_frequency": Value(found.spring.frequency / (2 * np.pi), "Hz", "first natural frequency of the spring, both ends held"),
+        "surge.natural_frequency": Value(found.spring.frequency / (2 * np.pi), "Hz", "first natural frequency of the spring, ends held"),
         "surge.harmonic": Value(float(harmonic), "-", "nearest harmonic of the cam, to the spring's first natural frequency"),
         "surge.resonance_speed": Value(model.speed / ratio, "rad/s", "cam speed of surge resonance, by the nearest harmonic"),
         "surge.harmonic_lift": Value(float(amplitude), "m", "lift of the nearest harmonic, amplitude"),

@@ -173,7 +173,7 @@ def wheel_motion(spec: IndexerSpec) -> tuple[IndexMotion, tuple[str, ...]]:
         raise
     except InputError as error:
         raise SpecError(str(error).removesuffix("."), "motion.file") from None
-    return moving, tuple(filter(None, [rows.ripple.message]))
+    return moving, tuple(rows.findings)
 
 
 def law_parameters(spec: IndexerSpec) -> dict[str, Any]:
