@@ -153,3 +153,16 @@ def test_rescaled_in_mass_and_time():
     force = surge_of(motion).force(angle).d0
     assert surge_of(motion, cams.SurgingSpring(10 * K, 10 * M, ZETA)).force(angle).d0 == pytest.approx(10 * force, rel=1e-9)
     assert surge_of(motion, cams.SurgingSpring(100 * K, M, ZETA), 10 * SPEED).force(angle).d0 == pytest.approx(100 * force, rel=1e-9)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("damping", [0.1, 0.01, 0.002])
+def test_a_narrow_resonance_that_opens_the_contact_is_found(damping):
+    """The contact opens in a resonance as narrow as the damping makes it, and again far above: the first is the jump."""
+
+    def least(speed):
+        return cams.Extreme(1.0 if abs(speed / 200 - 1) > damping and speed < 380 else -1.0, 0.7, 0)
+
+    found = cams.jump_with_surge(least, least, 40.0, 400.0, damping)
+    assert found.speed == pytest.approx(200 * (1 - damping), rel=1e-6) and found.angle == 0.7
+    assert cams.jump_with_surge(lambda _: cams.Extreme(1.0, 0.0, 0), least, 40.0, 400.0, damping).speed == np.inf

@@ -205,3 +205,48 @@ def test_jump_speed_names_the_place_where_the_force_vanishes():
     at_jump = build(spec({"inertia": "1e-5 kg m^2"}, valve=VALVE, **{**loads, "drive": {"speed": f"{check.value} rad/s"}}))
     lowest = at_jump.cycle.minimum(at_jump.required)
     assert lowest.value == pytest.approx(0, abs=1e-6) and lowest.angle == pytest.approx(result["spring.jump_speed.at"], abs=1e-6)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize(
+    ("value", "key", "unit"), [("needed_preload", "spring.preload", "N"), ("needed_stiffness", "spring.stiffness", "N/m")]
+)
+def test_a_spring_at_the_valve_that_just_holds(value, key, unit):
+    """With a rocker whose ratio changes a lot over the lift, and damping: the least force at the cam is zero."""
+    loads = {"load": {"mass": "0.09 kg", "damping": "30 N s/m"}, "spring": {"stiffness": "30 N/mm", "preload": "280 N"}}
+    valve = {"arm_length": "22 mm", "start_angle": "-45 deg"}
+    given = spec({"inertia": "1e-5 kg m^2"}, valve=valve, drive={"speed": "420 rad/s"}, **loads)
+    limit = dw.run(given, only=("spring",))[f"spring.{value}"]
+    model = build(given.replace({key: f"{limit!r} {unit}"}))
+    assert limit > 0 and model.cycle.minimum(model.required).value == pytest.approx(0, abs=1e-6)
+
+
+@pytest.mark.property
+def test_jump_speed_with_damping_at_the_valve():
+    loads = {"load": {"mass": "0.09 kg", "damping": "30 N s/m"}, "spring": {"stiffness": "30 N/mm", "preload": "280 N"}}
+    given = spec({"inertia": "1e-5 kg m^2"}, valve={"arm_length": "22 mm", "start_angle": "-45 deg"}, drive={"speed": "420 rad/s"}, **loads)
+    found = dw.run(given, only=("spring",))
+    model = build(given.replace({"drive.speed": f"{found['spring.jump_speed']!r} rad/s"}))
+    lowest = model.cycle.minimum(model.required)
+    assert lowest.value == pytest.approx(0, abs=1e-6) and lowest.angle == pytest.approx(found["spring.jump_speed.at"], abs=1e-6)
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("closure", ["groove", "conjugate"])
+def test_a_lift_along_the_arm_with_every_closure(closure):
+    second = {"conjugate": {"prime_radius": "46 mm"}} if closure == "conjugate" else {}
+    tables = {"closure": closure, "drive": {"speed": "60 rad/s"}, "load": {"mass": "0.1 kg"}, **second}
+    by_length = dw.run(spec({"lift_at": "arm"}, **tables))
+    by_angle = dw.run(spec(programme=segments(f"{LIFT / ARM!r} rad"), **tables))
+    assert by_length.values.keys() == by_angle.values.keys() and by_length.outcome == "complete"
+    for name, value in by_angle.values.items():
+        assert by_length[name] == pytest.approx(value.value, rel=1e-6, abs=1e-9 * max(1.0, abs(value.value))), name
+
+
+@pytest.mark.analytical
+def test_wipe_is_counted_from_zero_lift():
+    table = dw.run(spec(valve=VALVE), only=("motion",)).tables["valve"]
+    assert table["wipe"].data[0] == pytest.approx(0, abs=1e-15)
+    swing = swing_by_root(RISE)
+    place = int(np.argmax(table["lift"].data))
+    assert table["wipe"].data[place] == pytest.approx(TIP * (np.cos(START + swing) - np.cos(START)), rel=1e-9)

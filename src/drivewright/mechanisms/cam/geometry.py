@@ -140,6 +140,7 @@ def _valve_table(model):
         Column("lift", "m", "lift of the valve", motion.s),
         Column("rocker_ratio", "-", "rocker ratio, travel of the valve per travel at the cam's arm", model.path.ratio(swing).d0),
     ]
+    columns.append(Column("wipe", "m", "place of the pad on the stem, from that at zero lift", model.arm.across(swing).d0))
     if model.turns:
         columns += [
             Column(name, f"m/s^{order}".removesuffix("^1"), f"{name} of the valve", motion[order] * model.speed**order)
