@@ -8,6 +8,7 @@ from drivewright.errors import InputError
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.motion import law
 from drivewright.motion.ripple import jerk_gain, rounding
+from drivewright.motion.splines import through_points
 from drivewright.spec import from_document
 
 TURN = 2 * np.pi
@@ -44,6 +45,9 @@ def test_jerk_of_rounding_against_random_errors(degree):
     places = (u[:-1, None] + 0.5 / 200 * (1 + node)).ravel()
     mean = np.mean(np.tile(0.5 * weight, 200)[:, None] * spline(places, nu=3) ** 2) * 4
     assert jerk_gain(degree) * 1e-3 / np.sqrt(12) * 200**3 == pytest.approx(np.sqrt(mean), rel=0.02)
+    lifts = np.cos(TURN * u)
+    function = through_points(u, lifts, degree, "periodic", "rows")
+    assert rounding(u, lifts, 1e-3, function).jerk == pytest.approx(np.sqrt(mean), rel=0.02)
 
 
 @pytest.mark.property

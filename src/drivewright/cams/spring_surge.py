@@ -79,6 +79,13 @@ class Harmonics(NamedTuple):
         wave = np.exp(1j * np.asarray(angle, dtype=float)[..., None] * order)
         return Jet(*(np.real(wave @ (self.amplitude * (1j * order) ** power)) for power in range(4)))
 
+    def sampled(self, count: int, derivative: int = 0) -> Floats:
+        """The derivative of an order at `count` equal steps over the turn, from angle 0."""
+        order = np.arange(len(self.amplitude))
+        spectrum = np.zeros(count // 2 + 1, dtype=complex)
+        spectrum[: len(order)] = self.amplitude * (1j * order) ** derivative * np.where(order == 0, 1.0, 0.5) * count
+        return np.fft.irfft(spectrum, count)
+
 
 def harmonics_of(samples: Floats, kept: int) -> Harmonics:
     """The first harmonics of samples at equal steps over a turn."""
@@ -111,17 +118,15 @@ class PeriodicSurge:
         factor = self.spring.surge_factor(self.speed * np.arange(len(amplitude), dtype=float))
         return Harmonics(self.spring.stiffness * factor * amplitude)
 
+    def sampled(self) -> Floats:
+        """Force of surge [N] at the samples, at equal steps from angle 0."""
+        return self.harmonics.sampled(self.samples)
+
     @cached_property
     def _nodes(self) -> Jet:
-        """The force at the samples, with the end of the turn."""
-        size, order = self.samples, np.arange(len(self.harmonics.amplitude))
-        parts = []
-        for power in range(4):
-            spectrum = np.zeros(size // 2 + 1, dtype=complex)
-            spectrum[: len(order)] = self.harmonics.amplitude * (1j * order) ** power * np.where(order == 0, 1.0, 0.5) * size
-            values = np.fft.irfft(spectrum, size)
-            parts.append(np.append(values, values[0]))
-        return Jet(*parts)
+        """The force and its derivatives at the samples, with the end of the turn."""
+        parts = (self.harmonics.sampled(self.samples, order) for order in range(4))
+        return Jet(*(np.append(values, values[0]) for values in parts))
 
     def force(self, angle: Jet) -> Jet:
         """Force of surge [N] on the driven end, pressing it back where positive; between the samples by their derivatives."""

@@ -217,7 +217,7 @@ def test_a_spring_at_the_valve_that_just_holds(value, key, unit):
     valve = {"arm_length": "22 mm", "start_angle": "-45 deg"}
     given = spec({"inertia": "1e-5 kg m^2"}, valve=valve, drive={"speed": "420 rad/s"}, **loads)
     limit = dw.run(given, only=("spring",))[f"spring.{value}"]
-    model = build(given.replace({f"spring.{key}": f"{limit!r} {unit}"}))
+    model = build(given.replace({key: f"{limit!r} {unit}"}))
     assert limit > 0 and model.cycle.minimum(model.required).value == pytest.approx(0, abs=1e-6)
 
 

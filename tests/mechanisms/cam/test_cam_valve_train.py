@@ -192,3 +192,28 @@ def test_spring_force_of_the_example_by_its_modes(example):
         force -= 2 * spring.stiffness * CubicHermiteSpline(response.angle[places], error, rate / speed)(angle)
     ours = np.interp(angle, table["angle"].data, table["surge_force"].data)
     assert ours == pytest.approx(force, abs=2e-3 * np.max(np.abs(force)))
+
+
+ROCKER = {
+    "motion": "oscillating",
+    "face": "roller",
+    "roller_radius": "9 mm",
+    "prime_radius": "28 mm",
+    "pivot_distance": "40 mm",
+    "arm_length": "25 mm",
+}
+
+
+@pytest.mark.property
+def test_surge_goes_through_the_ratio_of_the_rocker():
+    """A surging spring at a valve whose rocker's ratio is far from 1: force at the cam, preload and jump speed that just hold."""
+    given = spec("4000 rpm", follower=ROCKER, valve={"arm_length": "14 mm", "start_angle": "-35 deg"})
+    model, found = build(given), dw.run(given, only=("spring", "forces", "surge"))
+    angle, swing = model.cycle.sampled()
+    quiet = model.path.force(swing, model.load, model.speed).d0
+    ratio = 14 / 25 * np.cos(np.radians(-35) + swing.d0)
+    assert model.required(angle, swing).d0 - quiet == pytest.approx(ratio * found.tables["surge"]["surge_force"].data, abs=1e-9)
+    at_preload = build(given.replace({"spring.preload": f"{found['spring.needed_preload']!r} N"}))
+    assert at_preload.cycle.minimum(at_preload.required).value == pytest.approx(0, abs=1e-6)
+    at_jump = build(given.replace({"drive.speed": f"{found['spring.jump_speed']!r} rad/s"}))
+    assert at_jump.cycle.minimum(at_jump.required).value == pytest.approx(0, abs=1e-3)

@@ -6,7 +6,7 @@ from drivewright import cams
 from drivewright.cams.cycle import Quantity
 from drivewright.cams.spring_surge import COARSE, SAMPLES, PeriodicSurge
 from drivewright.mechanisms.cam.build import CamModel
-from drivewright.mechanisms.cam.spec import CamSpec
+from drivewright.mechanisms.cam.spec import TURN, CamSpec
 from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 SHOWN = 40  # harmonics in the table, at least
@@ -38,10 +38,15 @@ def jump_with_surge(model: CamModel, quiet: float) -> cams.Jump:
         added = PeriodicSurge(spring, lift, speed).force
         return lambda angle, swing: model.path.force(swing, model.load, speed) + model.path.ratio(swing) * added(angle)
 
+    angle, swing = model.cycle.at_angle(TURN * np.arange(COARSE) / COARSE)
+    held, forward, back = (model.path.force(swing, model.load, speed).d0 for speed in (0.0, model.speed, -model.speed))
+    inertia, damping = 0.5 * (forward + back) - held, 0.5 * (forward - back)
+    ratio = model.path.ratio(swing).d0
+
     def screen(speed):
-        """Least force at the samples of the turn."""
-        angle, lift = model.cycle.sampled()
-        force = force_at(speed, coarse)(angle, lift).d0 + 0 * angle.d0
+        """Least force at equal steps over the turn: without surge it is a square of the speed."""
+        part = speed / model.speed
+        force = held + part * (damping + part * inertia) + ratio * PeriodicSurge(spring, coarse, speed).sampled()
         place = int(np.argmin(force))
         return cams.Extreme(float(force[place]), float(angle.d0[place]), 0)
 
