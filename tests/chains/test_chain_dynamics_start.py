@@ -75,7 +75,7 @@ def test_pitches_and_guides_are_their_own_when_the_clock_starts():
     low, depths, pushes, angles = start(drive()).poses[:, 1].min(), (4e-3, 6.5e-3), [], []
     for depth in depths:
         guide = Guide((0.105, low - 3e-3 - 0.15 + depth), 0.15, np.pi / 2 - 0.4, np.pi / 2 + 0.4, "outside", 3e-3, ChainContact(1e7, 50.0))
-        run = simulate(replace(drive(deviations=pitches), guides=(guide,)), 0.02)
+        run = simulate(replace(drive(deviations=pitches), guides=(guide,)), 0.1, Settings(tolerance=3e-3))
         assert (run.t[0], run.rows[0, ROW.index("joint damping")]) == (0.0, pytest.approx(0.0, abs=1e-3))
         assert run.outcome == "complete", run.advice
         pushes.append(-run.mean(run.body(2, "fy")))

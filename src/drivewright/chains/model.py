@@ -1,8 +1,9 @@
 """What a chain drive is made of, for any solver of its motion: frozen descriptions, in SI units.
 
 Frame: x to the right, y up, angles counter-clockwise.  Plates are numbered clockwise around the loop, along their own x; the
-sprockets lie inside, listed clockwise.  Teeth have their centre lines at the polar angles psi + k 2 pi/z; a plate seated astride of one is
-turned by psi + k 2 pi/z - pi/2.  A sprocket that carries the chain along the plates' x turns clockwise: its speed is negative.
+sprockets lie inside unless they say so, in any order.  Teeth have their centre lines at the polar angles psi + k 2 pi/z; a plate seated
+astride of one is turned by psi + k 2 pi/z - pi/2.  A sprocket inside that carries the chain along the plates' x turns clockwise: its
+speed is negative.
 """
 
 from collections.abc import Callable
@@ -83,12 +84,35 @@ class SpeedRamp:
 
 @dataclass(frozen=True)
 class Slide:
-    """One direction (angle [rad]) in which a centre may move by q, with the force F - k q - c dq/dt along it  [N], [N/m], [N s/m]."""
+    """One direction (angle [rad]) in which a centre may move by q, with the force F - k q - c dq/dt along it  [N], [N/m], [N s/m].
+
+    With a pivot [m] the centre turns about it instead, by q over the `lever` [m] (counter-clockwise where that is above 0): q and the
+    forces are those at the end of the lever, and the direction means nothing.  travel [m]: least and greatest q that there is room for.
+    """
 
     direction: float
     force: float = 0.0
     stiffness: float = 0.0
     damping: float = 0.0
+    pivot: tuple[float, float] | None = None
+    lever: float = 1.0
+    travel: tuple[float, float] = (-np.inf, np.inf)
+
+    def turn(self, q: Any) -> Any:
+        """Angle [rad] by which the body has turned about its pivot."""
+        return q / self.lever if self.pivot else 0.0
+
+    def shift(self, centre: complex, q: Any) -> Any:
+        """By how much [m] a centre that stands at `centre` for q = 0 has moved."""
+        if self.pivot is None:
+            return q * np.exp(1j * self.direction)
+        return (centre - complex(*self.pivot)) * (np.exp(1j * self.turn(q)) - 1)
+
+    def way(self, centre: complex, q: float) -> complex:
+        """Derivative of the place by q  [-]."""
+        if self.pivot is None:
+            return complex(np.exp(1j * self.direction))
+        return 1j / self.lever * (centre - complex(*self.pivot)) * np.exp(1j * self.turn(q))
 
 
 @dataclass(frozen=True)
@@ -97,7 +121,7 @@ class Sprocket:
 
     centre [m] at q = 0; angle psi [rad] at the start (None: as the chain asks); tip and form radius [m] of the active flank;
     drive, or free with inertia [kg m^2], torque [N m] counter-clockwise and rotational damping [N m s] against rates that differ from
-    `reference_speed` [rad/s]; slide with mass [kg], or fixed.
+    `reference_speed` [rad/s]; slide with mass [kg], or fixed; outside of the loop it meets the back of a roller chain.
     """
 
     tooth: Tooth | RollerTooth
@@ -113,6 +137,8 @@ class Sprocket:
     reference_speed: float = 0.0
     drive: SpeedRamp | None = None
     slide: Slide | None = None
+    outside: bool = False
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -134,11 +160,12 @@ class Guide:
     slip: float = 1e-2
     mass: float = 0.0
     slide: Slide | None = None
+    name: str = ""
 
 
 @dataclass(frozen=True)
 class ChainDrive:
-    """A drive: chain, sprockets clockwise, guides, gravity (x, y) [m/s^2]."""
+    """A drive: chain, sprockets, guides, gravity (x, y) [m/s^2]."""
 
     chain: Chain
     sprockets: tuple[Sprocket, ...]
@@ -159,6 +186,11 @@ class ChainDrive:
     def driver(self) -> int:
         """Number of the first sprocket with a drive."""
         return next(n for n, sprocket in enumerate(self.sprockets) if sprocket.drive)
+
+    @property
+    def measured(self) -> int:
+        """Number of the driven sprocket, whose distance from the driver counts: the first other one inside of the loop."""
+        return next(n for n, sprocket in enumerate(self.sprockets) if n != self.driver and not sprocket.outside)
 
 
 def at_speed(model: ChainDrive, speed: float) -> ChainDrive:
@@ -182,9 +214,12 @@ def check(model: ChainDrive) -> None:
     """InputError where the description has no meaning."""
     _check_chain(model.chain)
     if len(model.sprockets) < 2:
-        raise InputError(f"chain drive: {len(model.sprockets)} sprocket cannot hold a loop; give two or more, clockwise.")
+        raise InputError(f"chain drive: {len(model.sprockets)} sprocket cannot hold a loop; give two or more.")
     for number, sprocket in enumerate(model.sprockets, 1):
         _check_sprocket(sprocket, f"sprocket {number}")
+    for number, sprocket in enumerate(model.sprockets, 1):
+        if sprocket.outside and not isinstance(sprocket.tooth, RollerTooth):
+            raise InputError(f"sprocket {number}: teeth outside of the loop meet rollers only; press on the backs of plates with a guide.")
     if not any(sprocket.drive for sprocket in model.sprockets):
         raise InputError("chain drive: no sprocket is driven; give one a SpeedRamp(speed).")
     for number, guide in enumerate(model.guides, 1):
@@ -244,7 +279,9 @@ def _check_slide(body, where):
     _above(where, "mass", body.mass, " of what slides")
     _from_zero(where, "slide damping", body.slide.damping)
     _from_zero(where, "slide stiffness", body.slide.stiffness)
-    _finite(f"{where}: slide", (body.slide.direction, body.slide.force))
+    _finite(f"{where}: slide", (body.slide.direction, body.slide.force, *(body.slide.pivot or ())))
+    if body.slide.pivot and not (np.isfinite(body.slide.lever) and body.slide.lever != 0):
+        raise InputError(f"{where}: the lever of a pivot must be finite and not 0, got {body.slide.lever:g} m.")
 
 
 def _check_contact(contact, where):

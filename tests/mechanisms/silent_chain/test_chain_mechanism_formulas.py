@@ -13,12 +13,13 @@ from drivewright.chains.closure import Drive, departure, phase_map
 from drivewright.chains.explicit.ensemble import Ensemble
 from drivewright.chains.explicit.measure import BODY, PLATE, ROW
 from drivewright.chains.explicit.motion import LOSSES, Motion
+from drivewright.chains.explicit.signals import Signal
 from drivewright.chains.explicit.simulate import Settings, tooth_time
 from drivewright.chains.link import design_link, seat_height, seat_support
 from drivewright.chains.stress.plate import Loads
 from drivewright.chains.stress.revolution import fewer_instants, open_seats
 from drivewright.mechanisms.silent_chain import dynamics, many, stress
-from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
+from drivewright.mechanisms.silent_chain.chain_drive import bare_drive, chain_drive
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.scene import link_shapes
 from drivewright.numerics.ensemble import Estimate
@@ -29,6 +30,7 @@ from drivewright.spec.parsing import change_key
 pytestmark = pytest.mark.analytical
 
 MM = 1e-3
+SIGNAL = Signal("centre_distance", "m", "centre distance", lambda run: run.centre_distance)
 P = 9.525 * MM
 SPEC = """
 mechanism = "silent-chain"
@@ -453,7 +455,7 @@ def test_further_sprockets_and_guides():
         'direction="-80 deg", stiffness="2 N/mm", damping="7 N s/m", mass="40 g"}]',
     )
     model = build(*changes)
-    system, radius = chain_drive(model), pitch_radius(19)
+    system, radius = bare_drive(model), pitch_radius(19)
     idler = system.sprockets[2]
     assert idler.mass == pytest.approx(7850 * 2.5 * MM * np.pi * (radius**2 - (9 * MM) ** 2), rel=1e-12)
     assert idler.inertia == pytest.approx(0.5 * idler.mass * (radius**2 + (9 * MM) ** 2), rel=1e-12)  # a ring
@@ -545,6 +547,7 @@ def test_the_campbell_diagram_s_rows(monkeypatch):
             frequency=frequency,
             amplitudes=tuple(known(k * w) for k in (1, 2, 3)),
             spectrum=np.array([9.0, 1, 5, 1, 7, 1, 6, 2, 8]),
+            signal=SIGNAL,
         )
         return SimpleNamespace(rows=[SimpleNamespace(case=w, value=level(w), ok=True) for w in speeds], failed=())
 
@@ -574,7 +577,7 @@ def test_percentiles_and_rest_are_told_as_they_were_found(monkeypatch):
             mean=ends + [1.0, 2.0, 3.0], fluctuation=ends + [4.0, 5.0, np.inf], outcomes=SimpleNamespace(rows=[row], failed=())
         )
 
-    row = SimpleNamespace(value=SimpleNamespace(mean=known(7.0), fluctuation=known(8.0)), ok=True)
+    row = SimpleNamespace(value=SimpleNamespace(mean=known(7.0), fluctuation=known(8.0), signal=SIGNAL), ok=True)
     monkeypatch.setattr(many, "monte_carlo", monte_carlo)
     model = build('scatter.tooth_thickness="3 um"', 'scatter.pitch="1 um"', 'dynamics.settling="20 ms"')
     answer = many.scatter(model, {})
@@ -611,7 +614,7 @@ def made_up(model, member):
     rows, bodies = np.ones((n, len(ROW))), np.zeros((n, 2, len(BODY)))
     wave = (1 + 0.01 * member) * np.sin(2 * np.pi * t / tooth_time(system))
     rows[:, ROW.index("t")], rows[:, ROW.index("utilisation")], rows[:, ROW.index("contacts")] = t, 0.2 + 0.1 * np.abs(wave), 20.0
-    for name in LOSSES:
+    for name in (*LOSSES, "open joints"):
         rows[:, ROW.index(name)] = 0.0
     rows[-1, ROW.index("drive")] = -1e-5 * (1 + member)  # J of 2 J that are stored
     bodies[:, 1, BODY.index("q")] = 1e-4 + 3e-6 * wave

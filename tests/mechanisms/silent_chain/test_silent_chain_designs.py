@@ -222,7 +222,6 @@ REFUSED = [
     ("cutter.pitch", 0.0),
     ("drive.speed", 0.0),
     ("drive.preload", -1.0),
-    ("drive.load_torque", -1e-9),
     ("plate.apothem", np.nan),
 ]
 TAKEN = [

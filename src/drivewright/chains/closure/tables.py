@@ -1,5 +1,6 @@
 """Tables of the rigid chain."""
 
+from drivewright._typing import Floats
 from drivewright.chains.closure.model import Closure
 from drivewright.chains.closure.positions import Phased
 from drivewright.result import Column, Table
@@ -33,5 +34,19 @@ def phased_table(found: Phased) -> Table:
             Column("transmission_error", "rad", "transmission error of both rows", found.transmission_error),
             Column("single_error", "rad", "transmission error of one row alone", found.single_error),
             Column("distance_gap", "m", "difference of the rows' centre distances", found.distance_gap),
+        ),
+    )
+
+
+def rigid_table(angle: Floats, travel: Floats, error: Floats, words: str) -> Table:
+    """Table "rigid_travel" over the driver's angle (S,) [rad]: what gives way so that a rigid chain closes (S,) [m], its name in words, and
+    the transmission error (S,) [rad]."""
+    return Table(
+        "rigid_travel",
+        "Rigid chain over one tooth of the driving sprocket",
+        (
+            Column("angle", "rad", "angle of the driving sprocket", angle),
+            Column("travel", "m", words, travel),
+            Column("transmission_error", "rad", "driven angle off the ratio of teeth", error),
         ),
     )

@@ -170,13 +170,27 @@ def near(chain: ChainConstants, x: float, y: float, b: Records, teeth: Teeth, ar
     sprockets = teeth.base.size
     far = distance(x - b.x[n], y - b.y[n])
     if n >= sprockets:
-        return far < arcs.radius[n - sprockets] + abs(arcs.distance[n - sprockets]) + 4 * chain.half_plate
+        return near_arc(chain, x - b.x[n], y - b.y[n], far, arcs, n - sprockets)
     spare, nearest = far - teeth.reach[n], True
     if spare >= 0.0:
         return False
     for m in range(sprockets):
         nearest &= m == n or distance(x - b.x[m], y - b.y[m]) - teeth.reach[m] >= spare
     return nearest
+
+
+@inner
+def near_arc(chain: ChainConstants, x: float, y: float, far: float, arcs: Records, n: int) -> bool:
+    """Whether a plate at (x, y), `far` [m] from the centre of guide n's arc, lies about as far as the arc and not beside it.
+
+    It may lie two pitches deeper and beside the arc, and as far again as guides turn about a pivot.
+    """
+    radius, room = arcs.radius[n] + abs(arcs.distance[n]), 4 * chain.half_plate
+    if not abs(far - arcs.radius[n]) < abs(arcs.distance[n]) + room:
+        return False
+    cosine, sine = arcs.opening[n], np.sqrt(max(0.0, 1.0 - arcs.opening[n] ** 2))
+    margin = min(0.3 + room / radius, np.pi)
+    return cosine <= -0.9 or x * arcs.middle_x[n] + y * arcs.middle_y[n] >= far * (cosine * np.cos(margin) - sine * np.sin(margin))
 
 
 @inner

@@ -1,22 +1,23 @@
-"""Where everything is at the start: seated plates on the sprockets' polygons, straight strands between them, all moving as if rigid.
+"""Where everything is at the start: seated plates on the sprockets' polygons, free strands between them, all moving as if rigid.
 
-Plates leave sprocket j in the direction beta_j towards sprocket j + 1.  Unknown are the directions, the angles of all sprockets but the
-first, and what lets the loop close: the first slide, or without one an even change of the hole pitches of all free plates.
+A chain around two sprockets, one of them on a slide, needs no more than its loop; with further sprockets, guides or a fixed centre distance
+the path and the pulls of its strands come from `path`, tensioners in balance, and the polygon closes around that.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from drivewright._typing import Complexes, Floats
-from drivewright.chains.link import Link, seat_height
+from drivewright._typing import Floats, Ints
+from drivewright.chains.explicit.polygon import Bend, Closed, Polygon, closed, poses, seats
+from drivewright.chains.link import seat_height
 from drivewright.chains.model import ChainDrive
+from drivewright.chains.path.balance import Balance, balanced, chain_speed
+from drivewright.chains.path.route import bodies, centre_at, mean_link
 from drivewright.chains.roller_tooth import RollerTooth
-from drivewright.errors import DoesNotAssemble, InputError, SolverError
-from drivewright.numerics.roots import newton
+from drivewright.errors import DoesNotAssemble, InputError
 
-TIGHT, SLACK = 2e-3, 0.03  # parts of its length by which a chain may miss a loop that nothing adjusts, and that guides may take up
-STEP = 1e-7  # of differences, in lengths of the pitch and in angles
+TIGHT = 2e-3  # part of its length by which a chain may miss a loop that nothing adjusts
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,7 @@ class Start:
     """Poses and rates of the plates (N, 3) from the first one seated on sprocket 1; q and psi (m,) of the sprockets with their rates.
 
     hole_pitches (N,) with which the loop closes, supports (m,) of teeth that these plates just touch; speed of the chain along x of its
-    plates; tension.
+    plates; tension, the least of the strands; guide_q: places of the guides on their slides.
     """
 
     poses: Floats
@@ -33,77 +34,164 @@ class Start:
     psi: Floats
     rate_q: Floats
     rate_psi: Floats
-    seated: tuple[Floats, Floats]  # numbers of the plates on each sprocket
+    seated: tuple[Ints, ...]  # numbers of the plates on each sprocket
     tension: float
     hole_pitches: Floats
     supports: Floats
     speed: float
+    guide_q: Floats
 
 
 @dataclass(frozen=True)
-class _Loop:
-    """Geometry of a loop in the making; slide: number of the sprocket that makes it close, or None."""
+class Laid:
+    """A polygon before it is closed, sprockets of the model in its order, places of all bodies, least tension of a strand."""
 
-    link: Link
-    teeth: Floats
-    height: Floats
-    centre: Complexes  # (m,) complex
-    slide: int | None
-    direction: complex
-    taut: float  # stretch of the joints of free plates by the tension
-
-    def centres(self, q):
-        moved = self.centre.copy()
-        if self.slide is not None:
-            moved[self.slide] += q * self.direction
-        return moved
-
-    def parts(self, extra):
-        """(place of the slide, change of the free plates' pitch) of what lets the loop close."""
-        return (extra, 0.0) if self.slide is not None else (0.0, extra)
-
-    @property
-    def phi(self):
-        return 2 * np.pi / self.teeth
-
-    @property
-    def gap(self):
-        """Distance of the pins of a joint under tension."""
-        return 2 * self.link.radius - self.taut
+    loop: Polygon
+    order: Ints
+    q: Floats
+    tension: float
 
 
 def start(model: ChainDrive, before: float = 0.0) -> Start:
     """The `Start` of a model, `before` [s] ahead of sprocket 1 being at its angle; DoesNotAssemble where the chain fits at no place of the
     slide."""
-    loop = _loop(model, 0.0)
-    q = _slid(loop, model.chain.count, SLACK if model.guides else 0.0)
-    speed = _speeds(model)
-    chain_speed = _chain_speed(model, speed)
-    tension = _tension(model, loop, q, chain_speed)
-    loop = _loop(model, tension / model.chain.joint_stiffness)
-    seats, free, guess = _seats(loop, model, q, before * speed[0])
-    beta, psi, extra = _closed(loop, seats, free, guess)
-    poses, seated = _poses(loop, seats, free, beta, psi, extra)
-    q, more = loop.parts(extra)
-    rates = _rates(poses, seated, loop.centres(q), speed, chain_speed)
-    places, pitches = np.zeros(len(psi)), np.full(len(poses), loop.link.hole_pitch + more)
+    _refuse_rollers(model)
+    laid, speed = _laid(model), _speeds(model)
+    angle = model.sprockets[0].angle
+    taken, guess = seats(laid.loop, model.chain.count, (angle if angle is not None else 0.0) - before * speed[0])
+    return _started(model, laid, speed, taken, closed(laid.loop, taken, guess))
+
+
+def _started(model: ChainDrive, laid: Laid, speed: Floats, taken, found: Closed) -> Start:
+    loop, count = laid.loop, len(model.sprockets)
+    place, more = loop.parts(found.extra)
+    plates, sat = poses(loop, taken, found)
     if loop.slide is not None:
-        places[loop.slide] = q
+        laid.q[laid.order[loop.slide]] = place
+    back = np.argsort(laid.order)  # from the order of the path to that of the model
+    seated, psi = tuple(sat[k] for k in back), found.psi[back]
+    centre, chain = loop.centres(place)[back], chain_speed(model, abs(speed[model.driver]))
+    pitches = np.full(len(plates), loop.link.hole_pitch + more)
     pitches[np.concatenate(seated)] = loop.link.hole_pitch
-    supports = loop.link.flank_support - loop.height * np.sin(loop.link.flank_angle)
-    return Start(poses, rates, places, psi, np.zeros(len(psi)), speed, seated, tension, pitches, supports, -np.sign(speed[0]) * chain_speed)
+    supports = loop.link.flank_support - loop.height[back] * np.sin(loop.link.flank_angle)
+    rates = _rates(plates, seated, centre, speed, chain)
+    q, still = laid.q[:count], np.zeros(count)
+    along = -np.sign(speed[0]) * chain
+    return Start(plates, rates, q, psi, still, speed, seated, laid.tension, pitches, supports, along, laid.q[count:])
 
 
-def _loop(model, taut):
-    link = model.chain.link._replace(hole_pitch=float(np.mean(model.chain.hole_pitches)))
+def _laid(model):
+    simple = len(model.sprockets) == 2 and not model.guides and any(s.slide and not s.slide.pivot for s in model.sprockets)
+    return _pair(model) if simple else _around(model)
+
+
+def _refuse_rollers(model):
+    radius = model.chain.link.radius
+    if any(isinstance(s.tooth, RollerTooth) for s in model.sprockets) and radius != 0:
+        raise InputError(f"chain drive: roller teeth take a chain with plain joints; its rolling radius is {radius:g} m instead of 0.")
+
+
+# ----------------------------------------------------------------------------------------------- around any number of bodies
+
+
+def _around(model: ChainDrive) -> Laid:
+    """The polygon along the path in balance."""
+    balance = balanced(model, _first_speed(model))
+    _refuse_misfit(model, balance)
+    return laid_along(model, balance)
+
+
+def laid_along(model: ChainDrive, balance: Balance) -> Laid:
+    """The polygon along a path."""
+    found, count, link = balance.route, len(model.sprockets), mean_link(model)
+    places = [k for k, station in enumerate(found.stations) if station.body < count]
+    order = np.array([found.stations[k].body for k in places])
+    tension = np.maximum(balance.pulls[places] + balance.centrifugal, 0.0)
+    moving = next((j for j, body in enumerate(order) if model.sprockets[body].slide), None)
+    wheel = model.sprockets[order[moving]] if moving is not None else model.sprockets[0]
+    loop = Polygon(
+        link,
+        np.array([model.sprockets[body].tooth.teeth for body in order]),
+        np.array([seat_height(link, model.sprockets[body].tooth.teeth) for body in order]),
+        np.array([found.stations[k].turn for k in places]),
+        np.array([centre_at(model.sprockets[body], balance.q[body]) for body in order]),
+        moving,
+        lambda q: centre_at(wheel, q),
+        float(balance.q[order[moving]]) if moving is not None else 0.0,
+        2 * link.radius - tension / model.chain.joint_stiffness,
+        *_strands(found, places, link.pitch),
+    )
+    least = float(np.min(np.maximum(balance.pulls, 0.0))) + balance.centrifugal
+    return Laid(loop, order, balance.q.copy(), least)
+
+
+def _strands(found, places, pitch):
+    """(beta, arrival, length, bends) of the strands between sprockets at these places of a path; guides on the way are bends of theirs.
+
+    Headings fall and rise on from the first strand's: unlike angles they know of whole turns.
+    """
+    beta, arrival, length, bends = [], [], [], []
+    heading, ends = float(found.headings[0]), [*places[1:], len(found.stations)]
+    heading -= found.stations[0].turn * found.wraps[0]
+    for first, end in zip(places, ends, strict=True):
+        arrival.append(heading)
+        heading += found.stations[first].turn * found.wraps[first]
+        beta.append(heading)
+        along, own = float(found.lengths[first]), []
+        for k in range(first + 1, end):
+            station, wrap = found.stations[k], float(found.wraps[k])
+            arc = station.per_turn * wrap / (2 * np.pi) * pitch
+            own.append(Bend(along, arc / wrap if wrap else station.radius, station.turn, wrap))
+            along += arc + float(found.lengths[k])
+            heading += station.turn * wrap
+        length.append(along)
+        bends.append(tuple(own))
+    return np.array(beta), np.array(arrival), np.array(length), tuple(bends)
+
+
+def _refuse_misfit(model, balance: Balance):
+    """DoesNotAssemble where nothing takes up what the chain is too long or too short by."""
+    links, count = balance.route.links, model.chain.count
+    taken_up = any(body.slide and balance.route.place(n) is not None for n, body in enumerate(bodies(model)))
+    if not taken_up and abs(links / count - 1) > TIGHT:
+        raise DoesNotAssemble(
+            f"chain drive: the loop around the sprockets takes {links:.4g} pitches, the chain has {count}: it is "
+            f"{1e3 * abs(links - count) * mean_link(model).pitch:.4g} mm too {'short' if links > count else 'long'}. "
+            "Move a sprocket, give one a slide, add a tensioner, or change the number of links."
+        )
+
+
+# ---------------------------------------------------------------------------------------------- two sprockets, one of them sliding
+
+
+def _pair(model: ChainDrive) -> Laid:
+    """The polygon of two sprockets at the place of the slide at which the chain fits, tense by the slide's force."""
+    link = mean_link(model)
     teeth = np.array([s.tooth.teeth for s in model.sprockets])
     height = np.array([seat_height(link, z) for z in teeth])
-    if any(isinstance(s.tooth, RollerTooth) for s in model.sprockets) and link.radius != 0:
-        raise InputError(f"chain drive: roller teeth take a chain with plain joints; its rolling radius is {link.radius:g} m instead of 0.")
-    centre = np.array([complex(*s.centre) for s in model.sprockets])
-    slide = next((n for n, s in enumerate(model.sprockets) if s.slide), None)
-    direction = np.exp(1j * model.sprockets[slide].slide.direction) if slide is not None else 0j
-    return _Loop(link, teeth, height, centre, slide, direction, taut)
+    slide = next(n for n, s in enumerate(model.sprockets) if s.slide)
+    wheel = model.sprockets[slide]
+    loop = Polygon(
+        link,
+        teeth,
+        height,
+        np.array([-1, -1]),
+        np.array([complex(*s.centre) for s in model.sprockets]),
+        slide,
+        lambda q: centre_at(wheel, q),
+        0.0,
+        np.full(2, 2 * link.radius),
+        np.zeros(2),
+        np.zeros(2),
+        np.zeros(2),
+        ((), ()),
+    )
+    q = _slid(loop, model.chain.count)
+    tension = _tension(model, loop, q)
+    beta, length = _tangents(loop, q)
+    gap = np.full(2, 2 * link.radius - tension / model.chain.joint_stiffness)
+    arrival = np.append(beta[-1] + 2 * np.pi, beta[:-1])
+    return Laid(loop._replace(place=q, gap=gap, beta=beta, arrival=arrival, length=length), np.arange(2), np.zeros(2), tension)
 
 
 def _tangents(loop, q):
@@ -117,62 +205,36 @@ def _tangents(loop, q):
     return beta, np.sqrt(np.abs(gap) ** 2 - other**2)
 
 
-def _wraps(beta):
-    """Angle that the chain turns by on each sprocket."""
-    return np.append(beta[-1] + 2 * np.pi - beta[0], beta[:-1] - beta[1:])
-
-
 def _links(loop, q):
     """Pitches that the loop takes."""
     beta, length = _tangents(loop, q)
-    return np.sum(length) / loop.link.pitch + np.sum(_wraps(beta) / loop.phi)
+    wraps = np.append(beta[-1] + 2 * np.pi - beta[0], beta[:-1] - beta[1:])
+    return np.sum(length) / loop.link.pitch + np.sum(wraps / loop.phi)
 
 
-def _slid(loop, count, slack):
-    """Place of the slide at which the loop takes `count` pitches; without one, `slack` is the part of the chain that guides may take up."""
-    if loop.slide is None:
-        links = _links(loop, 0.0)
-        if not -slack - TIGHT < links / count - 1 < TIGHT:
-            raise DoesNotAssemble(_misfit(links, count))
-        return 0.0
-    q = 0.0
+def _slid(loop, count):
+    """Place of the slide at which the loop takes `count` pitches."""
+    q, step = 0.0, 1e-7 * loop.link.pitch
     for _ in range(50):
         excess = _links(loop, q) - count
-        slope = (_links(loop, q + STEP * loop.link.pitch) - _links(loop, q)) / (STEP * loop.link.pitch)
+        slope = (_links(loop, q + step) - _links(loop, q)) / step
         if abs(excess) < 1e-9:
             return q
         if abs(slope) < 1e-6 / loop.link.pitch:
             break
         q -= np.clip(excess / slope, -5 * loop.link.pitch, 5 * loop.link.pitch)
-    raise DoesNotAssemble(_misfit(_links(loop, 0.0), count))
-
-
-def _misfit(links, count):
-    return (
-        f"chain drive: the loop around the sprockets takes {links:.4g} pitches, the chain has {count}. "
+    raise DoesNotAssemble(
+        f"chain drive: the loop around the sprockets takes {_links(loop, 0.0):.4g} pitches, the chain has {count}. "
         "Move a sprocket, give one a slide, or change the number of links."
     )
 
 
-def _speeds(model):
-    """Speed of every sprocket at the start: as the first drive's teeth ask."""
-    drive, teeth = model.sprockets[model.driver].drive, np.array([s.tooth.teeth for s in model.sprockets])
-    speed = drive.start if drive.ramp > 0 else drive.speed
-    return speed * teeth[model.driver] / teeth
-
-
-def _chain_speed(model, speed):
-    return abs(speed[0]) * model.sprockets[0].tooth.teeth * model.chain.link.pitch / (2 * np.pi)
-
-
-def _tension(model, loop, q, chain_speed):
+def _tension(model, loop, q):
     """Tension that balances the slide's force, with the centrifugal one rho v^2."""
-    centrifugal = model.chain.line_density * chain_speed**2
-    if loop.slide is None:
-        return centrifugal
+    centrifugal = model.chain.line_density * chain_speed(model, _first_speed(model)) ** 2
     slide, beta = model.sprockets[loop.slide].slide, _tangents(loop, q)[0]
     pull = np.exp(1j * beta[loop.slide]) - np.exp(1j * beta[loop.slide - 1])
-    inward = -(pull * np.conj(loop.direction)).real
+    inward = -(pull * np.exp(-1j * slide.direction)).real
     tension = (slide.force - slide.stiffness * q) / inward if inward > 1e-6 else -1.0
     if not tension > 0:
         raise InputError(
@@ -182,94 +244,22 @@ def _tension(model, loop, q, chain_speed):
     return tension + centrifugal
 
 
-def _seats(loop, model, q, behind):
-    """((first, last) tooth of each sprocket, free plates of each strand, first guess of the unknowns)."""
-    beta, length = _tangents(loop, q)
-    phi, wrap, count = loop.phi, _wraps(beta), len(beta)
-    angle = model.sprockets[0].angle
-    psi = np.zeros(count)
-    psi[0] = (angle if angle is not None else 0.0) - behind
-    first, last, free = np.zeros(count, int), np.zeros(count, int), np.zeros(count, int)
-    first[0] = np.floor((beta[0] + wrap[0] + 0.5 * np.pi - psi[0]) / phi[0])
-    for j in range(count):
-        last[j] = np.ceil((beta[j] + 0.5 * np.pi - psi[j]) / phi[j] - 1e-9)
-        if j + 1 < count:  # the next sprocket takes its first plate half a tooth after the tangent
-            past = psi[j] + last[j] * phi[j] - 0.5 * np.pi - beta[j]
-            plates = length[j] / loop.link.pitch + past / phi[j] + 0.5
-            free[j] = round(plates) - 1
-            psi[j + 1] = beta[j] + 0.5 * np.pi - (0.5 + free[j] + 1 - plates) * phi[j + 1]
-    free[-1] = model.chain.count - np.sum(first - last + 1) - np.sum(free)
-    if np.min(free) < 1 or np.min(first - last) < 1:
-        raise DoesNotAssemble(
-            f"chain drive: {np.min(free)} free plates in a strand and {np.min(first - last) + 1} seated on a sprocket at least; "
-            "the loop needs one free and two seated ones everywhere. Lengthen the chain or move the sprockets."
-        )
-    return (first, last), free, np.concatenate([beta, psi, [q if loop.slide is not None else 0.0]])
+# ------------------------------------------------------------------------------------------------------------------ how it moves
 
 
-def _closed(loop, seats, free, guess):
-    """(beta, psi, place of the slide or change of the free plates' pitch) at which every strand meets both its ends."""
-    m, p = len(free), loop.link.pitch
-    scale = np.concatenate([np.ones(2 * m - 1), [p]])
-
-    def residual(x):
-        return _misses(loop, seats, free, x[:m], np.append(guess[m], x[m : 2 * m - 1]), x[-1]) / p
-
-    def both(x):
-        steps = STEP * scale
-        columns = [(residual(x + d) - residual(x - d)) / (2 * h) for h, d in zip(steps, np.diag(steps), strict=True)]
-        return residual(x), np.array(columns).T
-
-    try:
-        x = newton(both, np.delete(guess, m), scale=scale, tolerance=1e-10)
-    except SolverError as error:
-        raise DoesNotAssemble(f"chain drive: the loop does not close ({error})") from error
-    return x[:m], np.append(guess[m], x[m : 2 * m - 1]), x[-1]
+def _first_speed(model):
+    """Speed of the driver at the start."""
+    return model.drive.start if model.drive.ramp > 0 else model.drive.speed
 
 
-def _pins(loop, centre, j, angle):
-    """(left, right) pin of a plate seated on sprocket j at this angle of its own."""
-    arm = 0.5 * loop.link.hole_pitch
-    return tuple(centre[j] + (side + 1j * loop.height[j]) * np.exp(1j * angle) for side in (-arm, arm))
-
-
-def _ends(loop, seats, psi, q):
-    """Per strand: right pin and angle of the last seated plate, left pin and angle of the next first one."""
-    centre, phi, (first, last) = loop.centres(q), loop.phi, seats
-    for j in range(len(psi)):
-        n = (j + 1) % len(psi)
-        off = psi[j] + last[j] * phi[j] - 0.5 * np.pi
-        on = psi[n] + first[n] * phi[n] - 0.5 * np.pi - (2 * np.pi if n == 0 else 0.0)
-        yield _pins(loop, centre, j, off)[1], off, _pins(loop, centre, n, on)[0], on
-
-
-def _misses(loop, seats, free, beta, psi, extra):
-    """By how much each strand, laid from its beginning, misses its end: (2 m,) real."""
-    q, more = loop.parts(extra)
-    gap, A = loop.gap, loop.link.hole_pitch + more
-    misses = []
-    for (pin, off, target, on), n, b in zip(_ends(loop, seats, psi, q), free, beta, strict=True):
-        along = np.exp(1j * b) * (n * A - (n - 1) * gap)
-        misses.append(pin - gap * (np.exp(0.5j * (off + b)) + np.exp(0.5j * (b + on))) + along - target)
-    return np.concatenate([np.real(misses), np.imag(misses)])
-
-
-def _poses(loop, seats, free, beta, psi, extra):
-    """Pin-frame poses (N, 3) of all plates in their order, and which of them sit on each sprocket."""
-    q, more = loop.parts(extra)
-    centre, gap, A, (first, last) = loop.centres(q), loop.gap, loop.link.hole_pitch + more, seats
-    rows, seated = [], []
-    for j, (pin, off, _, _) in enumerate(_ends(loop, seats, psi, q)):
-        angles = psi[j] + np.arange(first[j], last[j] - 1, -1) * loop.phi[j] - 0.5 * np.pi
-        seated.append(np.arange(len(rows), len(rows) + len(angles)))
-        rows += [(centre[j] + 1j * loop.height[j] * np.exp(1j * a), a) for a in angles]
-        pin = pin - gap * np.exp(0.5j * (off + beta[j]))
-        rows += [(pin + np.exp(1j * beta[j]) * (0.5 * A + k * (A - gap)), beta[j]) for k in range(free[j])]
-    return np.array([(place.real, place.imag, angle) for place, angle in rows]), tuple(seated)
+def _speeds(model):
+    """Speed of every sprocket at the start: as the first drive's teeth ask; those outside turn the other way."""
+    teeth = np.array([s.tooth.teeth for s in model.sprockets])
+    return _first_speed(model) * teeth[model.driver] / teeth * np.where([s.outside for s in model.sprockets], -1.0, 1.0)
 
 
 def _rates(poses, seated, centre, speed, chain_speed):
-    """Rates (N, 3): seated plates turn with their sprocket, free ones move along their strand at the mean speed of the chain.
+    """Rates (N, 3): seated plates turn with their sprocket, free ones move along their own line at the mean speed of the chain.
 
     What the sprockets' polygons would give a strand across its length at this very instant would make it swing for long.
     """

@@ -8,7 +8,8 @@ import scipy
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.cases import Outcomes, run
-from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, centre_distance, ensemble, maximum_of, mean_of, range_of
+from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, ensemble, maximum_of, mean_of, range_of
+from drivewright.chains.explicit.signals import Signal
 from drivewright.chains.explicit.simulate import Settings, tooth_time
 from drivewright.chains.model import ChainDrive, at_speed, with_sprocket
 from drivewright.chains.tooth import Tooth
@@ -21,8 +22,8 @@ ORDERS = (1.0, 2.0, 3.0)  # of the mesh frequency
 @dataclass(frozen=True)
 class Level:
     """One drive in numbers, means over revolutions of the chain: driver's speed [rad/s]; mean, peak-to-peak and amplitudes at mesh orders
-    of the centre distance [m], its spectrum over frequency [Hz] with half the width of its interval; greatest tension [N], friction
-    utilisation; energy drift [1/s]."""
+    of its signal, the centre distance where the driven sprocket slides, the spectrum over frequency [Hz] with half the width of its
+    interval; greatest tension [N], friction utilisation; energy drift [1/s]."""
 
     speed: float
     mean: Estimate
@@ -34,25 +35,27 @@ class Level:
     tension: Estimate
     utilisation: Estimate
     energy_drift: float
+    signal: Signal
 
 
 def level(runs: Ensemble, orders: Sequence[float] = ORDERS) -> Level:
     """The `Level` of an ensemble; SolverError, with the level as its partial, where a run is not complete."""
     if not all(np.all(np.isfinite(each.rows)) for each in runs.members):
         raise SolverError(runs.advice)
-    first, (mesh, amplitudes) = runs.first, runs.mesh_orders
+    first, (mesh, amplitudes), signal = runs.first, runs.mesh_orders, runs.signal.of
     spectrum, reach = mean_of_members(amplitudes)
     found = Level(
         first.model.drive.speed,
-        runs.estimate(mean_of(centre_distance), range_of(centre_distance)),
-        runs.estimate(range_of(centre_distance)),
-        tuple(runs.estimate(amplitude_of(centre_distance, order)) for order in orders),
+        runs.estimate(mean_of(signal), range_of(signal)),
+        runs.estimate(range_of(signal)),
+        tuple(runs.estimate(amplitude_of(signal, order)) for order in orders),
         mesh / first.tooth_time,
         spectrum,
         reach,
         runs.estimate(maximum_of(lambda each: np.max(each.tension, axis=1))),
         runs.estimate(maximum_of(lambda each: each.column("utilisation"))),
         runs.energy_drift,
+        runs.signal,
     )
     if runs.advice:
         raise SolverError(runs.advice, partial=found)
@@ -97,7 +100,7 @@ class Scatter:
 
 @dataclass(frozen=True)
 class Spread:
-    """Percentiles of mean and fluctuation of the centre distance  [m] over all samples that ran: rows value, low, high (3, k), nan where
+    """Percentiles of mean and fluctuation of the drives' signal over all samples that ran: rows value, low, high (3, k), nan where
     so few samples do not bound them; outcomes of all."""
 
     percentiles: tuple[float, ...]

@@ -76,6 +76,9 @@ def load_guide(
     power (SUMS,) [W, N, N m].
     """
     body = n + b.q.size - arcs.side.size
+    turned_c, turned_s = (np.cos(b.psi[body]), np.sin(b.psi[body])) if b.swing[body] != 0.0 else (1.0, 0.0)
+    middle_x = turned_c * arcs.middle_x[n] - turned_s * arcs.middle_y[n]
+    middle_y = turned_s * arcs.middle_x[n] + turned_c * arcs.middle_y[n]
     law, side, half = law_of(chain.laws, b[body], body), arcs.side[n], chain.half_plate
     py = -side * arcs.distance[n] - chain.offset  # of the line, above the mass centre
     for i in range(first, last):
@@ -87,11 +90,11 @@ def load_guide(
         nx, ny = x / far, ry / far
         vx, vy = c * zx + s * zy - w * py, c * zy - s * zx + w * px
         depth, rate = arcs.radius[n] - far, -(nx * vx + ny * vy)
-        within = is_on_arc(c, s, nx, ny, 1.0, arcs.middle_x[n], arcs.middle_y[n], arcs.opening[n])
+        within = is_on_arc(c, s, nx, ny, 1.0, middle_x, middle_y, arcs.opening[n])
         elastic, force, touching = mean_force(law, depth, rate, dt)
         on = touching and side * ry > 0.0 and within
         elastic, force = (elastic if on else 0.0), (force if on else 0.0)
-        slide = side * (ny * vx - nx * vy)
+        slide = side * (ny * vx - nx * vy + far * b.w[body])
         drag = -arcs.friction[n] * force * slide / np.sqrt(slide * slide + arcs.slip[n] ** 2)
         fx, fy = nx * force + side * ny * drag, ny * force - side * nx * drag
         t.fx[i], t.fy[i] = c * fx - s * fy, s * fx + c * fy
@@ -115,6 +118,8 @@ def kick_bodies(b: Records, gravity: Floats, power: Floats, dt: float) -> None:
             set_rate(b, n, b.hq[n] + 0.5 * dt * b.aq[n])
             b.hq[n] += dt * b.aq[n]
             power[SLIDE_DAMPING] -= damped * b.vq[n]
+        if b.swing[n] != 0.0:  # its friction is in that of the guide
+            continue
         if b.driven[n]:
             power[DRIVE] -= b.torque[n] * b.w[n]
         else:
@@ -133,8 +138,10 @@ def drift_bodies(b: Records, clock: Floats, dt: float) -> None:
     for n in range(b.q.size):
         if b.slides[n]:
             b.q[n] += dt * b.hq[n]
-            b.x[n], b.y[n] = b.x0[n] + b.q[n] * b.ux[n], b.y0[n] + b.q[n] * b.uy[n]
+            place_body(b, n)
             set_rate(b, n, b.hq[n] + 0.5 * dt * b.aq[n])
+        if b.swing[n] != 0.0:
+            continue
         if b.driven[n]:
             follow(b, n, later)
         else:
@@ -144,16 +151,33 @@ def drift_bodies(b: Records, clock: Floats, dt: float) -> None:
 
 
 @inner
+def place_body(b: Records, n: int) -> None:
+    """Centre of body n by its place on the slide, or about its pivot; there the way on, and the angle of a guide."""
+    if b.lever[n] == 0.0:
+        b.x[n], b.y[n] = b.x0[n] + b.q[n] * b.ux[n], b.y0[n] + b.q[n] * b.uy[n]
+        return
+    angle = b.q[n] / b.lever[n]
+    c, s, rx, ry = np.cos(angle), np.sin(angle), b.x0[n] - b.px[n], b.y0[n] - b.py[n]
+    x, y = c * rx - s * ry, s * rx + c * ry
+    b.x[n], b.y[n] = b.px[n] + x, b.py[n] + y
+    b.ux[n], b.uy[n] = -y / b.lever[n], x / b.lever[n]
+    if b.swing[n] != 0.0:
+        b.psi[n] = angle
+
+
+@inner
 def set_rate(b: Records, n: int, rate: float) -> None:
-    """Rate of body n along its slide, and of its centre."""
+    """Rate of body n along its slide, and of its centre; of a guide about its pivot also that of its angle."""
     b.vq[n] = rate
     b.vx[n], b.vy[n] = rate * b.ux[n], rate * b.uy[n]
+    if b.swing[n] != 0.0:
+        b.w[n] = rate * b.swing[n]
 
 
 @inner
 def slide_acceleration(b: Records, gravity: Floats, n: int) -> float:
     """Acceleration of body n along its slide. gravity (2,) [m/s^2]; in [m/s^2]."""
-    along = (b.fx[n] + b.mass[n] * gravity[0]) * b.ux[n] + (b.fy[n] + b.mass[n] * gravity[1]) * b.uy[n]
+    along = (b.fx[n] + b.weight[n] * gravity[0]) * b.ux[n] + (b.fy[n] + b.weight[n] * gravity[1]) * b.uy[n] + b.torque[n] * b.swing[n]
     return (along + b.force[n] - b.spring[n] * b.q[n] - b.slide_damping[n] * b.vq[n]) / b.mass[n]
 
 

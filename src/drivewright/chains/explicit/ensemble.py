@@ -14,6 +14,7 @@ from drivewright._typing import Floats
 from drivewright.cases import run as run_cases
 from drivewright.chains.explicit.assembly import Start
 from drivewright.chains.explicit.motion import Motion, RunSettings
+from drivewright.chains.explicit.signals import Signal, signals
 from drivewright.chains.explicit.simulate import Settings, first_start, simulate
 from drivewright.chains.model import ChainDrive
 from drivewright.errors import InputError, SolverError
@@ -24,7 +25,7 @@ DISTURBANCE = 1e-9  # standard deviation of the plates' places at the start, far
 PARTS = 4  # of a window, by which it is told whether the run has settled
 LITTLE = 0.1  # of a statistic: a drift between halves that does not matter
 MEMORY = 3  # enough to trust that a larger one is chance: effective samples of each member, of PARTS times its revolutions
-TOGETHER = 1e-2  # of the range of the centre distance: runs that are nowhere further apart are one
+TOGETHER = 1e-2  # of the range of the signal: runs that are nowhere further apart are one
 ROUNDING = 1e-6  # windows that agree to this part of a statistic repeat each other
 
 
@@ -42,6 +43,11 @@ class Ensemble:
     def first(self) -> Motion:
         """The undisturbed run."""
         return self.members[0]
+
+    @property
+    def signal(self) -> Signal:
+        """By which the evenness of these runs is judged."""
+        return signals(self.first.model)[0]
 
     def windows(self, statistic: Callable, parts: int = 1) -> np.ndarray:
         """statistic(run, rows) in every window of every member (members, windows); `parts` divides the windows."""
@@ -87,8 +93,8 @@ class Ensemble:
 
     @cached_property
     def mesh_orders(self) -> tuple:
-        """(orders, amplitudes (members, orders)) of the centre distance: means over the windows of each member."""
-        found = [[run.orders_in(rows, run.centre_distance) for rows in run.windows()] for run in self.members]
+        """(orders, amplitudes (members, orders)) of the signal: means over the windows of each member."""
+        found = [[run.orders_in(rows, self.signal.of(run)) for rows in run.windows()] for run in self.members]
         return found[0][0][0], np.array([np.mean([amplitudes for _, amplitudes in windows], axis=0) for windows in found])
 
     @property
@@ -130,7 +136,7 @@ def amplitude_of(signal: Callable, order: float = 1.0) -> Callable:
 
 
 def centre_distance(run: Motion) -> Floats:
-    """Signal: distance of the sliding sprocket from the driver."""
+    """Signal: distance of the driven sprocket from the driver."""
     return run.centre_distance
 
 
@@ -174,7 +180,8 @@ def _runs(member, numbers, workers, progress):
 
 def _same(one, other):
     """Whether two runs stay together in their steady part: they are not chaotic, and more of them would tell nothing more."""
-    a, b = one.centre_distance[one.steady], other.centre_distance[other.steady]
+    signal = signals(one.model)[0]
+    a, b = signal.of(one)[one.steady], signal.of(other)[other.steady]
     return bool(np.max(np.abs(a - b)) <= TOGETHER * np.ptp(a))
 
 

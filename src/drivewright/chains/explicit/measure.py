@@ -106,7 +106,7 @@ def bodies_kinetic(b: Records, seen: Mapping[str, Floats]) -> Floats:
 def bodies_potential(drive: DriveArrays, seen: Mapping[str, Floats]) -> Floats:
     """Energy of springs, steady forces and weights of what slides (S,)  [J]."""
     b, q = drive.bodies, seen["q"]
-    force = b.force + b.mass * (drive.gravity[0] * b.ux + drive.gravity[1] * b.uy)
+    force = b.force + b.weight * (drive.gravity[0] * b.ux + drive.gravity[1] * b.uy)
     return np.sum(np.where(b.slides, 0.5 * b.spring * q * q - force * q, 0.0), axis=1)
 
 

@@ -33,6 +33,16 @@ class RunSettings(Protocol):
         ...
 
     @property
+    def joints(self) -> tuple[int, ...]:
+        """Joints whose tension is recorded."""
+        ...
+
+    @property
+    def plate(self) -> int:
+        """Plate whose place and forces are recorded."""
+        ...
+
+    @property
     def tolerance(self) -> float:
         """Energy drift [1/s] over the stored energy that fails a run."""
         ...
@@ -66,8 +76,8 @@ class Motion:
 
     @property
     def slide(self) -> int:
-        """Number of the first sprocket on a slide, else of the last one."""
-        return next((n for n, s in enumerate(self.model.sprockets) if s.slide), len(self.model.sprockets) - 1)
+        """Number of the sprocket whose centre distance counts, see `ChainDrive.measured`."""
+        return self.model.measured
 
     @cached_property
     def centre_distance(self) -> Floats:
@@ -75,16 +85,16 @@ class Motion:
         return np.hypot(*(self._centre(self.slide) - self._centre(self.model.driver)))
 
     def _centre(self, number):
-        body = self.model.sprockets[number]
-        q = self.body(number, "q")
-        angle = body.slide.direction if body.slide else 0.0
-        return np.array([body.centre[0] + q * np.cos(angle), body.centre[1] + q * np.sin(angle)])
+        body, q = self.model.sprockets[number], self.body(number, "q")
+        centre = complex(*body.centre) + (body.slide.shift(complex(*body.centre), q) if body.slide else 0.0 * q)
+        return np.array([np.real(centre), np.imag(centre)])
 
     def transmission_error(self, number: int) -> Floats:
         """Angle of a sprocket less that of the driver times the ratio of teeth, from the start (m,)  [rad]."""
         driver, teeth = self.model.driver, [s.tooth.teeth for s in self.model.sprockets]
         turned = [self.body(n, "psi") - self.body(n, "psi")[0] for n in (number, driver)]
-        return turned[0] - turned[1] * teeth[driver] / teeth[number]
+        sense = -1.0 if self.model.sprockets[number].outside else 1.0
+        return turned[0] - sense * turned[1] * teeth[driver] / teeth[number]
 
     # ------------------------------------------------------------------------------------------------------- statistics
 

@@ -81,11 +81,12 @@ def _first_measures(drive, begin):
 def _guide_depth(drive, number):
     """Depth of every plate in a guide (N,); -inf where it is beside the arc."""
     arc, b, p, n = drive.arcs[number], drive.bodies[len(drive.teeth.base) + number], drive.plates, drive.chain.count
+    middle = (arc.middle_x + 1j * arc.middle_y) * np.exp(1j * b.psi)
     c, s, gx, gy = p.c[:n], p.s[:n], p.x[:n] - b.x, p.y[:n] - b.y
     along, out = c * gx + s * gy, c * gy - s * gx - drive.chain.offset - arc.side * arc.distance
     along = along + np.clip(-along, -drive.chain.half_plate, drive.chain.half_plate)
     far = np.hypot(along, out)
-    within = (c * along - s * out) * arc.middle_x + (s * along + c * out) * arc.middle_y >= arc.opening * far
+    within = (c * along - s * out) * middle.real + (s * along + c * out) * middle.imag >= arc.opening * far
     return np.where(within, np.where(arc.side * out > 0, arc.radius - far, arc.radius + far), -np.inf)
 
 

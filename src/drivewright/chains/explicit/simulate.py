@@ -8,9 +8,11 @@ from typing import Any, cast
 
 import numpy as np
 
+from drivewright._jit import plain
 from drivewright._typing import Floats
 from drivewright.chains.explicit.advance import run, settle_rates
 from drivewright.chains.explicit.assembly import Start, start
+from drivewright.chains.explicit.bodies import place_body
 from drivewright.chains.explicit.measure import empty_log, measured
 from drivewright.chains.explicit.motion import Motion, RunSettings
 from drivewright.chains.explicit.run_in import PARTS, run_in, run_in_time, steps_of
@@ -91,6 +93,7 @@ def running_start(model: ChainDrive, settings: Settings = Settings()) -> Start:
         poses=np.stack([p.x[:n] + offset * s, p.y[:n] - offset * c, angle], axis=1),
         rates=np.stack([p.vx[:n] + offset * c * w, p.vy[:n] + offset * s * w, w], axis=1),
         q=b.q[:m].copy(),
+        guide_q=b.q[m:].copy(),
         psi=b.psi[:m].copy(),
         rate_q=b.vq[:m].copy(),
         rate_psi=b.w[:m].copy(),
@@ -166,7 +169,9 @@ def _place_bodies(b, begin):
     m = len(begin.psi)
     b.q[:m], b.vq[:m], b.hq[:m] = begin.q, begin.rate_q, begin.rate_q
     b.psi0[:m], b.psi[:m], b.w[:m], b.hw[:m] = begin.psi, begin.psi, begin.rate_psi, begin.rate_psi
-    b.x[:], b.y[:] = b.x0 + b.q * b.ux, b.y0 + b.q * b.uy
+    b.q[m:] = begin.guide_q
+    for n in range(b.q.size):
+        plain(place_body)(b, n)
     b.vx[:], b.vy[:] = b.vq * b.ux, b.vq * b.uy
 
 

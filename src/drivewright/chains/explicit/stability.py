@@ -31,7 +31,7 @@ def fastest(model: ChainDrive) -> tuple[float, float]:
 
 def _touch(body, ease):
     """(omega^2, gamma) of two contacts of one plate with the body."""
-    for_body = 1 / body.mass if body.slide else 0.0
+    for_body = abs(body.slide.way(complex(*body.centre), 0.0)) ** 2 / body.mass if body.slide else 0.0
     inertia = getattr(body, "inertia", 0.0)
     if inertia and not getattr(body, "drive", None):
         for_body += (getattr(body.tooth, "base_radius", 0.0) or body.tooth.pitch_radius) ** 2 / inertia

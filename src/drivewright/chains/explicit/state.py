@@ -124,6 +124,11 @@ BODIES = np.dtype(
             "y0",
             "ux",
             "uy",
+            "px",
+            "py",
+            "lever",
+            "swing",
+            "weight",
             "mass",
             "inertia",
             "start",
@@ -143,6 +148,8 @@ BODIES = np.dtype(
     align=True,
 )
 """Per sprocket, then per guide: what slides and turns.  Rates at whole steps and (hq, hw) at half steps; loads; constants.
+
+(ux, uy): how the centre moves with q, which a pivot (px, py) with its lever changes; swing: 1/lever of a guide, which turns about it too.
 
 Records, as of guides: a tuple of so many arrays takes long to compile.
 """
@@ -360,14 +367,17 @@ def _bodies(model):
         row.turn_damping = getattr(body, "damping", 0.0)
         row.load = getattr(body, "torque", 0.0) + row.turn_damping * getattr(body, "reference_speed", 0.0)
         row.stiffness, row.damping = body.contact.stiffness, body.contact.damping
-        _slide(row, body.slide)
+        _slide(row, body.slide, isinstance(body, Guide))
         _drive(row, getattr(body, "drive", None), isinstance(body, Guide))
     return rows
 
 
-def _slide(row, slide):
+def _slide(row, slide, guide):
     if slide:
-        row.slides, row.ux, row.uy = True, np.cos(slide.direction), np.sin(slide.direction)
+        way = slide.way(complex(row.x0, row.y0), 0.0)
+        row.slides, row.ux, row.uy, row.weight = True, way.real, way.imag, 0.0 if slide.pivot else row.mass
+        if slide.pivot:
+            row.px, row.py, row.lever, row.swing = *slide.pivot, slide.lever, 1 / slide.lever if guide else 0.0
         row.force, row.spring, row.slide_damping = slide.force, slide.stiffness, slide.damping
 
 

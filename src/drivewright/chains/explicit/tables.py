@@ -7,13 +7,32 @@ import numpy as np
 from drivewright.chains.explicit.batch import Level
 from drivewright.chains.explicit.ensemble import Ensemble
 from drivewright.chains.explicit.motion import Motion
+from drivewright.chains.explicit.signals import spring_force, tensioners, travel
 from drivewright.chains.explicit.simulate import tooth_time
 from drivewright.numerics.ensemble import Estimate, mean_of_members
 from drivewright.numerics.signals import highest_peaks
 from drivewright.result import Column, Table
 
 PEAKS = 4  # of a spectrum, in the Campbell diagram
+SIGNAL_WORDS = {"m": "travel of the tensioner", "rad": "transmission error"}
 PLATE_FORCES = ("left x", "left y", "right x", "right y", "left flank", "right flank")
+
+
+def tensioner_table(motion: Motion) -> Table:
+    """Table "tensioners": travel and spring force of each tensioner over time, one below the other."""
+    steady, model = motion.steady, motion.model
+    rows = [(travel(model, n), spring_force(model, n)) for n in tensioners(model)]
+    t = motion.t[steady]
+    return Table(
+        "tensioners",
+        "Tensioners of the running chain",
+        (
+            Column("time", "s", "time", np.tile(t, len(rows))),
+            Column("travel", "m", "travel of the tensioner", np.concatenate([signal.of(motion)[steady] for signal, _ in rows])),
+            Column("force", "N", "force of its spring", np.concatenate([force(motion)[steady] for _, force in rows])),
+            Column("tensioner", "-", "tensioner", np.repeat([signal.name.split(".")[1] for signal, _ in rows], len(t))),
+        ),
+    )
 
 
 def signal_table(motion: Motion) -> Table:
@@ -29,7 +48,9 @@ def signal_table(motion: Motion) -> Table:
         (
             Column("time", "s", "time", motion.t[steady]),
             Column("centre_distance", "m", "centre distance", motion.centre_distance[steady]),
-            Column("transmission_error", "rad", "driven angle off the ratio of teeth", motion.transmission_error(1)[steady]),
+            Column(
+                "transmission_error", "rad", "driven angle off the ratio of teeth", motion.transmission_error(motion.model.measured)[steady]
+            ),
             Column("tension", "N", "tension in a joint as it goes round", motion.tension[steady, 0]),
             Column("contacts", "-", "flanks that touch", motion.column("contacts")[steady]),
             *forces,
@@ -39,14 +60,20 @@ def signal_table(motion: Motion) -> Table:
 
 
 def spectrum_table(runs: Ensemble, highest: float) -> Table:
-    """Table "spectrum": amplitudes of the centre distance up to the `highest` mesh order, means over all revolutions of the chain."""
+    """Table "spectrum": amplitudes of the centre distance up to the `highest` mesh order, means over all revolutions of the chain.
+
+    Table "motion_spectrum" of a drive whose centre distance is fixed: those of its first tensioner or of the transmission error.
+    """
     orders, amplitudes = runs.mesh_orders
     near = orders <= highest
     mean, reach = mean_of_members(amplitudes[:, near])
-    amplitude = Column("centre_distance", "m", "amplitude of the centre distance", mean)
+    signal = runs.signal
+    slides = signal.name == "centre_distance"
+    words = signal.words if slides else SIGNAL_WORDS[signal.unit]
+    amplitude = Column("centre_distance" if slides else "amplitude", signal.unit, f"amplitude of the {words}", mean)
     return Table(
-        "spectrum",
-        "Spectrum of the centre distance",
+        "spectrum" if slides else "motion_spectrum",
+        f"Spectrum of the {words}",
         (
             Column("order", "-", "multiple of the mesh frequency", orders[near]),
             Column("frequency", "Hz", "frequency", orders[near] / tooth_time(runs.first.model)),
@@ -57,40 +84,44 @@ def spectrum_table(runs: Ensemble, highest: float) -> Table:
 
 
 def speed_table(rows: Sequence[tuple[float, Level]]) -> Table:
-    """Table "speeds" of (speed [rad/s], `Level`): mean, fluctuation and mesh orders of the centre distance, greatest tension."""
+    """Table "speeds" of (speed [rad/s], `Level`): mean, fluctuation and mesh orders of the drives' signal, greatest tension."""
     levels = [level for _, level in rows]
+    unit, words = signal_of(levels)
     orders = [
         column
         for k in range(len(levels[0].amplitudes))
         for column in bounded(
-            f"mesh_order_{k + 1}", "m", f"amplitude at {k + 1} times the mesh frequency", [level.amplitudes[k] for level in levels]
+            f"mesh_order_{k + 1}", unit, f"amplitude at {k + 1} times the mesh frequency", [level.amplitudes[k] for level in levels]
         )
     ]
+    fluctuation = f"peak-to-peak of the {words} in a revolution of the chain"
     return Table(
         "speeds",
-        "Centre distance over the speed",
+        f"{words.capitalize()} over the speed",
         (
             Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
-            *bounded("mean", "m", "mean centre distance", [level.mean for level in levels]),
-            *bounded(
-                "fluctuation",
-                "m",
-                "peak-to-peak of the centre distance in a revolution of the chain",
-                [level.fluctuation for level in levels],
-            ),
+            *bounded("mean", unit, f"mean {words}", [level.mean for level in levels]),
+            *bounded("fluctuation", unit, fluctuation, [level.fluctuation for level in levels]),
             *orders,
             *bounded("tension", "N", "greatest tension in a joint in a revolution", [level.tension for level in levels]),
         ),
     )
 
 
+def signal_of(levels: Sequence[Level]) -> tuple[str, str]:
+    """(unit, words) of the signal of drives of one kind."""
+    signal = levels[0].signal
+    return signal.unit, signal.words if signal.name == "centre_distance" else SIGNAL_WORDS[signal.unit]
+
+
 def campbell_table(rows: Sequence[tuple[float, Level]], teeth: int, peaks: int = PEAKS) -> Table:
     """Table "campbell": the highest peaks of the spectra over the speed, beside the mesh frequency of so many teeth."""
     speed = np.array([speed for speed, _ in rows])
     highest = [highest_peaks(level.frequency, level.spectrum, peaks) for _, level in rows]
+    _, words = signal_of([level for _, level in rows])
     return Table(
         "campbell",
-        "Campbell diagram: highest peaks of the spectra of the centre distance",
+        f"Campbell diagram: highest peaks of the spectra of the {words}",
         (
             Column("speed", "rad/s", "speed of the driving sprocket", speed),
             *(Column(f"peak_{k + 1}", "Hz", f"peak {k + 1}", np.array([each[k] for each in highest])) for k in range(peaks)),
@@ -100,14 +131,15 @@ def campbell_table(rows: Sequence[tuple[float, Level]], teeth: int, peaks: int =
 
 
 def scatter_table(levels: Sequence[Level]) -> Table:
-    """Table "scatter": mean and fluctuation of the centre distance of every drive."""
+    """Table "scatter": mean and fluctuation of the signal of every drive."""
+    unit, words = signal_of(levels)
     return Table(
         "scatter",
         "Drives as they come from manufacture",
         (
             Column("drive", "-", "drive", np.arange(float(len(levels)))),
-            *bounded("mean", "m", "mean centre distance", [each.mean for each in levels]),
-            *bounded("fluctuation", "m", "peak-to-peak of the centre distance in a revolution", [each.fluctuation for each in levels]),
+            *bounded("mean", unit, f"mean {words}", [each.mean for each in levels]),
+            *bounded("fluctuation", unit, f"peak-to-peak of the {words} in a revolution", [each.fluctuation for each in levels]),
         ),
     )
 

@@ -39,13 +39,14 @@ class Equilibrium:
 
     @property
     def slide(self) -> int:
-        """Number of the first sprocket on a slide, else of the last one."""
-        return next((n for n, s in enumerate(self.model.sprockets) if s.slide), len(self.model.sprockets) - 1)
+        """Number of the sprocket whose centre distance counts, see `ChainDrive.measured`."""
+        return self.model.measured
 
     def _centre(self, number):
         sprocket = self.model.sprockets[number]
-        way = np.exp(1j * sprocket.slide.direction) if sprocket.slide else 0.0
-        return complex(*sprocket.centre) + self.bodies[:, number, 0] * way
+        centre = complex(*sprocket.centre)
+        q = self.bodies[:, number, 0]
+        return centre + (sprocket.slide.shift(centre, q) if sprocket.slide else 0.0 * q)
 
     @property
     def centre_distance(self) -> Floats:
@@ -65,7 +66,8 @@ class Equilibrium:
     def transmission_error(self, number: int) -> Floats:
         """Angle of a sprocket less that of the driver times the ratio of teeth, its mean taken off (S,)  [rad]."""
         teeth = [s.tooth.teeth for s in self.model.sprockets]
-        error = self.bodies[:, number, 1] - self.driver_angle * teeth[self.model.driver] / teeth[number]
+        sense = -1.0 if self.model.sprockets[number].outside else 1.0
+        error = self.bodies[:, number, 1] - sense * self.driver_angle * teeth[self.model.driver] / teeth[number]
         return error - np.mean(error)
 
     @property

@@ -156,6 +156,7 @@ def assembled(model: ChainDrive, begin: Start | None = None) -> State:
     lift = offset * np.stack([-np.sin(angle), np.cos(angle)])
     bodies, rates = np.zeros((2, len(model.sprockets) + len(model.guides), 2))
     bodies[: len(begin.psi)] = np.column_stack([begin.q, begin.psi])
+    bodies[len(begin.psi) :, 0] = begin.guide_q
     rates[: len(begin.psi)] = np.column_stack([begin.rate_q, begin.rate_psi])
     return State(
         np.column_stack([x + lift[0], y + lift[1], angle]), bodies, np.column_stack([vx - w * lift[1], vy + w * lift[0], w]), rates

@@ -68,7 +68,7 @@ def taut_loop(circles: Sequence[Given]) -> Loop:
     _check(circles)
     centres = np.array([(circle.x, circle.y) for circle in circles], dtype=float)
     signed = np.array([circle.turn * circle.radius for circle in circles], dtype=float)
-    lengths, headings = _strands(centres, signed)
+    lengths, headings = tangents(centres, signed)
     normals = np.column_stack([-np.sin(headings), np.cos(headings)])
     starts = centres - signed[:, None] * normals
     ends = np.roll(centres, -1, axis=0) - np.roll(signed, -1)[:, None] * normals
@@ -84,8 +84,8 @@ def loop_length(circles: Sequence[Given]) -> float:
     return taut_loop(circles).length
 
 
-def _strands(centres, signed):
-    """Length [m] and heading [rad] of each strand."""
+def tangents(centres: Floats, signed: Floats) -> tuple[Floats, Floats]:
+    """Length [m] and heading [rad] of each strand between circles with centres (n, 2) and turn times radius (n,) [m]."""
     to_next = np.roll(centres, -1, axis=0) - centres
     rise = np.roll(signed, -1) - signed
     square = np.sum(to_next**2, axis=1) - rise**2

@@ -10,16 +10,18 @@ from drivewright.chains import meshing, wear
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.closure.model import Closure
 from drivewright.chains.link import Link, design_link
+from drivewright.chains.path import Balance, balanced
 from drivewright.chains.plate import LinkMass, Plate, bar_link_mass, design_plate, mean_link_mass
 from drivewright.chains.plate_holes import HingePin, Pins, joint_pins
 from drivewright.chains.published_design import PublishedSprocket, published_sprocket
 from drivewright.chains.roller_link import RollerLink, design_roller_link
 from drivewright.chains.roller_sprocket import RollerSprocket, design_roller_sprocket
 from drivewright.chains.sprocket import Sprocket, design_sprocket
-from drivewright.chains.standards import StrandForces, pitch_diameter, strand_forces
+from drivewright.chains.standards import StrandForces, chain_speed, pitch_diameter, strand_forces
 from drivewright.chains.tooth import Cutter, matching_cutter
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain import spec as tables
+from drivewright.mechanisms.silent_chain.chain_drive import bare_drive
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 from drivewright.mechanisms.silent_chain.sizing import SizedSpec, size_findings, sized
 from drivewright.mechanisms.silent_chain.spec import PAIRS, SilentChainSpec, signed_seat
@@ -129,12 +131,42 @@ class ChainModel:
         mass = given.link_mass or drawn.mass
         return LinkMass(mass, drawn.height, given.link_inertia or drawn.inertia * mass / drawn.mass)
 
+    @property
+    def plain(self) -> bool:
+        """Whether the chain goes around two sprockets alone, under a preload."""
+        return not (self.spec.sprockets or self.spec.guides or self.spec.driven.centre_distance)
+
+    @property
+    def closes(self) -> bool:
+        """Whether the rigid chain of two sprockets is that of this drive: nothing else takes up its length."""
+        return self.spec.drive is None or not (self.spec.sprockets or any(guide.force is not None for guide in self.spec.guides))
+
+    @property
+    def preload(self) -> float:
+        """Outward force on the driven sprocket [N]."""
+        assert self.drive.preload is not None
+        return self.drive.preload
+
+    @cached_property
+    def balance(self) -> Balance:
+        """Path of the chain, tensioners and strands in balance."""
+        return balanced(bare_drive(self))
+
     @cached_property
     def strands(self) -> StrandForces:
         """Speed of the chain and forces of its strands, under the loads of the spec."""
         drive, pitch = self.drive, self.link.pitch
-        density = self.link_mass.mass / pitch
-        return strand_forces(pitch, self.teeth, self.spec.links, density, drive.speed, drive.preload, drive.load_torque)
+        if self.plain:
+            density = self.link_mass.mass / pitch
+            return strand_forces(pitch, self.teeth, self.spec.links, density, drive.speed, self.preload, abs(drive.load_torque))
+        found = self.balance
+        speed = float(chain_speed(pitch, self.teeth[0], drive.speed))
+        return StrandForces(speed, found.centrifugal, float(np.max(found.pulls)), float(np.min(found.pulls)))
+
+    @property
+    def free_plates(self) -> float:
+        """Free plates of a strand between driving and driven sprocket, about."""
+        return self.closure.free_plates if self.plain else 0.5 * (self.spec.links - 0.5 * sum(self.teeth))
 
     @property
     def pin_force(self) -> float:

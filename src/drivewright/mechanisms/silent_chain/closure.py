@@ -1,9 +1,15 @@
 """Centre distance, transmission error and rise of the strands over one tooth, without dynamics."""
 
-from drivewright.chains.closure import departure
-from drivewright.chains.closure.tables import closure_table
+import numpy as np
+
+from drivewright.chains.closure import POSITIONS, departure
+from drivewright.chains.closure.tables import closure_table, rigid_table
+from drivewright.chains.explicit.turning import turning, yielding
 from drivewright.chains.link import contact_pitch, rolled_length, seat_height
+from drivewright.chains.path.route import bodies
+from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
+from drivewright.mechanisms.silent_chain.chain_drive import bare_drive
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.mechanisms.silent_chain.phased_rows import phased_rows
 from drivewright.result import Answer, Answers, Check, Value
@@ -14,6 +20,8 @@ FREE = 1e-3  # of the taut centre distance: a fixed one that is longer would str
 
 def closure(model: ChainModel, done: Answers) -> Answer:
     """The closed loop over one tooth of the driving sprocket."""
+    if not model.closes:
+        return path_closure(model)
     motion = model.closure
     values = {
         "centre_distance.mean": Value(motion.mean, "m", "mean over a tooth, rigid plates, both strands taut"),
@@ -24,6 +32,33 @@ def closure(model: ChainModel, done: Answers) -> Answer:
     checks = (*_wraps(model, values), _clearance(model), *_fixed(model))
     together, tables, findings = phased_rows(model)
     return Answer(values | together, (closure_table(motion), *tables), checks, (*_remarks(model), *findings), data=motion)
+
+
+def path_closure(model: ChainModel) -> Answer:
+    """The same of a drive with further sprockets or a tensioner, which is what gives way."""
+    drive, balance = bare_drive(model), model.balance
+    try:
+        number = yielding(drive, balance)
+    except InputError as reason:
+        return Answer(findings=(f"analysis 'closure' (rigid links over a tooth) is left out: {reason}",), outcome="left out")
+    turned = turning(drive, -np.linspace(0.0, 2 * np.pi / model.teeth[0], POSITIONS + 1), balance)
+    moved, error = turned.q[:, number], turned.psi[:, drive.measured] - turned.angle * model.teeth[0] / model.teeth[1]
+    name, words = _what_yields(model, drive, number)
+    mean = float(0.5 * np.mean(moved[1:] + moved[:-1])) + (drive.sprockets[number].centre[0] if number == drive.measured else 0.0)
+    values = {
+        f"{name}.mean": Value(mean, "m", f"{words} of the rigid chain, mean over a tooth"),
+        f"{name}.fluctuation": Value(float(np.ptp(moved)), "m", f"{words} of the rigid chain, greatest less least over a tooth"),
+        "transmission_error": Value(float(np.ptp(error)), "rad", "driven angle off the ratio of teeth, greatest less least"),
+    }
+    return Answer(values, (rigid_table(turned.angle[0] - turned.angle, moved, error - np.mean(error[1:]), words),), data=turned)
+
+
+def _what_yields(model, drive, number):
+    """(name, words) of what gives way."""
+    if number == drive.measured:
+        return "centre_distance", "centre distance"
+    name = bodies(drive)[number].name
+    return f"tensioner.{name}.travel", f"travel of tensioner {name}"
 
 
 def _sides(model):
@@ -64,7 +99,7 @@ def _clearance(model):
 def _fixed(model):
     """A fixed centre distance against the taut one."""
     given, taut = model.spec.driven.centre_distance, model.closure.mean
-    if given is not None:
+    if given is not None and not model.spec.guides:
         against = "fixed centre distance against that of the taut chain: a"
         sags, overstretches = f"{against} shorter one lets the chain sag and jump", f"{against} longer one overstretches the chain"
         yield Check("centre_distance.slack", given, taut * (1 - SLACK), ">=", "m", sags, ("chain",))

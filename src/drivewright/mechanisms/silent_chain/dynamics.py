@@ -1,21 +1,25 @@
 """The running chain: centre distance, forces, orders and balances, over revolutions of the chain after it has settled, in an ensemble."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from drivewright.chains.explicit.ensemble import Ensemble, centre_distance, ensemble, mean_of
+from drivewright.chains.explicit.ensemble import Ensemble, ensemble, mean_of
+from drivewright.chains.explicit.failure import SLACK, Failure, first_failure, jumped_teeth, seated_links, slack_share, until
+from drivewright.chains.explicit.motion import Motion
+from drivewright.chains.explicit.signals import tensioners
 from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
 from drivewright.chains.explicit.stability import safe_step
-from drivewright.chains.explicit.statistics import centre_distance_values, force_values, touching_flanks
-from drivewright.chains.explicit.tables import signal_table, spectrum_table
+from drivewright.chains.explicit.statistics import force_values, signal_values, strand_values, tensioner_values, touching_flanks
+from drivewright.chains.explicit.tables import signal_table, spectrum_table, tensioner_table
 from drivewright.chains.implicit import simulate as implicit
 from drivewright.chains.model import ChainDrive
-from drivewright.errors import InputError, SolverError, SpecError
+from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.mechanisms.silent_chain.missing import unless_impossible
 from drivewright.result import Answer, Answers, Check, Value
+from drivewright.stops import Stop
 
 IMPLICIT_STEP = 1e-5  # [s]
 OFF = 0.25  # of the pitch: a mean centre distance so far from the rigid one is that of a chain off its teeth
@@ -29,29 +33,94 @@ HINT = (
 )
 ORDERS = 8  # of the mesh frequency, up to which the spectrum is shown
 WATCHED = 0
+JOINTS = 16  # whose tension is recorded where the strands are told apart, about
 
 
 @unless_impossible
 def dynamics(model: ChainModel, done: Answers) -> Answer:
-    """The runs, their statistics, spectrum and balances; of a run that failed the balance and the signals alone."""
+    """The runs, their statistics, spectrum and balances; of a run that failed what it was up to then."""
     runs = _runs(model, chain_drive(model))
-    if not all(np.all(np.isfinite(run.rows)) for run in runs.members):
-        raise SolverError(f"{runs.advice}; {HINT}")
+    member, failed = first_failure(runs)
+    if failed.reason:
+        return _broken_off(model, until(member, failed.samples), failed, float(member.t[-1]))
     drift = Value(runs.energy_drift, "1/s", "energy that computing added or lost in a second, over the energy stored")
     checks = (
         Check("energy_drift", drift.value, model.spec.dynamics.largest_drift, "<=", "1/s", drift.meaning, ("chain",)),
         *_seated(model, runs),
+        *_whole(model, runs.members),
     )
-    tables = (signal_table(runs.first), spectrum_table(runs, ORDERS))
+    tables = (signal_table(runs.first), spectrum_table(runs, ORDERS), *_tensioner_tables(runs.first))
     reason = runs.advice or next((check.message for check in checks if not check.ok), "")
     if reason:
         findings = (f"the run has failed, its statistics are left out: {reason}; {HINT}",)
         return Answer({"dynamics.energy_drift": drift}, tables, checks, findings, outcome="partial")
-    values = {f"dynamics.centre_distance.{name}": value for name, value in centre_distance_values(runs).items()}
-    values |= {f"dynamics.{name}": value for name, value in force_values(runs).items()}
-    checks = (*checks, settled(values))
+    found = signal_values(runs) | force_values(runs) | tensioner_values(runs)
+    if not model.plain:
+        found |= strand_values(runs, model.balance)
+    values = {f"dynamics.{name}": value for name, value in found.items()}
+    checks = (*checks, settled(values), *_travels(model, values))
     values["dynamics.energy_drift"] = drift
     return Answer(values, tables, checks, tuple(_remarks(runs, values)), data=runs, warnings=tuple(_slipping(values)))
+
+
+def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> Answer:
+    """What a run was up to where it failed: values of that part, checks of the whole."""
+    stop = Stop(f"the run of the chain can be believed up to t = {failed.time:.4g} s of {end:.4g} s", failed.reason)
+    tension = run.tension[:, 0]
+    values = {
+        "dynamics.tension.mean": Value(float(np.mean(tension)), "N", "tension in a joint as it goes round, mean"),
+        "dynamics.tension.maximum": Value(float(np.max(tension)), "N", "tension in a joint as it goes round, greatest"),
+        "dynamics.transmission_error": Value(
+            run.fluctuation(run.transmission_error(run.model.measured)), "rad", "driven angle off the ratio of teeth, peak-to-peak"
+        ),
+        "dynamics.stop_time": Value(failed.time, "s", "time up to which the run of the chain can be believed"),
+    }
+    checks = tuple(_whole(model, (run,), 1 if "jumps" in failed.reason else 0))
+    tables = (signal_table(run), *_tensioner_tables(run)) if len(run.t) > 2 else ()
+    return Answer(values, tables, checks, (f"the run has failed, its statistics are left out; {HINT}",), outcome="partial", stopped=(stop,))
+
+
+def _tensioner_tables(run):
+    return (tensioner_table(run),) if tensioners(run.model) else ()
+
+
+def _whole(model: ChainModel, members: Sequence[Motion], jumped: int = 0) -> Iterator[Check]:
+    """Whether the chain keeps its tension, its teeth and its contact with them."""
+    limits, seated = model.spec.limits, _seated_links(model, members[0].model)
+    touching = min(run.mean(run.column("contacts")) for run in members) / seated
+    message = (
+        "links that press on their teeth, on average, over those that lie on sprockets; fewer: overspeed, the chain's own centrifugal "
+        "force and its blows lift it off"
+    )
+    label = "Links that press on their teeth"
+    yield Check("running.overspeed", touching, limits.contact_share, ">=", "-", message, ("chain",), label=label)
+    message = (
+        f"share of the time in which {SLACK} joints or more are without tension at once: a strand is slack, for lack of preload or "
+        "tensioner, or by blows"
+    )
+    slack = max(slack_share(run) for run in members)
+    yield Check("running.slack", slack, limits.slack_share, "<=", "-", message, ("chain",), label="Time with slack joints")
+    teeth = max(jumped, *(jumped_teeth(run) for run in members))
+    message = "teeth by which the chain has moved against a sprocket; one or more: it has jumped, for lack of tension or wrap"
+    yield Check("running.jumped_teeth", float(teeth), 0.0, "<=", "-", message, ("chain",), label="Teeth jumped over")
+
+
+def _seated_links(model, system):
+    """Links on all sprockets."""
+    if model.plain:
+        return float(np.sum(model.closure.states.seated[0]))
+    found = model.balance.route
+    wraps = np.array([found.wraps[found.place(n)] for n in range(len(system.sprockets))])
+    return seated_links(system, wraps)
+
+
+def _travels(model: ChainModel, values: Mapping[str, Value]) -> Iterator[Check]:
+    """Mean travel of each tensioner against the room that it has."""
+    for entry in (*model.spec.sprockets, *model.spec.guides):
+        if entry.force is not None and entry.travel is not None:
+            value = abs(values[f"dynamics.tensioner.{entry.name}.travel.mean"].value)
+            message = f"mean travel of tensioner {entry.name} either way, within its room"
+            yield Check(f"running.travel.{entry.name}", value, entry.travel, "<=", "m", message, (entry.name,))
 
 
 def _seated(model: ChainModel, runs: Ensemble) -> Iterator[Check]:
@@ -59,21 +128,30 @@ def _seated(model: ChainModel, runs: Ensemble) -> Iterator[Check]:
     first = runs.first
     message = "flanks that touch, on average, against one on every sprocket: with fewer the chain has left its teeth"
     yield Check.of(touching_flanks(runs), "running.contacts", float(len(first.model.sprockets)), ">=", message, ("chain",))
-    if first.model.sprockets[first.slide].slide and len(first.model.sprockets) == 2:
-        off = abs(runs.estimate(mean_of(centre_distance)).value - model.closure.mean)
+    if model.plain:
+        off = abs(runs.estimate(mean_of(lambda run: run.centre_distance)).value - model.closure.mean)
         message = "mean centre distance of the run off the rigid one: so far off, the chain has left its teeth"
         yield Check("running.centre_distance", off, OFF * model.spec.pitch, "<=", "m", message, ("chain",))
 
 
 def settled(values: Mapping[str, Value]) -> Check:
-    """Whether mean and fluctuation of the centre distance have stopped drifting: the check `settled` counts those that have."""
-    names = [f"dynamics.centre_distance.{name}" for name in ("mean", "fluctuation")]
+    """Whether mean and fluctuation of the signal have stopped drifting: the check `settled` counts those that have."""
+    slides = "dynamics.centre_distance.mean" in values
+    first = "dynamics.centre_distance" if slides else next((n.removesuffix(".mean") for n in values if n.endswith(".travel.mean")), None)
+    names = [f"{first}.{name}" for name in ("mean", "fluctuation")] if first else ["dynamics.transmission_error", "dynamics.tension.mean"]
+    words = "centre distance" if slides else "tensioner's travel"
     message = (
-        "mean and fluctuation of the centre distance: how many of the two have stopped drifting, over two revolutions of the chain or "
+        f"mean and fluctuation of the {words}: how many of the two have stopped drifting, over two revolutions of the chain or "
         "more; where one has not, give dynamics.settling and dynamics.duration more"
     )
+    if not first:
+        message = (
+            "transmission error and mean tension: how many of the two have stopped drifting, over two revolutions of the chain or more; "
+            "where one has not, give dynamics.settling and dynamics.duration more"
+        )
+    label = f"Settled statistics of {words}" if first else "Settled transmission error and tension"
     count = float(sum(values[name].settled for name in names))
-    return Check("settled", count, float(len(names)), ">=", "-", message, ("chain",), label="Settled statistics of centre distance")
+    return Check("settled", count, float(len(names)), ">=", "-", message, ("chain",), label=label)
 
 
 def _remarks(runs, values):
@@ -109,7 +187,8 @@ def _runs(model, system):
             f"{1e3 * (duration - given.settling):.4g} ms hold no two teeth of {1e3 * tooth_time(system):.4g} ms; give more",
             "dynamics.duration",
         )
-    common = {"settle": given.settling, "tolerance": given.largest_drift, "plate": WATCHED}
+    joints = (WATCHED,) if model.plain else tuple(range(WATCHED, model.spec.links, max(1, model.spec.links // JOINTS)))
+    common = {"settle": given.settling, "tolerance": given.largest_drift, "plate": WATCHED, "joints": joints}
     if given.integrator == "implicit":
         settings, solve = implicit.Settings(given.step or IMPLICIT_STEP, **common), implicit.simulate
     else:

@@ -6,21 +6,27 @@ from drivewright.chains import standards
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS, Measure
+from drivewright.mechanisms.silent_chain.tensioned import path_checks, path_findings, path_values
 from drivewright.result import Answer, Answers, Check, Value
 
 MODES = 2  # of a strand
 
 
 def layout(model: ChainModel, done: Answers) -> Answer:
-    """Formulas of the field, for two sprockets; of each sprocket alone for more."""
+    """Formulas of the field, for two sprockets; with further ones, guides or a fixed centre distance those of the path in balance."""
     values = {name: measure.value() for k, side in enumerate(SIDES) for name, measure in side_measures(model, side, k)}
-    findings = []
-    if not model.spec.sprockets:
-        try:
-            values |= _pair(model)
-        except InputError as reason:
-            findings.append(f"layout by pitch circles is left out: {reason}")
-    return Answer(values, (), tuple(teeth_checks(model)), (*findings, *_remarks(model.spec)))
+    findings, checks = [], list(teeth_checks(model))
+    try:
+        if model.plain or not model.spec.drive:
+            values |= {} if model.spec.sprockets else _pair(model)
+        else:
+            values |= path_values(model)
+            checks += path_checks(model)
+            findings += path_findings(model)
+    except InputError as reason:
+        way = "by pitch circles " if model.plain else ""
+        findings.append(f"layout {way}is left out: {reason}")
+    return Answer(values, (), tuple(checks), (*findings, *_remarks(model.spec)))
 
 
 def teeth_checks(model: ChainModel) -> Iterator[Check]:

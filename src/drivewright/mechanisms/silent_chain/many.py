@@ -4,7 +4,7 @@ import numpy as np
 
 from drivewright.chains.explicit.batch import Scatter, campbell, monte_carlo, revolution_time
 from drivewright.chains.explicit.simulate import Settings
-from drivewright.chains.explicit.tables import campbell_table, scatter_table, speed_table
+from drivewright.chains.explicit.tables import campbell_table, scatter_table, signal_of, speed_table
 from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
 from drivewright.chains.implicit.tables import plate_force_table, rest_table
 from drivewright.mechanisms.silent_chain.build import ChainModel
@@ -51,16 +51,17 @@ def scatter(model: ChainModel, done: Answers) -> Answer:
     settings = _settings(model, system)
     duration = settings.settle + REVOLUTIONS * revolution_time(system)
     spread = monte_carlo(system, Scatter(given.tooth_thickness, given.pitch), given.samples, duration, settings, PERCENTILES, given.seed)
-    values = {}
+    values, levels = {}, [row.value for row in spread.outcomes.rows if row.ok]
+    unit, words = signal_of(levels)
     for k, percent in enumerate(PERCENTILES):
         for name, numbers, what in (
-            ("mean", spread.mean, "mean centre distance"),
-            ("fluctuation", spread.fluctuation, "peak-to-peak of the centre distance in a revolution"),
+            ("mean", spread.mean, f"mean {words}"),
+            ("fluctuation", spread.fluctuation, f"peak-to-peak of the {words} in a revolution"),
         ):
             value, low, high = np.asarray(numbers)[:, k]
             meaning = f"{what}, {percent} % of the drives are below"
-            values[f"scatter.{name}.p{percent:02d}"] = Value(value, "m", meaning, low, high, "sample").plain()
-    table = scatter_table([row.value for row in spread.outcomes.rows if row.ok])
+            values[f"scatter.{name}.p{percent:02d}"] = Value(value, unit, meaning, low, high, "sample").plain()
+    table = scatter_table(levels)
     findings = tuple(f"drive {row.case}: {row.reason}" for row in spread.outcomes.failed)
     return Answer(values, (table,), (), findings)
 

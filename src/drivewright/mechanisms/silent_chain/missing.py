@@ -18,7 +18,9 @@ def no_meshing(spec: SilentChainSpec) -> str | None:
 
 def no_closure(spec: SilentChainSpec) -> str | None:
     """Why there is no closure."""
-    return "it closes a chain around two sprockets; with more of them use the dynamics" if spec.sprockets else None
+    if spec.drive is None and (spec.sprockets or any(guide.force is not None for guide in spec.guides)):
+        return "speed and loads are not given, by which tensioners find their place: write [drive]"
+    return None
 
 
 def no_phase_map(spec: SilentChainSpec) -> str | None:

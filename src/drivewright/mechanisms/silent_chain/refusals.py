@@ -25,11 +25,12 @@ def refuse_contradictions(spec: SizedSpec) -> None:
     _refuse_phase(spec)
     if spec.wear is not None:
         _refuse_wear(spec.wear)
-    for guide in spec.guides:
-        if (guide.force is None) != (guide.direction is None):
-            raise SpecError(
-                "a tensioner needs both force and direction; give both, or neither for a fixed rail", f"guides.{guide.name}.force"
-            )
+    _refuse_tensioners(spec)
+    if spec.drive and spec.drive.preload is None and spec.driven.centre_distance is None:
+        raise SpecError(
+            "nothing says where the driven sprocket stands: give driven.centre_distance, with which no preload is needed, or the preload",
+            "drive.preload",
+        )
     if spec.roller is not None:
         kind = joint.kind or "round-pin"
         if kind != "revolute":
@@ -80,11 +81,41 @@ def _refuse_wear(given: Wear) -> None:
         raise SpecError("has to run from the least to the greatest value, with the coefficient between them", "wear.coefficient_range")
 
 
+def _refuse_tensioners(spec):
+    """SpecError for a tensioner that lacks what moves it, and for a sprocket that cannot stand where it should."""
+    for table, entry in _entries(spec):
+        where = f"{table}.{entry.name}"
+        if entry.force is None and (entry.direction is not None or entry.pivot is not None):
+            raise SpecError("a tensioner needs its force as well as the direction or the pivot; give it, or neither", f"{where}.force")
+        if entry.force is not None and entry.direction is None:
+            raise SpecError(
+                "a tensioner needs both force and direction; give both, or neither for a fixed rail. About a pivot the direction says "
+                "roughly where to",
+                f"{where}.force",
+            )
+        if table == "sprockets" and entry.side == "outside" and spec.roller is None:
+            raise SpecError(
+                "teeth on the back of a silent chain meet nothing; press on its back with a guide of side = 'outside'", f"{where}.side"
+            )
+
+
+def _entries(spec):
+    """(table, entry) of all further sprockets and guides."""
+    for table in ("sprockets", "guides"):
+        for entry in getattr(spec, table):
+            yield table, entry
+
+
 def unused(spec: SizedSpec) -> Iterator[str]:
     """Findings for keys that have no effect here."""
-    for guide in spec.guides:
-        if guide.force is None and {"stiffness", "damping"} & guide.model_fields_set:
-            yield f"guides.{guide.name}: stiffness and damping have no effect on a rail that does not move; give force and direction"
+    for table, entry in _entries(spec):
+        given = [key for key in ("stiffness", "damping", "travel", "lever") if key in entry.model_fields_set]
+        if entry.force is None and given:
+            yield f"{table}.{entry.name}: {', '.join(given)} have no effect on what does not move; give force and direction"
+    if spec.drive and spec.drive.preload is not None and spec.driven.centre_distance is not None:
+        yield (
+            "drive.preload has no effect: the centre distance is fixed, so the strands are as tense as its length and a tensioner make them"
+        )
     if spec.roller:
         given = [key for key in ("apothem", "standard_apothem", "flank_angle") if np.any(getattr(spec.plate, key) != getattr(USUAL, key))]
         if given:

@@ -2,7 +2,16 @@
 
 import numpy as np
 
-from drivewright.chains.drive_scene import SprocketView, closure_scene, first_links, plate_shapes, sprocket_parts, sprocket_shapes
+from drivewright.chains.drive_scene import (
+    SprocketView,
+    closure_scene,
+    path_scene,
+    placed_closure,
+    placed_path,
+    plate_shapes,
+    sprocket_parts,
+    sprocket_shapes,
+)
 from drivewright.chains.link import seat_shift
 from drivewright.chains.plate_stack import strand_parts
 from drivewright.chains.roller_link import pair_plate
@@ -10,6 +19,7 @@ from drivewright.chains.roller_sprocket import RollerSprocket
 from drivewright.chains.sprocket import Sprocket
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
+from drivewright.mechanisms.silent_chain.chain_drive import bare_drive
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.scene import Drawing, Part, Scene, Shape
 
@@ -20,13 +30,23 @@ COLOURS = {"drive": "orange", "driven": "green"}
 
 def scene(model: ChainModel) -> Scene:
     """The chain running over two teeth of the driving sprocket; then every plate stands where the next one but one stood."""
-    if model.spec.sprockets:
-        raise InputError("a chain around more than two sprockets is shown by its dynamics, not by its closure")
-    sprockets = [
-        SprocketView(side, SIDE_WORDS[side], _under_the_chain(model, sprocket), COLOURS[side])
-        for side, sprocket in zip(SIDES, model.sprockets, strict=True)
+    if model.spec.drive is None and model.spec.sprockets:
+        raise InputError("a chain around more than two sprockets finds its place by its loads; write [drive]")
+    views = [
+        SprocketView(name, words, _under_the_chain(model, sprocket), colour)
+        for name, words, sprocket, colour in _sprockets(model)
     ]
-    return closure_scene(model.closure, sprockets, link_shapes(model))
+    if model.closes:
+        return closure_scene(model.closure, views, link_shapes(model))
+    return path_scene(bare_drive(model), views, link_shapes(model), model.balance)
+
+
+def _sprockets(model):
+    """(name, label, sprocket, colour) of all sprockets."""
+    for side, sprocket in zip(SIDES, model.sprockets, strict=True):
+        yield side, SIDE_WORDS[side], sprocket, COLOURS[side]
+    for given in model.spec.sprockets:
+        yield given.name, f"{'tensioner' if given.force else 'sprocket'} {given.name}", model.sprocket(given.teeth), "violet"
 
 
 def _under_the_chain(model: ChainModel, sprocket: Sprocket | RollerSprocket) -> tuple[Shape, ...]:
@@ -47,19 +67,21 @@ def link_shapes(model: ChainModel) -> tuple[tuple[Shape, ...], ...]:
 
 
 def drawings(model: ChainModel) -> tuple[Drawing, ...]:
-    """Plate and both sprockets; what cannot be drawn raises InputError."""
+    """Plate and all sprockets; what cannot be drawn raises InputError."""
     if model.link.skew:
         raise InputError(model.plate_refusal)
     bore, width, roller = model.bore, model.chain_width, model.roller_link
-    sprockets = [sprocket.drawing(bore, width, f"sprocket_{side}") for side, sprocket in zip(SIDES, model.sprockets, strict=True)]
+    sprockets = [sprocket.drawing(bore, width, f"sprocket_{name}") for name, _, sprocket, _ in _sprockets(model)]
     return (roller.drawing() if roller else model.plate.drawing(), *sprockets)
 
 
 def parts(model: ChainModel) -> tuple[Part, ...]:
-    """Both sprockets and the first links, of each kind two: as solids the whole chain would fill tens of megabytes."""
-    roller, links = model.roller_link, first_links(model.closure, SOLID_LINKS)
+    """All sprockets and the first links, of each kind two: as solids the whole chain would fill tens of megabytes."""
+    placed = placed_closure(model.closure) if model.closes else placed_path(bare_drive(model), model.balance)
+    roller, links = model.roller_link, placed.plates[:SOLID_LINKS]
+    names, _, wheels, _ = zip(*_sprockets(model), strict=True)
     low, high = sorted(model.spec.plate.lacing)
     return (
-        *sprocket_parts(model.closure, model.sprockets, SIDES, model.bore, model.chain_width),
+        *sprocket_parts(placed, wheels, names, model.bore, model.chain_width),
         *(roller.parts(links) if roller else strand_parts(model.plate, links, (low, high), overhang=OVERHANG)),
     )

@@ -140,8 +140,14 @@ class Drive(Spec):
     """Speed and loads."""
 
     speed: Speed = Field(gt=0, description="of the driving sprocket", examples=["2000 rpm"])
-    preload: Force = Field(gt=0, description="outward force on the driven sprocket; each strand carries half of it", examples=["150 N"])
-    load_torque: Torque = Field("0 N m", ge=0, description="that the driven sprocket has to overcome")
+    preload: Force | None = Field(
+        None,
+        gt=0,
+        description="outward force on the driven sprocket; each strand carries half of it; not for a fixed centre distance",
+        examples=["150 N"],
+    )
+    load_torque: Torque = Field("0 N m", description="that the driven sprocket has to overcome; below 0 it drives")
+    reversing: bool = Field(False, description="whether it also runs the other way under the same load: both strands are tight in turn")
     ramp: Time = Field("0 s", ge=0, description="time in which the speed is reached from rest; 0: the run begins at speed")
     gravity: tuple[Acceleration, Acceleration] = Field(
         ("0 m/s^2", "0 m/s^2"), description="along x, from the driving to the driven sprocket, and y"
@@ -164,18 +170,36 @@ class Driven(Spec):
     )
 
 
-class Sprocket(Spec):
-    """A further sprocket inside the loop."""
+class Tensioner(Spec):
+    """What presses on the chain by a spring, on a slide or about a pivot."""
+
+    force: Force | None = Field(
+        None, gt=0, description="of a tensioner's spring at the given place, on the chain; fixed unless given", examples=["50 N"]
+    )
+    direction: Angle | None = Field(None, description="in which a tensioner moves on a slide", examples=["-90 deg"])
+    pivot: tuple[Length, Length] | None = Field(
+        None, description="x, y about which a tensioner turns, instead of a slide", examples=[["20 mm", "70 mm"]]
+    )
+    stiffness: Stiffness = Field("0 N/m", ge=0, description="of a tensioner's spring")
+    damping: Damping = Field("50 N s/m", ge=0, description="of a tensioner")
+    travel: Length | None = Field(
+        None, gt=0, description="of a tensioner from the given place, as far as there is room", examples=["15 mm"]
+    )
+
+
+class Sprocket(Tensioner):
+    """A further sprocket; sprung, it is a tensioner."""
 
     name: Name = Field(description="name", examples=["idler"])
     teeth: Integer = Field(ge=6, description="teeth", examples=[21])
     centre: tuple[Length, Length] = Field(description="x, y from the driving sprocket", examples=[["100 mm", "60 mm"]])
+    side: Literal["outside", "inside"] = Field("inside", description="of the loop; outside, on the back of a roller chain")
     mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.3 kg"])
     inertia: Inertia | None = Field(None, gt=0, description="about its axis; that of the disc unless given", examples=["1e-4 kg m^2"])
     load_torque: Torque = Field("0 N m", description="that it has to overcome")
 
 
-class Guide(Spec):
+class Guide(Tensioner):
     """A curved rail that the plates slide on; sprung, it is a tensioner."""
 
     name: Name = Field(description="name", examples=["tensioner"])
@@ -185,11 +209,10 @@ class Guide(Spec):
     end: Angle = Field(description="polar angle where it ends", examples=["285 deg"])
     side: Literal["outside", "inside"] = Field("outside", description="of the loop: touches the backs or the toes of the plates")
     friction: Number = Field(0.0, ge=0, description="coefficient of Coulomb friction")
-    force: Force | None = Field(None, gt=0, description="of a tensioner, towards the loop; a fixed rail unless given", examples=["50 N"])
-    direction: Angle | None = Field(None, description="in which a tensioner moves", examples=["-90 deg"])
-    stiffness: Stiffness = Field("0 N/m", ge=0, description="of a tensioner's spring")
-    damping: Damping = Field("50 N s/m", ge=0, description="of a tensioner")
-    mass: Mass = Field("50 g", gt=0, description="of a tensioner")
+    mass: Mass = Field("50 g", gt=0, description="of a tensioner; of one on a pivot, its moment of inertia over the square of the lever")
+    lever: Length | None = Field(
+        None, gt=0, description="from the pivot to where the spring acts; to the middle of the arc unless given", examples=["120 mm"]
+    )
 
 
 class Closure(Spec):
@@ -308,6 +331,10 @@ class Limits(Spec):
 
     teeth: Integer = Field(8, ge=3, description="of a sprocket, at least")
     wrap: Angle = Field("120 deg", ge=0, description="angle of a sprocket that the chain takes in, at least")
+    contact_share: Number = Field(
+        0.2, ge=0, le=1, description="links that press on their teeth over those on sprockets, at least: less is overspeed"
+    )
+    slack_share: Number = Field(0.05, ge=0, le=1, description="share of the time in which three joints may be without tension at once")
     shakedown_safety: Number = Field(1.0, gt=0, description="shakedown limit of the rolling pins over their contact pressure")
     yield_safety: Number = Field(1.0, gt=0, description="yield strength over von Mises stress of pins and plates")
     wall: Length = Field("0.5 mm", ge=0, description="least width of a plate around and between its holes")
@@ -364,7 +391,7 @@ class SilentChainSpec(MechanismSpec):
     meshing: Meshing = Field(Meshing(), description="published method")
     drive: Drive | None = Field(None, description="speed and loads; for contact, dynamics, stress and life")
     driven: Driven = Field(Driven(), description="driven sprocket")
-    sprockets: tuple[Sprocket, ...] = Field((), description="further sprockets, clockwise after the driven one")
+    sprockets: tuple[Sprocket, ...] = Field((), description="further sprockets, in any order")
     guides: tuple[Guide, ...] = Field((), description="guides and tensioners")
     closure: Closure = Field(Closure(), description="closure")
     contact: Contact = Field(Contact(), description="contact")
