@@ -12,7 +12,7 @@ PLOTS = (
         "angle",
         ("centre_distance", "transmission_error"),
     ),
-    Plot("rigid_travel", "What gives way over a tooth, rigid chain", "rigid_travel", "angle", ("travel", "transmission_error")),
+    Plot("rigid_travel", "Travel and transmission error over a tooth, rigid", "rigid_travel", "angle", ("travel", "transmission_error")),
     Plot(
         "phased_rows",
         "Two rows out of phase, and one alone",
@@ -42,7 +42,7 @@ PLOTS = (
     Plot("flanks", "Flanks of a plate that goes round", "running", "time", ("plate.left_flank", "plate.right_flank")),
     Plot("spectrum", "Spectrum of the centre distance by mesh orders", "spectrum", "order", ("centre_distance",), log=True),
     Plot("tensioners", "Travel and force of the tensioners", "tensioners", "time", ("travel", "force"), by="tensioner"),
-    Plot("motion_spectrum", "Spectrum of tensioner or angle by mesh orders", "motion_spectrum", "order", ("amplitude",), log=True),
+    Plot("motion_spectrum", "Spectrum of the drive by mesh orders", "motion_spectrum", "order", ("amplitude",), log=True),
     Plot(
         "quasi_static",
         "The loaded chain at rest over a tooth",

@@ -12,6 +12,8 @@ from drivewright.chains.model import ChainDrive
 from drivewright.chains.path.balance import Balance
 from drivewright.chains.path.route import bodies
 
+MIDDLE = 0.6  # of a strand, whose joints tell its tension
+
 
 class Signal(NamedTuple):
     """A signal of a run: name, unit, what it is, and its samples (m,) of a run."""
@@ -54,7 +56,7 @@ def spring_force(model: ChainDrive, number: int) -> Callable[[Motion], Floats]:
     return lambda run: slide.force - slide.stiffness * run.body(number, "q")
 
 
-def strand_tension(balance: Balance, place: int, share: float = 0.6) -> Callable[[Motion], Floats]:
+def strand_tension(balance: Balance, place: int, share: float = MIDDLE) -> Callable[[Motion], Floats]:
     """Signal: mean tension (m,) of the recorded joints in the middle `share` of the strand that leaves a station of the path, nan where
     none is there [N].
 

@@ -1,7 +1,8 @@
 """Tensioners and the pulls of the strands in balance, the chain as long as its links.
 
     links(q) = N + sum over strands of (l/p) (T + rho v^2)/(k_j p)                      the chain closes, stretched
-    (T_out u_out - T_in u_in).c'(q) + F - k q + m g.c'(q) = 0                           each body on a slide
+    (T_out u_out - T_in u_in).c'(q) + F - k q + m g.c'(q) = 0                           each body on a slide; with the moment of friction
+                                                                                        where a rail turns about a pivot
     T_out = T_in + M/r at a sprocket inside (- outside),  T_out = T_in exp(mu wrap) at a guide, along the way of the chain
 
 T: pull of a strand without its centrifugal part, which presses on nothing; u: heading of a strand; c'(q): how the centre moves; M: torque
@@ -23,7 +24,7 @@ from drivewright.numerics.roots import newton
 STEP = 1e-6  # of differences, in pitches and in parts of a pull
 STRIDE = 0.25  # pitches, between two places at which a tensioner is tried
 FAR = 0.25  # of the chain's length, that a tensioner is tried over where its travel has no limits
-HALVINGS = 50
+HALVINGS = 40
 
 
 class Balance(NamedTuple):
@@ -161,7 +162,7 @@ def _sprung(model, chosen, movers, q, centrifugal):
         assert place is not None  # only what the chain meets moves
         pull = 0.5 * (now.pulls[place] + now.pulls[place - 1])
         if not (pull > 0 and now.route.wraps[place] >= 0):
-            raise DoesNotAssemble(_slack(model, number, pull))
+            raise DoesNotAssemble(_slack(model, number, pull, float(now.q[number])))
     return now
 
 
@@ -171,7 +172,10 @@ def _force_along(model, now, number):
     assert body.slide is not None and place is not None
     way = way_at(body, now.q[number])
     pull = now.force_on(place) + body.mass * complex(*model.gravity) * (body.slide.pivot is None)
-    return (pull * np.conj(way)).real + body.slide.force - body.slide.stiffness * now.q[number]
+    turning = 0.0
+    if isinstance(body, Guide) and body.slide.pivot:  # friction on its face turns it too
+        turning = now.route.stations[place].turn * body.radius * (now.pulls[place] - now.pulls[place - 1]) / body.slide.lever
+    return (pull * np.conj(way)).real + turning + body.slide.force - body.slide.stiffness * now.q[number]
 
 
 def _first_pull(model, chosen, number, q):
@@ -273,7 +277,13 @@ def _refuse_travel(model, q, movers):
             )
 
 
-def _slack(model, number, pull):
+def _slack(model, number, pull, q):
+    slide = bodies(model)[number].slide
+    if slide.force > 0 >= slide.force - slide.stiffness * q:
+        return (
+            f"chain drive: the spring of {body_name(model, number)} has lost its force after {1e3 * q:.4g} mm of travel, where the chain "
+            "would be taut. Raise its force, lower its stiffness, move its centre towards the chain, or take links out."
+        )
     return (
         f"chain drive: the slide of {body_name(model, number)} leaves the chain slack (a pull of {float(pull):.3g} N); "
         "point its direction outward and its force along it."

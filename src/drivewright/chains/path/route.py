@@ -1,8 +1,9 @@
 """The taut path of a chain around given bodies, in links and metres.
 
-The middles of the plates lie on circles: of a sprocket that of seated plates, of a guide its arc and the distance of the plates' line of
-pins from it.  Strands are common tangents (`standards.loop`); a turn around a sprocket takes as many links as it has teeth, around a guide
-pi/atan(p/(2 R)), the plates being tangents to the circle R.
+The chain lies on circles: of a sprocket that of the circumference z p, between the circles of seated pins and of plates' middles, of a
+guide its arc and the distance of the plates' line of pins from it.  Strands are common tangents (`standards.loop`); a turn around a sprocket
+takes as many links as it has teeth, around a guide pi/atan(p/(2 R)), the plates being tangents to the circle R.  So the path's length in
+links is that of a belt, and what a body's move adds to it is the work of the strands' pulls.
 """
 
 from collections.abc import Sequence
@@ -11,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from drivewright._typing import Complexes, Floats
-from drivewright.chains.link import Link, seat_height
+from drivewright.chains.link import Link
 from drivewright.chains.model import ChainDrive, Guide, Sprocket
 from drivewright.chains.standards.loop import tangents
 from drivewright.errors import InputError
@@ -20,8 +21,8 @@ MOST_WRAP = 11 / 6 * np.pi  # a wrap that misses a whole turn by less is one bel
 
 
 class Station(NamedTuple):
-    """A body that the chain may meet: its number (sprockets, then guides), radius [m] of the plates' middles around it, turn (-1 inside,
-    +1 outside), links to a whole turn, and what people call it."""
+    """A body that the chain may meet: its number (sprockets, then guides), radius [m] of the chain around it, turn (-1 inside, +1 outside),
+    links to a whole turn, and what people call it."""
 
     body: int
     radius: float
@@ -61,7 +62,7 @@ def stations(model: ChainDrive) -> tuple[Station, ...]:
     for number, sprocket in enumerate(model.sprockets):
         z = sprocket.tooth.teeth
         turn = 1 if sprocket.outside else -1
-        found.append(Station(number, seat_height(link, z), turn, float(z), body_name(model, number)))
+        found.append(Station(number, z * link.pitch / (2 * np.pi), turn, float(z), body_name(model, number)))
     for number, guide in enumerate(model.guides, len(model.sprockets)):
         radius, turn = guide.radius + guide.distance, 1 if guide.side == "outside" else -1
         found.append(Station(number, radius, turn, float(np.pi / np.arctan(0.5 * link.pitch / radius)), body_name(model, number)))

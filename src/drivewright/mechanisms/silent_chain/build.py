@@ -10,7 +10,7 @@ from drivewright.chains import meshing, wear
 from drivewright.chains.closure import Drive, close
 from drivewright.chains.closure.model import Closure
 from drivewright.chains.link import Link, design_link
-from drivewright.chains.path import Balance, balanced
+from drivewright.chains.path import Balance, balanced, limit_speed
 from drivewright.chains.plate import LinkMass, Plate, bar_link_mass, design_plate, mean_link_mass
 from drivewright.chains.plate_holes import HingePin, Pins, joint_pins
 from drivewright.chains.published_design import PublishedSprocket, published_sprocket
@@ -151,6 +151,11 @@ class ChainModel:
     def balance(self) -> Balance:
         """Path of the chain, tensioners and strands in balance."""
         return balanced(bare_drive(self))
+
+    @cached_property
+    def limit_speed(self) -> float:
+        """Speed of the driving sprocket that takes all pull from the slackest strand [rad/s]; inf where none does."""
+        return limit_speed(bare_drive(self))
 
     @cached_property
     def strands(self) -> StrandForces:

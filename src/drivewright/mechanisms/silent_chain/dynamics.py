@@ -7,7 +7,7 @@ import numpy as np
 from drivewright.chains.explicit.ensemble import Ensemble, ensemble, mean_of
 from drivewright.chains.explicit.failure import SLACK, Failure, first_failure, jumped_teeth, seated_links, slack_share, until
 from drivewright.chains.explicit.motion import Motion
-from drivewright.chains.explicit.signals import tensioners
+from drivewright.chains.explicit.signals import MIDDLE, tensioners
 from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
 from drivewright.chains.explicit.stability import safe_step
 from drivewright.chains.explicit.statistics import force_values, signal_values, strand_values, tensioner_values, touching_flanks
@@ -33,7 +33,6 @@ HINT = (
 )
 ORDERS = 8  # of the mesh frequency, up to which the spectrum is shown
 WATCHED = 0
-JOINTS = 16  # whose tension is recorded where the strands are told apart, about
 
 
 @unless_impossible
@@ -187,7 +186,7 @@ def _runs(model, system):
             f"{1e3 * (duration - given.settling):.4g} ms hold no two teeth of {1e3 * tooth_time(system):.4g} ms; give more",
             "dynamics.duration",
         )
-    joints = (WATCHED,) if model.plain else tuple(range(WATCHED, model.spec.links, max(1, model.spec.links // JOINTS)))
+    joints = (WATCHED,) if model.plain else _recorded(model)
     common = {"settle": given.settling, "tolerance": given.largest_drift, "plate": WATCHED, "joints": joints}
     if given.integrator == "implicit":
         settings, solve = implicit.Settings(given.step or IMPLICIT_STEP, **common), implicit.simulate
@@ -195,6 +194,12 @@ def _runs(model, system):
         settings, solve = Settings(explicit_step(model, system), **common), simulate
         _refuse_endless(model, duration, settings.step)
     return ensemble(system, duration, settings, given.ensemble, solve=solve)
+
+
+def _recorded(model):
+    """Joints whose tension is recorded: so many that one is in the middle of every strand at any time."""
+    stride = int(MIDDLE * np.min(model.balance.route.lengths) / model.spec.pitch)
+    return tuple(range(WATCHED, model.spec.links, max(1, stride)))
 
 
 def _refuse_endless(model, duration, step):

@@ -9,7 +9,7 @@ import numpy as np
 
 from drivewright.chains import standards
 from drivewright.chains.model import ChainDrive, Guide
-from drivewright.chains.path import Balance, limit_speed
+from drivewright.chains.path import Balance
 from drivewright.chains.path.order import clearance
 from drivewright.chains.path.route import bodies, short_name
 from drivewright.mechanisms.silent_chain.build import ChainModel
@@ -67,7 +67,7 @@ def path_values(model: ChainModel) -> dict[str, Value]:
         assert slide is not None
         values[f"layout.tensioner.{name}.travel"] = Value(q, "m", f"travel of tensioner {name} in balance")
         values[f"layout.tensioner.{name}.force"] = Value(slide.force - slide.stiffness * q, "N", f"force of tensioner {name} in balance")
-    limit = limit_speed(path.drive)
+    limit = model.limit_speed
     if np.isfinite(limit):
         values["layout.limit_speed"] = Value(limit, "rad/s", "speed of the driving sprocket that takes all pull from the slack strand")
     values["layout.mesh_frequency"] = Value(
@@ -98,7 +98,7 @@ def path_checks(model: ChainModel) -> Iterator[Check]:
         if isinstance(guide, Guide):
             message = f"arc of guide {guide.name} beyond the places where the chain meets and leaves it"
             yield Check(f"guide.{guide.name}.reach", _spare_arc(path, place, guide), 0.0, ">=", "rad", message, (guide.name,))
-    limit = limit_speed(path.drive)
+    limit = model.limit_speed
     if np.isfinite(limit):
         message = (
             "speed of the driving sprocket against that at which the chain's centrifugal force leaves no pull in its slack strand: beyond, "
