@@ -1,9 +1,9 @@
 """The taut path of a chain around given bodies, in links and metres.
 
 The chain lies on circles: of a sprocket that of the circumference z p, between the circles of seated pins and of plates' middles, of a
-guide its arc and the distance of the plates' line of pins from it.  Strands are common tangents (`standards.loop`); a turn around a sprocket
-takes as many links as it has teeth, around a guide pi/atan(p/(2 R)), the plates being tangents to the circle R.  So the path's length in
-links is that of a belt, and what a body's move adds to it is the work of the strands' pulls.
+guide its arc and the distance of the plates' line of pins from it.  Strands are common tangents (`standards.loop`); a turn around a
+sprocket takes as many links as it has teeth, around a guide pi/atan(p/(2 R)), the plates being tangents to the circle R.  So the path's
+length in links is that of a belt, and what a body's move adds to it is the work of the strands' pulls.
 """
 
 from collections.abc import Sequence
