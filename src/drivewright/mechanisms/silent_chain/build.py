@@ -164,7 +164,8 @@ class ChainModel:
         if self.plain:
             density = self.link_mass.mass / pitch
             return strand_forces(pitch, self.teeth, self.spec.links, density, drive.speed, self.preload, abs(drive.load_torque))
-        found = self.balance
+        worn = self.spec.wear is not None and self.spec.wear.running_time
+        found = balanced(bare_drive(self, new=True)) if worn else self.balance  # wear goes by the pulls of the chain as it was new
         speed = float(chain_speed(pitch, self.teeth[0], drive.speed))
         return StrandForces(speed, found.centrifugal, float(np.max(found.pulls)), float(np.min(found.pulls)))
 

@@ -27,15 +27,15 @@ def chain_drive(model: "ChainModel") -> ChainDrive:
     return replace(bare, chain=replace(bare.chain, articulation_damping=damping))
 
 
-def bare_drive(model: "ChainModel") -> ChainDrive:
-    """The same before its tension is known, which the damping of its articulation goes by."""
+def bare_drive(model: "ChainModel", new: bool = False) -> ChainDrive:
+    """The same before its tension is known, which the damping of its articulation goes by; `new`: without the wear of its running time."""
     spec = model.spec
     given, stiffness = spec.contact.damping, model.contact_stiffness
     damping = spec.contact.joint_damping * stiffness if given is None else model.rows * given
     touch = ChainContact(stiffness, damping, spec.contact.law)
     driven = [_driven(model, touch), *(_further(model, each, touch) for each in spec.sprockets)]
     guides = tuple(_guide(model, each, touch) for each in spec.guides)
-    return ChainDrive(_chain(model), (_driver(model, touch), *driven), guides, model.drive.gravity)
+    return ChainDrive(_chain(model, new), (_driver(model, touch), *driven), guides, model.drive.gravity)
 
 
 def compile_ahead(spec: SilentChainSpec) -> list[Callable[[], object]]:
@@ -44,7 +44,7 @@ def compile_ahead(spec: SilentChainSpec) -> list[Callable[[], object]]:
     return [kernel_of_steps(small_drive(spec.contact.law))] if explicit else []
 
 
-def _chain(model: "ChainModel") -> Chain:
+def _chain(model: "ChainModel", new: bool) -> Chain:
     spec, mass = model.spec, model.link_mass
     toe, crotch = np.inf, -np.inf
     if not spec.roller and not model.plate_refusal:
@@ -59,7 +59,7 @@ def _chain(model: "ChainModel") -> Chain:
         centre_offset=mass.height,
         toe=toe,
         crotch=crotch,
-        elongation=model.elongation,
+        elongation=spec.closure.elongation if new else model.elongation,
     )
 
 
