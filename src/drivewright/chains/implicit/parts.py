@@ -10,6 +10,7 @@ from drivewright.chains.explicit import assembly, state
 from drivewright.chains.explicit.assembly import Start
 from drivewright.chains.implicit.ring import Ring, empty_ring
 from drivewright.chains.model import ChainDrive
+from drivewright.errors import InputError
 
 POWERS = ("joint damping", "contact damping", "slide damping", "turn damping", "friction", "guide damping", "torque")
 JOINT, CONTACT, SLIDE, TURN, FRICTION, GUIDE, TORQUE = range(len(POWERS))
@@ -103,7 +104,13 @@ class Parts(NamedTuple):
 
 
 def compile_model(model: ChainDrive) -> Parts:
-    """The `Parts` of a `Model`."""
+    """The `Parts` of a `Model`; InputError for a pivot, whose curved way the tangent does not know."""
+    for body in (*model.sprockets, *model.guides):
+        if body.slide and body.slide.pivot:
+            raise InputError(
+                f"chain drive: {body.name or 'a tensioner'} turns about a pivot, which implicit steps and the chain at rest do not know; "
+                "run it with explicit steps, or let it move on a slide."
+            )
     drive = state.compile_model(model)
     bodies, count = _records(drive), model.chain.count
     border = int(max(bodies["slide_column"].max(), bodies["turn_column"].max())) + 1

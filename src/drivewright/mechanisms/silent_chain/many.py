@@ -3,10 +3,12 @@
 import numpy as np
 
 from drivewright.chains.explicit.batch import Scatter, campbell, monte_carlo, revolution_time
+from drivewright.chains.explicit.signals import tensioners
 from drivewright.chains.explicit.simulate import Settings
 from drivewright.chains.explicit.tables import campbell_table, scatter_table, signal_of, speed_table
 from drivewright.chains.implicit.equilibrium import compliance_of, equilibrium
 from drivewright.chains.implicit.tables import plate_force_table, rest_table
+from drivewright.chains.path.route import bodies
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.mechanisms.silent_chain.dynamics import explicit_step
@@ -70,17 +72,39 @@ def scatter(model: ChainModel, done: Answers) -> Answer:
 def quasi_static(model: ChainModel, done: Answers) -> Answer:
     """The loaded chain at rest, teeth and joints elastic, flanks that press only: also with thick teeth and a worn chain."""
     system = chain_drive(model)
-    rest, rigid = equilibrium(system, POSITIONS), compliance_of(system, POSITIONS)
+    rest = equilibrium(system, POSITIONS)
     values = {
-        "quasi_static.centre_distance.mean": Value(rest.mean, "m", "mean centre distance under load, at rest"),
-        "quasi_static.centre_distance.fluctuation": Value(rest.fluctuation, "m", "greatest less least over a tooth"),
-        "quasi_static.centre_distance.rigid": Value(rigid.rigid_mean, "m", "the mean with the compliance taken off"),
+        **(_distances_at_rest(system, rest) if system.sprockets[system.measured].slide else {}),
+        **_travels_at_rest(system, rest),
         "quasi_static.transmission_error": Value(
             np.ptp(rest.transmission_error(1)), "rad", "driven angle off the ratio of teeth, greatest less least"
         ),
         "quasi_static.flank_force.maximum": Value(np.max(rest.flank_force), "N", "greatest force on a flank of a plate"),
     }
     return Answer(values, (rest_table(rest), plate_force_table(rest)))
+
+
+def _distances_at_rest(system, rest):
+    """The centre distance at rest, and that of the rigid limit."""
+    rigid = compliance_of(system, POSITIONS)
+    return {
+        "quasi_static.centre_distance.mean": Value(rest.mean, "m", "mean centre distance under load, at rest"),
+        "quasi_static.centre_distance.fluctuation": Value(rest.fluctuation, "m", "greatest less least over a tooth"),
+        "quasi_static.centre_distance.rigid": Value(rigid.rigid_mean, "m", "the mean with the compliance taken off"),
+    }
+
+
+def _travels_at_rest(system, rest):
+    """Where tensioners stand at rest."""
+    values = {}
+    for number in tensioners(system):
+        name, travel = bodies(system)[number].name, rest.bodies[:, number, 0]
+        key = f"quasi_static.tensioner.{name}.travel"
+        values[f"{key}.mean"] = Value(float(np.mean(travel)), "m", f"mean travel of tensioner {name} under load, at rest")
+        values[f"{key}.fluctuation"] = Value(
+            float(np.ptp(travel)), "m", f"travel of tensioner {name} at rest, greatest less least over a tooth"
+        )
+    return values
 
 
 def _settings(model, system):
