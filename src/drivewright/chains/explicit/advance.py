@@ -183,10 +183,10 @@ def near(chain: ChainConstants, x: float, y: float, b: Records, teeth: Teeth, ar
 def near_arc(chain: ChainConstants, x: float, y: float, far: float, arcs: Records, n: int) -> bool:
     """Whether a plate at (x, y), `far` [m] from the centre of guide n's arc, lies about as far as the arc and not beside it.
 
-    It may lie two pitches deeper and beside the arc, and as far again as guides turn about a pivot.
+    It may come nearer by half a pitch, lie a pitch deeper, and as far beside the arc as guides turn about a pivot.
     """
-    radius, room = arcs.radius[n] + abs(arcs.distance[n]), 4 * chain.half_plate
-    if not abs(far - arcs.radius[n]) < abs(arcs.distance[n]) + room:
+    radius, room = arcs.radius[n] + abs(arcs.distance[n]), 2 * chain.half_plate
+    if far > radius + 0.5 * room or far < arcs.radius[n] - abs(arcs.distance[n]) - room:
         return False
     cosine, sine = arcs.opening[n], np.sqrt(max(0.0, 1.0 - arcs.opening[n] ** 2))
     margin = min(0.3 + room / radius, np.pi)

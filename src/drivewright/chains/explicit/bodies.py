@@ -68,41 +68,53 @@ def load_rollers(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth
 def load_guide(
     chain: ChainConstants, p: Plates, t: Touches, b: Records, arcs: Records, n: int, first: int, last: int, power: Floats, dt: float
 ) -> None:
-    """Plates first .. last-1 on the arc of guide n, the body `n` + number of sprockets: the plate's back or belly, half a pitch either way.
+    """Plates first .. last-1 on guide n, the body `n` + number of sprockets; what friction and damping take goes to power (SUMS,) [W]."""
+    load_plates_on_guide(chain, p, t, b, arcs, n, first, last, dt)
+    power[GUIDE_DAMPING] -= total(t.guide_damped, first, last)
+    power[FRICTION] += total(t.guide_rubbed, first, last)
+
+
+@elementwise
+def load_plates_on_guide(
+    chain: ChainConstants, p: Plates, t: Touches, b: Records, arcs: Records, n: int, first: int, last: int, dt: float
+) -> None:
+    """Plates first .. last-1 on the arc of guide n: the plate's back or belly, half a pitch either way.
 
     r leads from the arc's centre to the nearest point of that line, which may be its end: where two plates make a corner towards the
     guide, the corner touches.  Depth R - |r|, normal r/|r|; friction -mu fn v/sqrt(v^2 + slip^2).
-
-    power (SUMS,) [W, N, N m].
     """
     body = n + b.q.size - arcs.side.size
     turned_c, turned_s = (np.cos(b.psi[body]), np.sin(b.psi[body])) if b.swing[body] != 0.0 else (1.0, 0.0)
     middle_x = turned_c * arcs.middle_x[n] - turned_s * arcs.middle_y[n]
     middle_y = turned_s * arcs.middle_x[n] + turned_c * arcs.middle_y[n]
-    law, side, half = law_of(chain.laws, b[body], body), arcs.side[n], chain.half_plate
+    law, side, half, opening, radius = law_of(chain.laws, b[body], body), arcs.side[n], chain.half_plate, arcs.opening[n], arcs.radius[n]
+    friction, slip2 = arcs.friction[n], arcs.slip[n] ** 2
+    bx, by, ux, uy, spin = b.x[body], b.y[body], b.vx[body], b.vy[body], b.w[body]
     py = -side * arcs.distance[n] - chain.offset  # of the line, above the mass centre
-    for i in range(first, last):
+    for i in range(np.uint64(first), np.uint64(last)):
         c, s, w = p.c[i], p.s[i], p.w[i]
-        gx, gy = p.x[i] - b.x[body], p.y[i] - b.y[body]
-        zx, zy = p.vx[i] - b.vx[body], p.vy[i] - b.vy[body]
+        gx, gy = p.x[i] - bx, p.y[i] - by
+        zx, zy = p.vx[i] - ux, p.vy[i] - uy
         ex, ry = c * gx + s * gy, c * gy - s * gx + py
         px, x, far = nearest_on_plate(ex, ry, half)
-        nx, ny = x / far, ry / far
+        by_far = 1.0 / far
+        nx, ny = x * by_far, ry * by_far
         vx, vy = c * zx + s * zy - w * py, c * zy - s * zx + w * px
-        depth, rate = arcs.radius[n] - far, -(nx * vx + ny * vy)
-        within = is_on_arc(c, s, nx, ny, 1.0, middle_x, middle_y, arcs.opening[n])
+        depth, rate = radius - far, -(nx * vx + ny * vy)
+        within = is_on_arc(c, s, nx, ny, 1.0, middle_x, middle_y, opening)
         elastic, force, touching = mean_force(law, depth, rate, dt)
-        on = touching and side * ry > 0.0 and within
+        on = touching & (side * ry > 0.0) & within
         elastic, force = (elastic if on else 0.0), (force if on else 0.0)
-        slide = side * (ny * vx - nx * vy + far * b.w[body])
-        drag = -arcs.friction[n] * force * slide / np.sqrt(slide * slide + arcs.slip[n] ** 2)
+        slide = side * (ny * vx - nx * vy + far * spin)
+        drag = -friction * force * slide / np.sqrt(slide * slide + slip2)
         fx, fy = nx * force + side * ny * drag, ny * force - side * nx * drag
-        t.fx[i], t.fy[i] = c * fx - s * fy, s * fx + c * fy
+        t.fx[i] = c * fx - s * fy
+        t.fy[i] = s * fx + c * fy
         t.torque[i] = side * far * drag
         t.stored[i] += stored_energy(law, -depth) if on else 0.0
+        t.guide_damped[i] = (force - elastic) * rate
+        t.guide_rubbed[i] = drag * slide
         p.moment[i] += px * fy - py * fx
-        power[GUIDE_DAMPING] -= (force - elastic) * rate
-        power[FRICTION] += drag * slide
 
 
 @inner

@@ -84,7 +84,8 @@ class Joints(NamedTuple):
 @by_reference
 class Touches(NamedTuple):
     """Per plate: seat angle of its tooth (less psi) with cosine and sine, forces of the right and left flank (of roller seat and flank) and
-    what of them is damping, loss power and its sum, energy stored, force on the plate, torque on the body."""
+    what of them is damping, loss power and its sum, energy stored, force on the plate, torque on the body, power that a guide's damping and
+    friction take."""
 
     seat: Floats
     seat_cos: Floats
@@ -99,6 +100,8 @@ class Touches(NamedTuple):
     fx: Floats
     fy: Floats
     torque: Floats
+    guide_damped: Floats
+    guide_rubbed: Floats
 
 
 BODIES = np.dtype(

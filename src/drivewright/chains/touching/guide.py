@@ -14,7 +14,7 @@ def nearest_on_plate(along: float, up: float, half: float) -> tuple[float, float
     """
     arm = min(max(-along, -half), half)
     x = along + arm
-    return arm, x, np.hypot(x, up)
+    return arm, x, np.sqrt(x * x + up * up)  # np.hypot keeps loops from becoming vector code
 
 
 @inner

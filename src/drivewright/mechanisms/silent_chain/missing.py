@@ -18,9 +18,13 @@ def no_meshing(spec: SilentChainSpec) -> str | None:
 
 def no_closure(spec: SilentChainSpec) -> str | None:
     """Why there is no closure."""
-    if spec.drive is None and (spec.sprockets or any(guide.force is not None for guide in spec.guides)):
+    if not (spec.sprockets or any(guide.force is not None for guide in spec.guides)):
+        return None
+    if spec.drive is None:
         return "speed and loads are not given, by which tensioners find their place: write [drive]"
-    return None
+    if spec.joint.kind in PAIRS:
+        return "around tensioners and further sprockets it knows joints of two equal radii"
+    return "around tensioners and further sprockets it knows one row, or rows in phase" if spec.row_phase else None
 
 
 def no_phase_map(spec: SilentChainSpec) -> str | None:
