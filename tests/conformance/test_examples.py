@@ -73,6 +73,13 @@ PINNED = {
         "profile.min_relative_radius": 0.0097356891,
         "pins.max_pressure": 946802171.1,
     },
+    "dial_table": {
+        "drive.peak_torque": 41.97577676,
+        "motor.rms_torque": 0.9044213879,
+        "stiffness.minimum": 280800.0396,
+        "dwell.stiffness.minimum": 1944474.558,
+        "pressure_angle.maximum": 0.73594471,
+    },
     "torsion_test": {"stiffness.per_branch": 359156.472, "hysteresis_energy": 0.0741732},
     # Contacts of a running chain chatter: only what stands still is pinned.
     "hyvo_chain": {"pitch_deviation.driven": 2.46695172e-06, "centre_distance.mean": 0.219057426, "over_pins.drive": 0.1064210048},

@@ -6,7 +6,7 @@ import pytest
 from drivewright.indexing.motion import TURN, IndexMotion, index_motion, motion_table
 from drivewright.indexing.pin_wheel import PinWheel, profile_findings, sleeve_findings, wall_thicknesses
 from drivewright.indexing.stiffness.loading import dwell_angles
-from drivewright.indexing.stiffness.result import CARRIED, FREE, TorsionalStiffness
+from drivewright.indexing.stiffness.result import CARRIED, FREE, WheelStiffness
 from drivewright.indexing.stiffness.values import bearing_load_values, stiffness_findings, stiffness_values
 from drivewright.indexing.values import contact_findings, motion_values, play_findings, play_values, pressure_angle_values
 from drivewright.motion import law
@@ -69,10 +69,7 @@ def test_play_has_no_maximum_where_nothing_stops_the_wheel():
 
 def wheel_under_torque(outcome, rotation):
     p = len(outcome)
-    tangent, none = np.full(p, np.nan), np.zeros(p, dtype=complex)
-    return TorsionalStiffness(
-        np.zeros(p), 100.0, "unilateral", outcome, np.array(rotation), tangent, (), none, none, none, none, none, {}, 1
-    )
+    return WheelStiffness(np.zeros(p), 100.0, "unilateral", outcome, np.array(rotation), np.full(p, np.nan), (), {}, 1)
 
 
 def test_stiffness_is_that_of_the_positions_that_carry():

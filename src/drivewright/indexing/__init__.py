@@ -10,6 +10,7 @@ play            free rotation of the wheel
 pin_pressure    Hertz pressure of a pin, the contact that resists a torque best
 cam_tables      profile, contacts and pressure angles as tables
 values          motion, profile, contacts and play as values and findings
+drive_torque    torque at the input for a table with inertia and friction
 drawing         outlines, poses and common normals of plate cams
 plate_views     scene, drawings and solids of drives with plate cams
 drivetrain      what yields: pins, bearings, split shafts, gears, wheel

@@ -30,13 +30,17 @@ _SAME_POINT = 1e-4  # a place nearer than this [m] to the envelope's own point i
 _LEAST_ARM = 1e-9  # an arm below this, relative to the pin circle, turns the wheel neither way
 
 
-class PinDrive(Protocol):
-    """A drive whose wheel carries pins."""
+class IndexingDrive(Protocol):
+    """A drive whose wheel moves in steps."""
 
     @property
     def motion(self) -> IndexMotion:
         """Motion of the wheel over the input angle."""
         ...
+
+
+class PinDrive(IndexingDrive, Protocol):
+    """A drive whose wheel carries pins."""
 
     @property
     def circle_radius(self) -> float:
@@ -316,7 +320,7 @@ def refuse_overlap(wheel: PlaneDrive) -> None:
         )
 
 
-def index_angles(drive: PinDrive, step: float = float(np.deg2rad(4.5))) -> Floats:
+def index_angles(drive: IndexingDrive, step: float = float(np.deg2rad(4.5))) -> Floats:
     """Input angles [rad] over the index period from its start to its end, in equal steps of about `step`."""
     return np.linspace(0.0, drive.motion.motion_angle, max(int(round(drive.motion.motion_angle / step)), 1) + 1)
 

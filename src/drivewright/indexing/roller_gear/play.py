@@ -8,6 +8,7 @@ from drivewright.indexing.roller_gear.envelope import rotate_about_y
 from drivewright.indexing.roller_gear.flanks import CamFlanks, find_trim_edges
 
 CLOSE = 1e-7  # rad; rounding of a touching point
+TOUCHING = 1e-12  # rad; a smaller rotation is rounding
 
 
 def find_turret_play(flanks: CamFlanks, direction: float, theta: ArrayLike | None = None) -> Floats:
@@ -30,7 +31,8 @@ def _free(cam: RollerGear, points: Floats, theta: float, direction: float) -> fl
     psi = cam.motion(theta).d0 + cam.pin_pitch * cam.phase
     ahead = direction * (np.arctan2(y, x) - psi) - reach
     free = np.mod(ahead + CLOSE, cam.pin_pitch) - CLOSE
-    return max(float(np.min(free[reached & (x > 0)], initial=np.inf)), 0.0)
+    least = float(np.min(free[reached & (x > 0)], initial=np.inf))
+    return least if least > TOUCHING else 0.0
 
 
 def _half_angle(cam: RollerGear, away: Floats, z: Floats) -> tuple[Floats, Bools]:

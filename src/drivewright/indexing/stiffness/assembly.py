@@ -41,9 +41,10 @@ class PaddedContacts(NamedTuple):
 
 
 class DrivetrainAssembly(NamedTuple):
-    """Linear parts, non-linear groups and basis (p, size, free); lever [m] scales rotations; load: torque/lever on the unknown OUT."""
+    """Linear parts, non-linear groups and basis (p, size, free) of `size` unknowns; lever [m] scales rotations; load: torque/lever on the
+    unknown OUT."""
 
-    layout: StiffnessLayout
+    size: int
     lever: float
     springs: tuple[LinearPart, ...]
     groups: tuple[NonlinearGroup, ...]
@@ -70,7 +71,7 @@ def assemble_drivetrain(drive: Drivetrain, cams: int, centres: Complexes, pins: 
     groups = [_pin_group(drive, layout, lever, centres, pins, bonded), _crank_group(drive, layout, lever, centres)]
     groups += list(_bearing_groups(drive, layout, lever, len(centres)))
     springs = tuple(unknowns.linear_parts(drive, layout))
-    return DrivetrainAssembly(layout, lever, springs, tuple(groups), _basis(layout, springs, groups, len(centres)))
+    return DrivetrainAssembly(layout.size, lever, springs, tuple(groups), free_basis(layout.size, springs, groups, len(centres)))
 
 
 def cam_phases(cams: int) -> Complexes:
@@ -162,10 +163,10 @@ def _flanks(gear: GearMesh, layout: StiffnessLayout, lever: float, side: int) ->
     return rows
 
 
-def _basis(layout: StiffnessLayout, springs: Sequence[LinearPart], groups: Sequence[NonlinearGroup], p: int) -> Floats:
+def free_basis(size: int, springs: Sequence[LinearPart], groups: Sequence[NonlinearGroup], p: int) -> Floats:
     """(p, size, free): all displacements that leave what is rigid alone."""
     constant = [spring.rows for spring in springs if spring.stiffness is None]
-    basis = _null_space(np.concatenate(constant)) if constant else np.eye(layout.size)
+    basis = _null_space(np.concatenate(constant)) if constant else np.eye(size)
     rigid = [flatten_rows(group.rows) for group in groups if group.law is None]
     if not rigid:
         return np.broadcast_to(basis, (p, *basis.shape))

@@ -69,16 +69,19 @@ class EquilibriumState(NamedTuple):
     steps: int
 
 
-def solve_equilibrium(assembly: DrivetrainAssembly, torque: float, touching: Bools, compiled: bool = False) -> EquilibriumState:
+def solve_equilibrium(
+    assembly: DrivetrainAssembly, torque: float, touching: Bools, compiled: bool = False, floor: float = 0.0
+) -> EquilibriumState:
     """The `EquilibriumState` under a torque; touching (p, k): pin contacts without a gap, which are taken as closed to start with.
 
-    compiled: by Newton's method in compiled code where all laws are, else by NumPy; it pays for many designs.
+    compiled: by Newton's method in compiled code where all laws are, else by NumPy; it pays for many designs.  floor [N]: as in
+    `ConvexEnergy`, for NumPy; where contacts are pressed in, their forces balance to rounding of their own size, not of the load's.
     """
     typical = abs(torque) / assembly.lever
     basis = _once(assembly.basis)
     linear = np.broadcast_to(basis.transpose(0, 2, 1) @ _linear(assembly) @ basis, (len(assembly.basis), *basis.shape[2:] * 2))
     parts = tuple(_term(group, group.law, assembly.basis) for group in assembly.groups if group.law is not None)
-    system = ConvexEnergy(linear, parts, load_vector(assembly, torque))
+    system = ConvexEnergy(linear, parts, load_vector(assembly, torque), floor)
     minimise = _minimiser(system) if compiled else minimise_energy
     stiff, start = _start(system, typical, touching)
     law = parts[0].law
@@ -119,7 +122,7 @@ def _product(rows: Floats) -> Floats:
 
 def _linear(assembly: DrivetrainAssembly) -> Floats:
     """(size, size): stiffness of all linear parts."""
-    size = assembly.layout.size
+    size = assembly.size
     return sum((s.rows.T @ s.stiffness @ s.rows for s in assembly.springs if s.stiffness is not None), np.zeros((size, size)))
 
 
@@ -188,7 +191,7 @@ def _group_part(group: NonlinearGroup, q: Floats, law: StrainLaw | None) -> _Par
 
 
 def _load(assembly: DrivetrainAssembly, torque: float) -> Floats:
-    load = np.zeros(assembly.layout.size)
+    load = np.zeros(assembly.size)
     load[OUT] = torque / assembly.lever
     return load
 

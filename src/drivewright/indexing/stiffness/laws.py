@@ -22,10 +22,10 @@ TINY = 1e-300
 class LineContact(NamedTuple):
     """A one-sided line contact F = line s^(10/9) with a compliance [m/N], F compliance, in series; line in [N/m^(10/9)].
 
-    An array of compliances, in the shape of the approaches, where contacts differ.
+    Arrays, in the shape of the approaches, where contacts differ.
     """
 
-    line: float
+    line: float | Floats
     compliance: float | Floats
 
 
@@ -143,6 +143,26 @@ class PinContactLaw(NamedTuple):
         if self.compliance is None:
             return 1.0 / pin_compliance(self.pin, force)
         return 1.0 / (pin_compliance(self.pin._replace(series=None), force) + float(np.median(self.compliance)))
+
+
+class ContactLinesLaw(NamedTuple):
+    """Line contacts of different lengths: line [N/m^(10/9)], of the shape of the strains, compliance [m/N] in series behind each.
+
+    bonded: as in `PinContactLaw`.
+    """
+
+    line: Floats
+    compliance: float
+    bonded: bool
+
+    def __call__(self, strain: Floats) -> Response:
+        found = contact_response(LineContact(self.line, self.compliance), np.abs(strain) if self.bonded else strain)
+        force = np.copysign(found.force, strain) if self.bonded else found.force
+        return found.energy[..., 0], force, found.tangent[..., None]
+
+    def secant(self, force: float) -> float:
+        """F/d [N/m] of a line of usual length."""
+        return 1.0 / ((force / float(np.median(self.line))) ** 0.9 / force + self.compliance)
 
 
 def pin_compliance(pin: PinContact, force: float) -> float:

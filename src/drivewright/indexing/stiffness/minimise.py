@@ -43,11 +43,12 @@ class ConvexTerm(NamedTuple):
 
 
 class ConvexEnergy(NamedTuple):
-    """linear (p, m, m) [N/m], non-linear parts, load (p, m) [N]."""
+    """linear (p, m, m) [N/m], non-linear parts, load (p, m) [N]; floor [N]: residual below which a position has settled in any case."""
 
     linear: Floats
     parts: tuple[ConvexTerm, ...]
     load: Floats
+    floor: float = 0.0
 
 
 class EnergyMinimum(NamedTuple):
@@ -85,7 +86,7 @@ def minimise_energy(system: ConvexEnergy, start: Floats, bound: float) -> Energy
         gradient, hessian = gradient_and_hessian(system, y)
         left = np.abs(gradient).max(axis=1)
         noise = ROUNDING * (np.abs(hessian) @ np.abs(y)[:, :, None])[:, :, 0].max(axis=1)
-        converged = left <= np.maximum(TOLERANCE * scale, noise)
+        converged = left <= np.maximum(np.maximum(TOLERANCE * scale, noise), system.floor)
         out_of_bounds = np.abs(y).max(axis=1) > bound
         if step == STEP_LIMIT or (converged | out_of_bounds).all():
             return EnergyMinimum(_polished(y, gradient, hessian, converged), hessian, converged, step)

@@ -112,7 +112,7 @@ def constants_of(law: StrainLaw) -> tuple[int, tuple[float, float, float]]:
     assert isinstance(law, PinContactLaw)
     one_sided = law.one_sided
     if isinstance(one_sided, LineContact):
-        return LINE, (one_sided.line, float(one_sided.compliance), float(law.bonded))
+        return LINE, (float(one_sided.line), float(one_sided.compliance), float(law.bonded))
     return SPRING, (one_sided.k, 0.0, float(law.bonded))
 
 

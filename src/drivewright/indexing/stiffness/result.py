@@ -1,7 +1,8 @@
 """The result of `solve_torsional_stiffness`, and how it is read off the equilibrium."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from drivewright.indexing.stiffness.layout import OUT
 
 COMPLIANCE_GROUPS = ("pin", "crank", "support", "housing", "bending", "torsion", "gear", "wheel")
 ROTATION_LIMIT = 0.1  # rad: beyond it the contacts are others than those given
+StiffnessT = TypeVar("StiffnessT", bound="WheelStiffness")
 CARRIED, FREE, RIGID, FAR, UNSETTLED = "carried", "free", "rigid", "far", "unsettled"
 REASONS = {
     CARRIED: "",
@@ -25,16 +27,12 @@ REASONS = {
 
 
 @dataclass(frozen=True, eq=False)
-class TorsionalStiffness:
+class WheelStiffness:
     """A wheel under `torque` [N m] with the input locked, at p positions; where `outcome` is not "carried" numbers are nan.
 
-    rotation [rad] of the output; secant = torque/rotation and tangent [N m/rad].  Forces [N] in the plane are complex:
-    pin_forces: one array (cams, k) a position, of the cam on the pins of its k `CamContacts` along their normals;
-    crank_forces (p, 2, cams): of the cams on the crank pins of either shaft; support_forces (p, 2, 2): of either shaft on its front and
-    rear support; gear_forces (p, 2): of the input gear on either split gear, gear_torques [N m] about its axis (without a gear a couple
-    holds the shaft); wheel_forces (p,): of the wheel on its bearing.
-    shares: compliance [rad/(N m)] of each of GROUPS (p,), sum of force times displacement over torque^2, which add up to 1/secant.
-    steps: of Newton's method.
+    rotation [rad] of the output; secant = torque/rotation and tangent [N m/rad]; pin_forces [N]: one array a position, of the cams on the
+    pins of its contacts; shares: compliance [rad/(N m)] of each group of parts (p,), sum of force times displacement over torque^2: they
+    add up to 1/secant; steps: of Newton's method.
     """
 
     theta: Floats
@@ -44,11 +42,6 @@ class TorsionalStiffness:
     rotation: Floats
     tangent: Floats
     pin_forces: tuple[Floats, ...]
-    crank_forces: Complexes
-    support_forces: Complexes
-    gear_forces: Complexes
-    gear_torques: Floats
-    wheel_forces: Complexes
     shares: dict[str, Floats]
     steps: int
 
@@ -68,6 +61,23 @@ class TorsionalStiffness:
         return tuple(REASONS[each] for each in self.outcome)
 
 
+@dataclass(frozen=True, eq=False)
+class TorsionalStiffness(WheelStiffness):
+    """The `WheelStiffness` of a wheel with cams on cranks, shares of each of COMPLIANCE_GROUPS.
+
+    Forces [N] in the plane are complex.  pin_forces: (cams, k) of the cam on the pins of its k `CamContacts` along their normals;
+    crank_forces (p, 2, cams): of the cams on the crank pins of either shaft; support_forces (p, 2, 2): of either shaft on its front and
+    rear support; gear_forces (p, 2): of the input gear on either split gear, gear_torques [N m] about its axis (without a gear a couple
+    holds the shaft); wheel_forces (p,): of the wheel on its bearing.
+    """
+
+    crank_forces: Complexes
+    support_forces: Complexes
+    gear_forces: Complexes
+    gear_torques: Floats
+    wheel_forces: Complexes
+
+
 def collect_result(
     drive: Drivetrain,
     theta: Floats,
@@ -77,42 +87,53 @@ def collect_result(
     assembly: DrivetrainAssembly,
     state: EquilibriumState,
     here: Ints,
+    cams: int,
 ) -> TorsionalStiffness:
     """The `TorsionalStiffness` at all positions from the state of those that may carry (`here`)."""
-    outcome = np.full(len(theta), FREE, dtype=object)
-    outcome[here] = np.where(state.converged, CARRIED, UNSETTLED)
-    outcome[here[~state.deforms]] = RIGID
     rotation = state.q[:, OUT] / assembly.lever
-    outcome[here[(np.abs(rotation) > ROTATION_LIMIT) | (np.abs(state.q).max(axis=1) > assembly.lever)]] = FAR
+    outcome = judge_outcomes(len(theta), here, state, rotation, assembly.lever)
     good = outcome == CARRIED
-
-    def spread(values):
-        whole = np.full((len(theta), *values.shape[1:]), np.nan, dtype=values.dtype)
-        whole[good] = values[good[here]]
-        return whole
-
-    cams = assembly.layout.cams
+    spread = spread_over(len(theta), good, here)
     gear_forces, gear_torques = _gears(drive.gear, state)
-    tangent = spread(1 / np.where(good[here], state.compliance, np.nan))
     return TorsionalStiffness(
         theta,
         torque,
         model,
         tuple(outcome),
         spread(rotation),
-        tangent,
+        spread(1 / np.where(good[here], state.compliance, np.nan)),
         _pin_forces(state, cams, kept, here, good),
+        {name: spread(share) for name, share in compliance_shares(state, torque).items()},
+        state.steps,
         spread(_vectors(state, "crank").reshape(len(here), 2, cams)),
         spread(_vectors(state, "support").reshape(len(here), 2, 2)),
         spread(gear_forces),
         spread(gear_torques),
         spread(_vectors(state, "wheel")[:, 0]),
-        {name: spread(share) for name, share in compliance_shares(state, torque).items()},
-        state.steps,
     )
 
 
-def take_up_play(first: TorsionalStiffness, after: TorsionalStiffness) -> TorsionalStiffness:
+def judge_outcomes(count: int, here: Ints, state: EquilibriumState, rotation: Floats, lever: float) -> Ints:
+    """(count,) outcomes from the state of the positions `here`, whose output has turned by `rotation` [rad]; all others are free."""
+    outcome = np.full(count, FREE, dtype=object)
+    outcome[here] = np.where(state.converged, CARRIED, UNSETTLED)
+    outcome[here[~state.deforms]] = RIGID
+    outcome[here[(np.abs(rotation) > ROTATION_LIMIT) | (np.abs(state.q).max(axis=1) > lever)]] = FAR
+    return outcome
+
+
+def spread_over(count: int, good: Bools, here: Ints) -> Callable[[Any], Any]:
+    """What spreads values of the positions `here` over all `count`, nan where a position is not `good` (count,)."""
+
+    def spread(values):
+        whole = np.full((count, *values.shape[1:]), np.nan, dtype=values.dtype)
+        whole[good] = values[good[here]]
+        return whole
+
+    return spread
+
+
+def take_up_play(first: StiffnessT, after: StiffnessT) -> StiffnessT:
     """`first`, with the positions where the wheel turns freely taken from `after`, the same drive with the wheel turned by its play.
 
     Rotations there count from the turned wheel, so that the play adds to them and the secant is that of the loaded drive alone.
@@ -122,12 +143,12 @@ def take_up_play(first: TorsionalStiffness, after: TorsionalStiffness) -> Torsio
     def chosen(a, b):
         return np.where(new.reshape(len(new), *[1] * (a.ndim - 1)), b, a)
 
-    arrays = ("rotation", "tangent", "crank_forces", "support_forces", "gear_forces", "gear_torques", "wheel_forces")
+    arrays = [each.name for each in fields(first) if isinstance(getattr(first, each.name), np.ndarray) and each.name != "theta"]
     return replace(
         first,
         outcome=tuple(np.where(new, after.outcome, first.outcome)),
         pin_forces=tuple(b if n else a for n, a, b in zip(new, first.pin_forces, after.pin_forces, strict=True)),
-        shares={name: chosen(first.shares[name], after.shares[name]) for name in COMPLIANCE_GROUPS},
+        shares={name: chosen(share, after.shares[name]) for name, share in first.shares.items()},
         steps=first.steps + after.steps,
         **{name: chosen(getattr(first, name), getattr(after, name)) for name in arrays},
     )

@@ -45,7 +45,7 @@ def solve_torsional_stiffness(
     centres = (eccentricity * np.exp(1j * sense * angles[here])).astype(np.complex128)
     assembly = assemble_drivetrain(drive, cams, centres, pins, bonded)
     state = solve_equilibrium(assembly, torque, np.tile(pins.gap < CONTACT_GAP, cams), compiled)
-    return collect_result(drive, angles, torque, model, kept, assembly, state, here)
+    return collect_result(drive, angles, torque, model, kept, assembly, state, here, cams)
 
 
 def _check(drive: Drivetrain, theta: Floats, contacts: Sequence[CamContacts], torque: float, cams: int, model: str) -> None:

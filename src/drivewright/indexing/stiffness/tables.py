@@ -7,7 +7,7 @@ import numpy as np
 from drivewright._typing import Complexes, Floats
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.pin_pressure import pin_pressure
-from drivewright.indexing.stiffness.result import TorsionalStiffness
+from drivewright.indexing.stiffness.result import TorsionalStiffness, WheelStiffness
 from drivewright.result import Column, Plot, Table
 
 GROUP_LABELS = {
@@ -19,14 +19,14 @@ GROUP_LABELS = {
     "torsion": "torsion of the shafts",
     "gear": "gears",
     "wheel": "wheel and its bearing",
+    "cam": "bearings of the cam's shaft",
+    "input": "input shaft",
 }
 NO_SHARE = 1e-9  # of the largest share of a compliance: rounding
 SHAFTS, ENDS = ("left", "right"), ("front", "rear")
 
 
-def stiffness_table(
-    angles: Floats, result: TorsionalStiffness, loaded: TorsionalStiffness, free: Floats, reverse: TorsionalStiffness
-) -> Table:
+def stiffness_table(angles: Floats, result: WheelStiffness, loaded: WheelStiffness, free: Floats, reverse: WheelStiffness) -> Table:
     """Secant, tangent and the share of every group in the compliance; after the play where the wheel turns freely first.
 
     angles (p,) [rad]; result: at the contacts without a gap; loaded: after the free rotation `free` (p,) [rad]; reverse: torque reversed.
@@ -36,7 +36,7 @@ def stiffness_table(
         Column("secant", "N m/rad", "torque over rotation of the wheel", result.secant),
         Column("tangent", "N m/rad", "change of torque over change of rotation", result.tangent),
     ]
-    columns += [Column(name, "rad/(N m)", words, result.shares[name]) for name, words in GROUP_LABELS.items()]
+    columns += [Column(name, "rad/(N m)", GROUP_LABELS[name], share) for name, share in result.shares.items()]
     columns += [
         Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
         Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
@@ -105,11 +105,15 @@ def stiffness_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     """The plots of `stiffness_table`, `pin_force_table` and `bearing_load_table`, of those that are among the tables of a result."""
     if "stiffness" in tables:
         yield Plot("stiffness", "Torsional stiffness", "stiffness", "angle", ("secant", "tangent", "secant_reversed"))
-        largest = {name: np.nanmax(np.abs(tables["stiffness"][name].data), initial=0.0) for name in GROUP_LABELS}
+        given = [column.name for column in tables["stiffness"].columns if column.name in GROUP_LABELS]
+        largest = {name: np.nanmax(np.abs(tables["stiffness"][name].data), initial=0.0) for name in given}
         groups = tuple(name for name, share in largest.items() if share > NO_SHARE * max(largest.values()))
         yield Plot("budget", "Who yields: compliance by parts", "stiffness", "angle", groups, style="bars")
     if "pin_forces" in tables:
         yield Plot("pin_forces", "Forces on the pins", "pin_forces", "angle", ("force", "pressure"), style="points")
+    if "shared_forces" in tables:
+        title = "Roller forces shared by stiffness"
+        yield Plot("shared_forces", title, "shared_forces", "angle", ("force", "pressure"), style="points")
     if "bearing_loads" in tables:
         names = [column.name for column in tables["bearing_loads"].columns[1:] if column.name[-2:] not in (".x", ".y")]
         for group in ("crank", "support"):

@@ -8,12 +8,12 @@ from drivewright import bearings
 from drivewright._typing import Complexes, Floats
 from drivewright.bearings import RollingBearing
 from drivewright.indexing.contacts import CamContacts
-from drivewright.indexing.stiffness.result import TorsionalStiffness
+from drivewright.indexing.stiffness.result import TorsionalStiffness, WheelStiffness
 from drivewright.indexing.stiffness.statics import crank_load_deviations, equivalent_load
 from drivewright.result import Table, Value
 
 
-def stiffness_values(angles: Floats, result: TorsionalStiffness) -> dict[str, Value]:
+def stiffness_values(angles: Floats, result: WheelStiffness) -> dict[str, Value]:
     """Part of the input angles (p,) [rad] where the torque is not carried; mean, extremes and range of the secant where it is."""
     carried = result.carried
     meaning = "part of the positions where no contact without a gap carries the torque"
@@ -31,7 +31,7 @@ def stiffness_values(angles: Floats, result: TorsionalStiffness) -> dict[str, Va
     }
 
 
-def dwell_values(angles: Floats, result: TorsionalStiffness, forces: Table) -> dict[str, Value]:
+def dwell_values(angles: Floats, result: WheelStiffness, forces: Table) -> dict[str, Value]:
     """The same in the dwell, where work is done on the table, with the largest force of a `pin_force_table`."""
     meaning = "part of the dwell where the torque is not held without play"
     values = {"dwell.undefined_fraction": Value(float(np.mean(~result.carried)), "-", meaning)}
@@ -45,7 +45,7 @@ def dwell_values(angles: Floats, result: TorsionalStiffness, forces: Table) -> d
     return values
 
 
-def stiffness_findings(angles: Floats, result: TorsionalStiffness, after_play: TorsionalStiffness) -> Iterator[str]:
+def stiffness_findings(angles: Floats, result: WheelStiffness, after_play: WheelStiffness) -> Iterator[str]:
     """Why there is no stiffness at some of the input angles (p,) [rad], and at how many of them there is one after the play."""
     lost, reasons = np.flatnonzero(~result.carried), result.reasons
     for reason in dict.fromkeys(reasons[k] for k in lost):

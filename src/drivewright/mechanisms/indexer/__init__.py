@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
-from drivewright.mechanisms.indexer import assembly, geometry, loads, roller, stiffness, stress, torsion
+from drivewright.mechanisms.indexer import assembly, drive, geometry, loads, roller, shared_load, stiffness, stress, torsion
 from drivewright.mechanisms.indexer.batch import batch
 from drivewright.mechanisms.indexer.build import IndexerModel, build
 from drivewright.mechanisms.indexer.claims import claims
@@ -22,8 +22,19 @@ def by_kind(plane: Question, spatial: Question) -> Question:
     return lambda model, done: (spatial if model.spec.kind in ("barrel", "globoidal") else plane)(model, done)
 
 
+def by_motion(translating: Question, turning: Question) -> Question:
+    """The analysis of the kinds whose cams translate on cranks, or of those whose cams turn."""
+    return lambda model, done: (translating if model.translating else turning)(model, done)
+
+
+def no_torque(spec: IndexerSpec) -> str | None:
+    """Why there is no stiffness."""
+    return None if spec.load.torque else "load.torque is not given"
+
+
 ANALYSES = (
     Analysis("motion", geometry.motion, "motion of the wheel over the input"),
+    Analysis("drive", drive.drive, "torque and power at the input for the table", missing=drive.no_drive),
     Analysis("profile", by_kind(geometry.profile, roller.surface), "trimmed profile, curvature, undercut"),
     Analysis(
         "contacts",
@@ -33,7 +44,7 @@ ANALYSES = (
     ),
     Analysis("play", by_kind(geometry.free_play, roller.free_play), "free rotation of the wheel in either direction", needs=("profile",)),
     Analysis("stress", stress.stress, "forces and contact pressure of the rollers", needs=("profile",), missing=stress.no_stress),
-    Analysis("stiffness", stiffness.torsional, "torsional stiffness and who yields", missing=stiffness.no_stiffness),
+    Analysis("stiffness", by_motion(stiffness.torsional, shared_load.torsional), "torsional stiffness and who yields", missing=no_torque),
     Analysis(
         "assembly",
         assembly.assembly,
@@ -63,6 +74,10 @@ HEADLINE = (
     "assembly.stiffness.mean",
     "assembly.stiffness.minimum",
     "assembly.stiffness.ratio",
+    "drive.peak_torque",
+    "drive.rms_torque",
+    "motor.peak_torque",
+    "motor.rms_torque",
     "pins.max_force",
     "crank.max_load",
     "support.max_load",

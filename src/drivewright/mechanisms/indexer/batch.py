@@ -15,7 +15,7 @@ from drivewright.indexing.batch import evaluate_designs, sampled
 from drivewright.indexing.batch.designs import DesignValues
 from drivewright.indexing.batch.pin_wheels import PinWheelValues
 from drivewright.indexing.motion import TURN, step_angle
-from drivewright.mechanisms.indexer import geometry, loads, stiffness
+from drivewright.mechanisms.indexer import drive, geometry, loads, stiffness
 from drivewright.mechanisms.indexer.build import IndexerModel, build, law_parameters, motion_to_dwell
 from drivewright.mechanisms.indexer.refusals import POINTS, TRANSLATING, law_name, refuse_contradictions, required
 from drivewright.mechanisms.indexer.spec import IndexerSpec
@@ -23,7 +23,7 @@ from drivewright.result import Answer, Check
 from drivewright.spec import value_at
 from drivewright.spec.designs import numbers_of, sample_of, with_columns, within_limits
 
-TABLES = ("motion", "load", "contact", "crank_bearings", "support_bearings", "shafts", "gear", "housing", "limits")
+TABLES = ("motion", "load", "table", "motor", "contact", "crank_bearings", "support_bearings", "shafts", "gear", "housing", "limits")
 RATIO = "motion.motion_to_dwell"
 LAW = {"motion.b": "b", "motion.c": "c", "motion.d": "d"}
 VALUES = {
@@ -164,6 +164,7 @@ MEASURES: tuple[Measure, ...] = (
     partial(_where, stiffness.no_stiffness, stiffness.dwell_stiffness),
     partial(_with, geometry.contact_map),
     partial(_with, geometry.motion),
+    partial(_where, drive.no_drive, partial(_with, drive.drive)),
     partial(_where, loads.no_loads, partial(_with, loads.bearing_loads)),
 )
 

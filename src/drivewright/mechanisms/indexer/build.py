@@ -59,6 +59,11 @@ class IndexerModel:
         return _of_kind(self.drive, RollerGear)
 
     @property
+    def roller_drive(self) -> ParallelIndexer | RollerGear:
+        """The drive of a kind whose cams turn."""
+        return _of_kind(self.drive, (ParallelIndexer, RollerGear))
+
+    @property
     def translating(self) -> bool:
         """Whether the cams translate on cranks."""
         return self.spec.kind in TRANSLATING
@@ -73,7 +78,7 @@ class IndexerModel:
         """Input angles [rad] of the tables: over the index period, or the one asked for."""
         if self.spec.load.angle is not None:
             return np.array([self.spec.load.angle])
-        return index_angles(self.plane, STEP)
+        return index_angles(self.drive, STEP)
 
     @property
     def torque(self) -> float:

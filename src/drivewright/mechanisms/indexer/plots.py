@@ -15,6 +15,8 @@ def plots(result: Result[Any]) -> tuple[Plot, ...]:
 
 def _all(result: Result[Any]) -> Iterator[Plot]:
     yield Plot("motion", "Motion of the wheel by the input angle", "motion", "angle", ("wheel", "rate", "bend", "third"))
+    yield Plot("drive_torque", "Torque on the table and at the input", "drive", "angle", ("table_torque", "input_torque"))
+    yield Plot("drive_power", "Power at the input", "drive", "angle", ("input_power",))
     for suffix, words in (("", ""), (".second", ", second cam")):
         if f"profile{suffix}" in result.tables and "z" not in [column.name for column in result.tables["profile"].columns]:
             yield Plot(f"profile{suffix}", f"Trimmed profile of the cam{words}", f"profile{suffix}", "x", ("y",), equal=True)

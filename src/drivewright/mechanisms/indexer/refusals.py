@@ -54,10 +54,14 @@ def unused(spec: IndexerSpec) -> Iterator[str]:
     if given:
         yield f"kind {spec.kind!r} does not use {', '.join(given)}"
     limits, load = spec.limits, spec.load
+    if spec.kind in TRANSLATING and load.torque and spec.gear is None and any(getattr(spec, key) for key in YIELDING):
+        yield "[gear] is not given: the split shafts are held where their gears would sit, without deflection or backlash of gears"
+    if spec.motor is not None and spec.table is None:
+        yield "[motor] is not used: without [table] there is no torque at the input"
     if limits.life and not load.speed:
         yield "limits.life is not checked: load.speed is not given"
-    if limits.stiffness and spec.kind not in TRANSLATING:
-        yield f"limits.stiffness is not checked: kind {spec.kind!r} has no model of stiffness"
+    if limits.stiffness and load.torque is None:
+        yield "limits.stiffness is not checked: load.torque is not given"
     if limits.contact_pressure and load.torque is None:
         yield "limits.contact_pressure is not checked: load.torque is not given"
     if load.angle is not None:
@@ -138,10 +142,13 @@ def _pins(spec: IndexerSpec) -> None:
 
 def _drive(spec: IndexerSpec) -> None:
     given = [key for key in YIELDING if getattr(spec, key) is not None]
+    _housing(spec)
+    if spec.kind not in TRANSLATING:
+        given = [key for key in given if key != "housing"]
+        if given:
+            raise SpecError(f"kind {spec.kind!r} has no split shafts; [{given[0]}] is for pin-wheel and cycloid", given[0])
     if not given:
         return
-    if spec.kind not in TRANSLATING:
-        raise SpecError(f"kind {spec.kind!r} has no split shafts; [{given[0]}] is for pin-wheel and cycloid", given[0])
     on_shafts = [key for key in given if key != "housing"]
     spacing = spec.shaft_spacing
     if on_shafts and spacing is None:
@@ -152,6 +159,26 @@ def _drive(spec: IndexerSpec) -> None:
             f"{1e3 * spacing:.4g} mm apart; module times teeth is half of that",
             "gear.teeth",
         )
+
+
+def _housing(spec: IndexerSpec) -> None:
+    """SpecError for parts and contacts that only the other kinds have."""
+    housing, translating = spec.housing, spec.kind in TRANSLATING
+    if housing and not translating and housing.support_stiffness is not None:
+        raise SpecError(
+            f"kind {spec.kind!r} has no split shafts; take cam_stiffness for the bearings of its cam", "housing.support_stiffness"
+        )
+    for key in ("cam_stiffness", "input_torsion"):
+        if housing and translating and getattr(housing, key) is not None:
+            raise SpecError(
+                f"is for parallel, barrel and globoidal; the cams of kind {spec.kind!r} yield by [crank_bearings], [shafts], "
+                "[support_bearings] and [gear]",
+                f"housing.{key}",
+            )
+    if spec.contact.interference and translating:
+        raise SpecError(f"is for parallel, barrel and globoidal; the cams of kind {spec.kind!r} are not set", "contact.interference")
+    if spec.contact.interference and spec.contact.model == "bonded":
+        raise SpecError('contacts that stick need none; leave it out, or take contact.model = "unilateral"', "contact.interference")
 
 
 def _bearings(spec: IndexerSpec) -> None:

@@ -9,7 +9,7 @@ from drivewright.errors import SpecError, UnknownName
 from drivewright.indexing.motion import NO_DWELL, TURN
 from drivewright.spec import DataFile, Integer, Machining, MechanismSpec, Number, Spec, Text
 from drivewright.spec.fields import Designation, Field
-from drivewright.units import Angle, Force, Length, Pressure, RotationalStiffness, Speed, Stiffness, Time, Torque
+from drivewright.units import Angle, Force, Inertia, Length, Pressure, RotationalStiffness, Speed, Stiffness, Time, Torque
 
 Diameter = Annotated[Length, Field(gt=0)]
 
@@ -50,6 +50,26 @@ class IndexerLoad(Spec):
     speed: Speed | None = Field(None, gt=0, description="speed of the input, for velocities and lives in hours", examples=["120 rpm"])
 
 
+class IndexerTable(Spec):
+    """The dial table on the wheel and what turns with it; with load.speed it tells the torque at the input."""
+
+    inertia: Inertia = Field(ge=0, description="moment of inertia about the wheel's axis of all that turns with it", examples=["2 kg m^2"])
+    friction_torque: Torque = Field("0 N m", ge=0, description="friction of table and wheel, against their motion", examples=["20 N m"])
+    process_torque: Torque = Field(
+        "0 N m", description="steady torque on the table against the index direction, besides friction; load.torque is not counted here"
+    )
+
+
+class IndexerMotor(Spec):
+    """The motor at the input; without it the torque is told at the input. The gears of [gear] are alike and change no torque."""
+
+    ratio: Number = Field(1.0, gt=0, description="speed of the motor over that of the input", examples=[20.0])
+    efficiency: Number = Field(1.0, gt=0, le=1, description="of all between table and motor: rollers, gears, reducer", examples=[0.85])
+    inertia: Inertia | None = Field(None, gt=0, description="moment of inertia of the motor, to compare", examples=["5 kg cm^2"])
+    rated_torque: Torque | None = Field(None, gt=0, description="torque that it delivers for any time", examples=["4 N m"])
+    maximum_torque: Torque | None = Field(None, gt=0, description="torque that it delivers for a short time", examples=["12 N m"])
+
+
 class IndexerContact(Spec):
     """Pins or rollers on the cams."""
 
@@ -58,6 +78,9 @@ class IndexerContact(Spec):
     )
     pin_stiffness: Stiffness | None = Field(
         None, gt=0, description="of a pin in its seats, behind the contact; rigid unless given", examples=["5e8 N/m"]
+    )
+    interference: Length = Field(
+        "0 mm", ge=0, description="by which rollers and cams are pressed together in assembly; parallel, barrel and globoidal"
     )
     material: Text = Field("100Cr6", description=f"of pins and cams, for the contact pressure: {', '.join(materials.names())}")
 
@@ -107,7 +130,7 @@ class IndexerGear(Spec):
 
 
 class IndexerHousing(Spec):
-    """What holds the supports and the wheel."""
+    """What holds supports, wheel and cam."""
 
     support_stiffness: Stiffness | None = Field(
         None, gt=0, description="of a seat of a support bearing; rigid unless given", examples=["5e8 N/m"]
@@ -117,6 +140,15 @@ class IndexerHousing(Spec):
     )
     wheel_torsion: RotationalStiffness | None = Field(
         None, gt=0, description="of the wheel between pins and output; rigid unless given", examples=["1e7 N m/rad"]
+    )
+    cam_stiffness: Stiffness | None = Field(
+        None,
+        gt=0,
+        description="of the bearings of the cam's shaft, in all directions; parallel, barrel, globoidal; rigid unless given",
+        examples=["5e8 N/m"],
+    )
+    input_torsion: RotationalStiffness | None = Field(
+        None, gt=0, description="of the shaft from the locked input to the cam; parallel, barrel, globoidal; rigid unless given"
     )
 
 
@@ -176,11 +208,13 @@ class IndexerSpec(MechanismSpec):
     catalogue: DataFile | None = Field(None, description="a catalogue of rolling bearings of your own (TOML), beside ours")
     motion: IndexerMotion = Field(IndexerMotion(), description="motion of the wheel")
     load: IndexerLoad = Field(IndexerLoad(), description="load")
+    table: IndexerTable | None = Field(None, description="dial table, for the torque at the input")
+    motor: IndexerMotor | None = Field(None, description="motor at the input")
     contact: IndexerContact = Field(IndexerContact(), description="contact of pins and cams")
     crank_bearings: IndexerBearings | None = Field(None, description="between cams and crank pins; rigid unless given")
     support_bearings: IndexerBearings | None = Field(None, description="of the split shafts; rigid unless given")
     shafts: IndexerShafts | None = Field(None, description="split shafts; rigid unless given")
-    gear: IndexerGear | None = Field(None, description="gears; rigid unless given")
+    gear: IndexerGear | None = Field(None, description="gears; without it no deflection and no backlash of gears")
     housing: IndexerHousing | None = Field(None, description="housing and wheel; rigid unless given")
     bodies: Literal["rigid", "elastic"] = Field(
         "rigid",

@@ -16,7 +16,7 @@ from drivewright.result import Answer, Answers, Check, Value
 def no_stiffness(spec: IndexerSpec) -> str | None:
     """Why there is none."""
     if spec.kind not in TRANSLATING:
-        return f"kind {spec.kind!r} has no model of stiffness"
+        return f"kind {spec.kind!r} has no cams on cranks"
     return None if spec.load.torque else "load.torque is not given"
 
 

@@ -1,4 +1,4 @@
-"""Forces and contact pressure of the kinds without a model of stiffness, by statics of rigid parts; the check of the pressure."""
+"""Forces and contact pressure of the kinds whose cams turn, by statics of rigid parts; the check of the pressure."""
 
 from collections.abc import Iterator, Mapping
 
