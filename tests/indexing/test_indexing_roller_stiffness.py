@@ -276,6 +276,8 @@ def test_force_has_its_lever_about_the_wheel_and_its_power_at_the_cam(cam):
         wanted = here.arm * float(cam.motion(angles[number]).d1)
         np.testing.assert_allclose(flanks.integrate_along_lines(about_cam)[own] / length[own], wanted, rtol=1e-9, atol=1e-12)
         np.testing.assert_allclose(here.length, length[own], rtol=1e-12)
+        mean = -np.stack([flanks.integrate_along_lines(outwards[..., axis])[own] for axis in range(3)], axis=1)
+        np.testing.assert_allclose(here.normal, mean / np.linalg.norm(mean, axis=1, keepdims=True), atol=1e-12)
         assert np.all(np.sign(here.arm) == 1 - 2 * flank)
 
 
@@ -288,9 +290,20 @@ def test_roller_contacts_of_plate_cams_have_the_moment_at_the_cam():
         force = here.normal[:, 0] + 1j * here.normal[:, 1]
         about_cam = np.imag(np.conj(centre - loaded.drive.centre_distance) * force)
         touching = here.gap < 1e-9
+        np.testing.assert_allclose(np.imag(np.conj(centre) * force), here.arm, atol=1e-12)
         wanted = -here.arm * float(loaded.drive.motion(angle).d1)
         np.testing.assert_allclose(about_cam[touching], wanted[touching], atol=1e-9)
         assert here.curvature[touching].min() > 0
+
+
+def test_curvature_of_the_dwell_arc_adds_to_that_of_the_roller():
+    """A roller rests on the dwell arc about the cam's axis: 1/r + 1/(distance - r)."""
+    loaded = LOADED["parallel"]
+    here, level = roller_contacts(loaded, np.array([5.0]))[0], loaded.drive.levels[0]
+    centre = level.pin_centres(5.0).d0
+    resting = (here.gap < 1e-9) & (here.cam == 0)
+    distance = np.abs(centre[here.roller[resting]] - loaded.drive.centre_distance)
+    np.testing.assert_allclose(here.curvature[resting], 1 / 8e-3 + 1 / (distance - 8e-3), rtol=1e-9)
 
 
 # -- where nothing holds, and errors ------------------------------------------------------------------------------------------------

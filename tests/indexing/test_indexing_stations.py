@@ -7,15 +7,17 @@ import pytest
 
 from drivewright.errors import InputError
 from drivewright.indexing.drawing import pin_centre_curves
+from drivewright.indexing.drivetrain import Drivetrain, PowerLawBearing
 from drivewright.indexing.motion import TURN, index_motion
 from drivewright.indexing.parallel import ParallelIndexer
 from drivewright.indexing.pin_wheel import PinWheel
-from drivewright.indexing.plane import find_contacts
+from drivewright.indexing.plane import contacts_at, find_contacts
 from drivewright.indexing.play import BACKWARD, FORWARD, find_play
 from drivewright.indexing.roller_gear import barrel, cam_part, compute_flanks, develop_surface, find_turret_play, globoidal, turret_part
 from drivewright.indexing.roller_gear.envelope import rotate_about_y
 from drivewright.indexing.roller_gear.solid import groove_walls
 from drivewright.indexing.roller_gear.views import developed_roller_centres
+from drivewright.indexing.stiffness import solve_torsional_stiffness
 
 pytestmark = pytest.mark.property
 
@@ -181,6 +183,21 @@ def test_pin_centres_run_along_one_closed_curve_for_each_pin_of_a_step():
         steps = np.abs(np.diff(np.append(curve, curve[:1], axis=0), axis=0)).max()
         assert steps < 0.02  # no jump across the wheel
     assert len(pin_centre_curves(wheel(6, 6))) == 1
+
+
+@pytest.mark.analytical
+@pytest.mark.parametrize("stations", [12, 6, 4])
+def test_only_the_crank_bearings_yield(stations):
+    """The closed form of bonded pins, K = 2 rp^2/[1/(2k) + 2 (rp - e)^2/(k l^2)], with rp = e/phi' of the longer step."""
+    drive, angles, k, spacing = wheel(12, stations), np.radians([30.0, 60.0, 85.0, 130.0]), 4.5e7, 0.11
+    found = solve_torsional_stiffness(
+        Drivetrain(spacing, crank=PowerLawBearing(k)), angles, contacts_at(drive, angles), 0.01, 500.0, model="bonded"
+    )
+    reach = 0.01 / drive.motion(angles).d1
+    held = found.carried
+    assert held.sum() >= 2
+    wanted = 2 * reach**2 / (1 / (2 * k) + 2 * (reach - 0.01) ** 2 / (k * spacing**2))
+    np.testing.assert_allclose(found.secant[held], wanted[held], rtol=1e-9)
 
 
 # -- where the pins stand -----------------------------------------------------------------------------------------------------------

@@ -28,6 +28,7 @@ pytestmark = pytest.mark.property
 MOTION = index_motion("modified-sine", 12, 2.0)
 HOURGLASS = globoidal(MOTION, 0.08, 0.012, 0.016, 0.125, 0.06, hand="left")
 DRUM = barrel(MOTION, 0.09, 0.012, 0.016, 0.05, 0.075)
+TWO_STARTS = globoidal(index_motion("modified-sine", 4, 2.0), 0.08, 0.013, 0.018, 0.15, 0.08, pins=8)  # two rollers a step
 BOTH = pytest.mark.parametrize("cam", [HOURGLASS, DRUM], ids=["globoidal", "barrel"])
 BORE = 0.03
 
@@ -43,7 +44,11 @@ def volume_by_sections(cam, count=24):
 
 
 @pytest.mark.needs_fe
-@pytest.mark.parametrize("cam", [pytest.param(HOURGLASS, marks=pytest.mark.slow), DRUM], ids=["globoidal", "barrel"])
+@pytest.mark.parametrize(
+    "cam",
+    [pytest.param(HOURGLASS, marks=pytest.mark.slow), DRUM, pytest.param(TWO_STARTS, marks=pytest.mark.slow)],
+    ids=["globoidal", "barrel", "two starts"],
+)
 def test_the_solid_of_the_cam(cam, tmp_path):
     """One solid; its volume is that of the sections; the exact flanks lie on its faces at the place of the cam in the drive."""
     from netgen.occ import OCCGeometry, Pnt, Vertex

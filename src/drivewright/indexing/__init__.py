@@ -33,7 +33,9 @@ _WHERE = {
     "parallel": ("ParallelIndexer",),
     "play": ("find_play",),
     "drivetrain": ("Drivetrain", "GearMesh", "PinContact", "PowerLawBearing", "SplitShaft", "pin_contact", "power_law_bearing"),
-    "stiffness": ("TorsionalStiffness", "solve_torsional_stiffness"),
+    "stiffness": ("TorsionalStiffness", "WheelStiffness", "solve_torsional_stiffness"),
+    "stiffness.roller_drive": ("RollerDrive",),
+    "stiffness.roller_loading": ("LoadedRollers", "solve_rollers"),
     "batch": ("evaluate_pin_wheels",),
 }
 _MODULE = {name: module for module, names in _WHERE.items() for name in names}

@@ -59,6 +59,17 @@ def test_dwell_of_a_parallel_drive_holds_by_one_roller():
 
 
 @pytest.mark.property
+@pytest.mark.parametrize("torque", ["100 N m", "-100 N m"])
+def test_one_roller_alone_has_force_and_pressure_of_statics(torque):
+    """In the dwell of a parallel drive a roller of either level carries all of the torque, by number and by pressure the same."""
+    both = run("parallel", f"load.torque={torque}", "load.angle=200 deg", only=("stiffness", "stress"))
+    statics, shared = both.tables["pin_forces"], both.tables["shared_forces"]
+    for name in ("pin", "force", "arm", "pressure"):
+        np.testing.assert_allclose(shared[name].data, statics[name].data, rtol=1e-9, err_msg=name)
+    assert (statics["pin"].data[0] >= 8) == (torque == "100 N m")
+
+
+@pytest.mark.property
 def test_interference_stiffens():
     kind = "globoidal"
     assert run(kind, *LOAD, "contact.interference=5 um")["stiffness.mean"] > 1.8 * run(kind, *LOAD)["stiffness.mean"]

@@ -73,7 +73,8 @@ def test_scene_and_solids_have_all_pins_and_turn_by_a_station(name):
 @pytest.mark.parametrize("name", ["default", "parallel", "globoidal", "barrel"])
 def test_independent_check_agrees(name):
     """Profile by polygons of all centre curves, normals through the pole, flanks against all rollers."""
-    spec = load(name, *SMALL[name], f"stations={load(name).pins // 2}", "load.torque=")
+    torque = "load.torque=" if name == "default" else "load.torque=80 N m"  # solids take long
+    spec = load(name, *SMALL[name], f"stations={load(name).pins // 2}", torque)
     rows = dw.verify(spec)
     assert len(rows) >= 2
     for row in rows:

@@ -3,7 +3,7 @@
 Rows are tuples (name, ours, other, unit, allowed difference, route) in SI.
 """
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -15,7 +15,11 @@ from drivewright.indexing.plane import PlaneDrive, find_contacts, pitch_point
 from drivewright.indexing.roller_gear import RollerGear
 from drivewright.indexing.roller_gear.envelope import rotate_about_y
 from drivewright.indexing.stiffness.loading import solve_loaded
+from drivewright.indexing.stiffness.roller_contacts import RollerContacts
+from drivewright.indexing.stiffness.roller_drive import RollerDrive
+from drivewright.indexing.stiffness.roller_loading import solve_rollers
 from drivewright.mechanisms.indexer.build import IndexerModel
+from drivewright.mechanisms.indexer.shared_load import loaded_rollers
 from drivewright.registry import Row
 from drivewright.result import Result
 
@@ -23,8 +27,10 @@ POLYGON = "centre curve widened by the pin, as a polygon"
 SWEPT = "distance of points of the flanks from the axes of all rollers at 2880 input angles"
 TANGENT = "unit normals through the instant centre"
 SOLID = "cams, shafts and wheel as solids of second-order elements"
+BALANCE = "turn at which the forces of all contacts balance the torque, by bisection; shafts and bearings rigid"
 CHORDS = 1200  # of the centre curve, in a turn
 ANGLES = (0.25, 0.5, 0.75)  # of the index period
+HALVINGS, LARGEST_TURN = 60, 0.1  # of the bisection, rad
 ALLOWED = 0.3  # the solids yield more than beams and rigid cams; beyond this the reduced model is not good enough
 
 
@@ -38,6 +44,8 @@ def verify(model: IndexerModel, result: Result[Any]) -> Iterator[Row]:
             yield from _normals(level, model.angles)
     if model.translating and model.spec.load.torque and result.values["stiffness.undefined_fraction"].value < 1:
         yield from _solids(model)
+    elif not model.translating and model.spec.load.torque:
+        yield from _balances(model)
 
 
 def _profile(drive: PlaneDrive, suffix: str) -> Iterator[Row]:
@@ -89,6 +97,44 @@ def _flanks(cam: RollerGear, count: int = 200) -> Iterator[Row]:
         least = np.fmin(least, np.where(np.abs(u) <= 0.5 * cam.roller_length * (1 + 1e-9), gap, np.inf).min(axis=0))
     yield "least gap between flanks and rollers", 0.0, float(least.min()), "m", 2e-7, SWEPT
     yield "greatest of the least gaps of a point", 0.0, float(least.max()), "m", 2e-6, SWEPT
+
+
+def _balances(model: IndexerModel) -> Iterator[Row]:
+    """Torsional stiffness of the contacts alone, without interference, at three angles."""
+    loaded = loaded_rollers(model)
+    yields = RollerDrive(loaded.yields.radius, loaded.yields.series)
+    angles = model.angles if len(model.angles) == 1 else model.drive.motion.motion_angle * np.array(ANGLES)
+    found, contacts = solve_rollers(loaded._replace(yields=yields, model="unilateral"), angles, model.torque)
+    for angle, here, secant in zip(angles, contacts, found.secant, strict=True):
+        if np.isfinite(secant):
+            other = model.torque / _balanced_turn(here, model.torque, yields.series)
+            name = f"stiffness of the contacts at {np.degrees(angle):.4g} deg"
+            yield name, float(secant), other, "N m/rad", 1e-6 * float(secant), BALANCE
+
+
+def _balanced_turn(contacts: RollerContacts, torque: float, series: float | None) -> float:
+    """Rotation [rad] of the wheel; the line contact is Palmgren's, F = 8.06e10 L^(8/9) d^(10/9) in SI."""
+    line, softness = 8.06e10 * contacts.length ** (8 / 9), 0.0 if series is None else 1 / series
+
+    def force(approach: float, k: int) -> float:
+        most = line[k] * max(approach, 0.0) ** (10 / 9)
+        return most if not softness else _bisected(lambda pull: (pull / line[k]) ** 0.9 + pull * softness - approach, 0.0, most)
+
+    way = float(np.sign(torque))
+
+    def excess(turn: float) -> float:
+        pressed = -contacts.arm * turn * way - contacts.gap
+        return -way * sum(float(arm) * force(float(depth), k) for k, (arm, depth) in enumerate(zip(contacts.arm, pressed, strict=True)))
+
+    return way * _bisected(lambda turn: excess(turn) - abs(torque), 0.0, LARGEST_TURN)
+
+
+def _bisected(rising: Callable[[float], float], low: float, high: float) -> float:
+    """Where a rising function is 0, to the last digits."""
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if rising(middle) < 0 else (low, middle)
+    return 0.5 * (low + high)
 
 
 def _solids(model: IndexerModel) -> Iterator[Row]:
