@@ -138,7 +138,7 @@ def _refuse_rows(rows):
     if rows.angle[0] != 0:
         raise InputError(
             f"{rows.what}, {rows.places[0]}: the angle starts at {math.degrees(rows.angle[0]):.9g} deg; "
-            "it is counted from the start of the segment, so start at 0."
+            f"it is counted from the start of the segment, so start at 0: take {math.degrees(rows.angle[0]):.9g} deg off every angle."
         )
 
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 from drivewright.errors import SpecError, brief
 
 NUMBER = re.compile(r"[+-]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eEdD][+-]?[0-9]{1,4})?")
+PLAIN = re.compile(r"\s*[+-]?[0-9]{1,40}(?:[.][0-9]*)?(?:[eE][+-]?[0-9]{1,2})?\s*")  # how almost all of them look
 THOUSANDS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:,[0-9]{3})+")
 BLANKS = str.maketrans({"\u2212": "-", "\u00a0": "", "\u202f": "", "\u2009": ""})
 
@@ -84,6 +85,8 @@ def last_digit(texts: Sequence[str]) -> float:
 
 
 def _step(text):
+    if text.isdecimal():
+        return 1.0
     digits, _, power = re.sub("[dD]", "e", _clean(text).lower()).partition("e")
     _, _, behind = digits.replace(",", ".").partition(".")
     return 10.0 ** ((int(power) if power else 0) - len(behind))

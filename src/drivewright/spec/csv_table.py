@@ -22,7 +22,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.errors import SpecError, brief
 from drivewright.spec.csv_headings import PURE, TEXT, CsvColumn, Wanted, find_columns, has_column, no_column, says_units, unit_in_brackets
-from drivewright.spec.csv_numbers import NUMBER, Cell, decimal_sign, last_digit, number
+from drivewright.spec.csv_numbers import NUMBER, PLAIN, Cell, decimal_sign, last_digit, number
 from drivewright.spec.csv_text import read_data_file
 
 COMMENT = ("#", "%", "//")
@@ -56,25 +56,37 @@ class CsvTable:
         """Number of the line of each row."""
         return [row.line for row in self.rows]
 
-    def cells(self, name: str) -> list[Cell]:
+    def texts(self, name: str) -> list[str]:
         """The cells of a column; "" where a row is too short."""
         place = self.columns[name].place
-        return [Cell(row.cells[place] if place < len(row.cells) else "", row.line, name) for row in self.rows]
+        return [row.cells[place] if place < len(row.cells) else "" for row in self.rows]
+
+    def cells(self, name: str) -> list[Cell]:
+        """The same with the number of the line."""
+        return [Cell(text, line, name) for text, line in zip(self.texts(name), self.lines, strict=True)]
 
     @cached_property
     def decimal(self) -> str:
         """The decimal sign of the file, by all its numbers that are read."""
         numeric = [name for name, column in self.columns.items() if column.dimension != TEXT]
+        if not any("," in text for name in numeric for text in self.texts(name)):
+            return "."
         cells = [cell for name in numeric for cell in self.cells(name)]
         return decimal_sign([cell for cell in cells if re.search("[0-9]", cell.text)], self.file)
 
     def numbers(self, name: str) -> Floats:
         """The numbers of a column in SI (rows,)."""
-        return np.array([number(cell, self.decimal, self.file) for cell in self.cells(name)]) * self.columns[name].factor
+        texts, lines, sign = self.texts(name), self.lines, self.decimal
+        plain = [text.replace(",", ".") for text in texts] if sign == "," else texts
+        found = [
+            float(usual) if PLAIN.fullmatch(usual) else number(Cell(text, line, name), sign, self.file)
+            for usual, text, line in zip(plain, texts, lines, strict=True)
+        ]
+        return np.array(found) * self.columns[name].factor
 
     def last_digit(self, name: str) -> float:
         """The step [SI] of the last digit that a column was printed to."""
-        return last_digit([cell.text for cell in self.cells(name)]) * self.columns[name].factor
+        return last_digit(self.texts(name)) * self.columns[name].factor
 
 
 def read_csv(file: str | Path, wanted: Sequence[Wanted], needed: Sequence[Sequence[str]]) -> CsvTable:
@@ -179,6 +191,8 @@ def _refuse_longer(header, rows, separator, columns, file):
     """Rows with more cells than headings: a comma that is a decimal sign, or a text without quotes."""
     width = len(header.cells)
     for row in rows:
+        if len(row.cells) == width or separator != " " and len(row.cells) < width:
+            continue
         used = len(row.cells) if separator == " " else max((n + 1 for n, cell in enumerate(row.cells) if cell.strip()), default=0)
         if used > width or separator == " " and used != width:
             between = NAMES.get(separator, repr(separator))

@@ -1,13 +1,15 @@
 """Surge, jump and oil film in the results of a cam."""
 
+import re
+
 import numpy as np
 import pytest
-from places import EXAMPLES
+from places import EXAMPLES, ROOT
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
 import drivewright as dw
-from drivewright import cams
+from drivewright import cams, units
 from drivewright.cams import PeriodicSurge, lift_harmonics
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.spec import CamSpec
@@ -217,3 +219,15 @@ def test_surge_goes_through_the_ratio_of_the_rocker():
     assert at_preload.cycle.minimum(at_preload.required).value == pytest.approx(0, abs=1e-6)
     at_jump = build(given.replace({"drive.speed": f"{found['spring.jump_speed']!r} rad/s"}))
     assert at_jump.cycle.minimum(at_jump.required).value == pytest.approx(0, abs=1e-3)
+
+
+@pytest.mark.golden
+def test_the_page_shows_the_numbers_of_the_example(example):
+    """Every row of its table of values: within a unit of the last printed digit."""
+    text = (ROOT / "docs" / "valve_train.md").read_text(encoding="utf-8")
+    rows = re.findall(r"\| `([\w.]+)` \| (-?[\d.]+)(?: ([\w/^]+))? \|", text)
+    assert len(rows) == 18
+    for key, number, unit in rows:
+        factor = units.exact_factor(unit) if unit else 1
+        digits = len(number.partition(".")[2])
+        assert example[key] / float(factor) == pytest.approx(float(number), abs=1.01 * 10.0**-digits), key
