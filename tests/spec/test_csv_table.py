@@ -44,6 +44,7 @@ FILES = {
     "units behind a comma, quoted": '"angle, deg";"lift, mm"\n' + body(";"),
     "capitals": "ANGLE [DEG],LIFT [MM]\n" + body(","),
     "line feeds of Windows": ("angle [deg],lift [mm]\n" + body(",")).replace("\n", "\r\n"),
+    "another angle beside the cam's": "pressure angle [deg],cam angle [deg],valve lift [mm]\n" + "".join(f"9,{a},{s}\n" for a, s in ROWS),
     "line feed in a heading": '"angle\n[deg]","lift\n[mm]"\n' + body(","),
     "other columns and empty cells": "no.;lift [mm];note;angle [deg]\n" + "".join(f'7;{s};"a; b";{a};;\n' for a, s in ROWS),
     "minus sign and exponents": "angle [deg],lift [mm]\n"
@@ -89,7 +90,7 @@ REFUSED = {
     "no unit": ("angle,lift\n" + body(","), ("column 'angle': has no unit; write 'angle [deg]'",)),
     "degree or gon": ("Winkel [Grad];Hub [mm]\n" + body(";"), ("column 'angle'", "'Grad' may mean degrees or gons", "write 'deg'")),
     "megametres": ("angle [deg];lift [Mm]\n" + body(";"), ("column 'lift'", "'Mm' may mean megametres")),
-    "two angles": ("cam angle [deg],shaft angle [deg],lift [mm]\n0,0,0\n", ("line 1", "may both be the angle", "rename", "'angle [deg]'")),
+    "two angles": ("wheel angle [deg],shaft angle [deg],lift [mm]\n0,0,0\n", ("line 1", "may both be the angle", "rename")),
     "twice": ("angle [deg],angle [rad],lift [mm]\n0,0,0\n", ("line 1: column 'angle' is there twice",)),
     "crank": ("crank angle [deg],lift [mm]\n" + body(","), ("'crank angle [deg]' is no cam angle", "half as far")),
     "unit in a cell": (

@@ -20,6 +20,12 @@ from drivewright.spec.csv_headings import Wanted
 from drivewright.spec.csv_table import read_csv
 from drivewright.spec.length_or_angle import AngleGiven
 
+LEAST_SMOOTHED = 7  # rows
+ANGLES = ("cam angle", "camshaft angle", "theta", "phi", "rotation", "cam", "winkel", "nockenwinkel", "drehwinkel")
+LIFTS = ("displacement", "rise", "stroke", "travel", "position", "swing", "hub", "s", "y")
+ANGLE = Wanted("angle", {"angle": "deg"}, ANGLES)
+LIFT = Wanted("lift", {"length": "mm", "angle": "deg"}, LIFTS)
+
 
 @dataclass(frozen=True, eq=False)
 class TableLaw(MotionLaw):
@@ -103,11 +109,6 @@ def _smoothed(law, band, degree, ends, what):
     at = [rms_jerk(function) for function in (smooth, law.function)]
     found = Smoothing(band, float(np.max(np.abs(spline(u) - lift))), at[0] / at[1] if at[1] else 1.0, len(u))
     return replace(law, function=smooth, smoothing=found)
-
-
-LEAST_SMOOTHED = 7  # rows
-ANGLE = Wanted("angle", {"angle": "deg"}, ("theta", "phi", "rotation", "cam", "winkel", "nockenwinkel", "drehwinkel"))
-LIFT = Wanted("lift", {"length": "mm", "angle": "deg"}, ("displacement", "rise", "stroke", "travel", "position", "swing", "hub", "s", "y"))
 
 
 def read_table(file: str | Path) -> Rows:
