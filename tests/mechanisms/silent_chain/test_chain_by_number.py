@@ -125,6 +125,16 @@ def test_without_a_drive_the_force_given_counts():
     assert found["chain.static_safety"] == pytest.approx(8.9, rel=1e-12) and "chain.mean_static_safety" not in found.values
 
 
+@pytest.mark.analytical
+@pytest.mark.parametrize(("bush", "gap"), [("", 0.0), ("17.02 mm", 4.15e-3)])
+def test_the_pin_is_a_beam_between_outer_plates(bush, gap):
+    """Greatest moment F/2 (L/4 + s/2 + gap): the bush goes through the inner plates, or ends between them."""
+    result, size = run("chain=16B", *([f"joint.contact_length={bush}"] if bush else [])), chain_size("16B")
+    length = 17.02e-3 if bush else size.bush_length
+    moment = 0.5 * result["pin.force"] * (length / 4 + size.outer_plate / 2 + gap)
+    assert result["pin.bending_stress"] == pytest.approx(32 * moment / (np.pi * size.pin_diameter**3), rel=1e-9)
+
+
 @pytest.mark.property
 def test_two_rows_bear_half_each():
     one, two = run('breaking_load="10 kN"', 'plate.link_mass="10 g"'), run("chain=08B-2", 'breaking_load="10 kN"', 'plate.link_mass="10 g"')

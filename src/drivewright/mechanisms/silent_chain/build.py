@@ -24,7 +24,7 @@ from drivewright.mechanisms.silent_chain import spec as tables
 from drivewright.mechanisms.silent_chain.chain_drive import bare_drive
 from drivewright.mechanisms.silent_chain.refusals import refuse_contradictions, unused
 from drivewright.mechanisms.silent_chain.sizing import SizedSpec, size_findings, sized
-from drivewright.mechanisms.silent_chain.spec import PAIRS, SilentChainSpec, signed_seat
+from drivewright.mechanisms.silent_chain.spec import PAIRS, SilentChainSpec, signed_seat, size_of
 
 BUSH = 0.9  # length of a roller chain's bushes over the pitch
 BORE = 0.4  # of the smaller pitch circle
@@ -233,9 +233,9 @@ class ChainModel:
         roller = self.spec.roller
         if roller is None:
             return None
-        inner = roller.inner_width or self.contact_length
+        inner, size = roller.inner_width or self.contact_length, size_of(self.spec)
         link = design_roller_link(self.spec.pitch, self.roller_diameter, inner, self.sheet, self.spec.plate.back)
-        return link if roller.inner_width is None else link._replace(inner_plate=max(0.5 * (self.contact_length - inner), 0.0))
+        return link._replace(inner_plate=size.inner_plate) if size and self.sheet == size.outer_plate else link
 
     @property
     def bore(self) -> float:
