@@ -100,6 +100,23 @@ def test_a_strand_reaches_as_far_as_it_can(right, left):
         assert (above - below) / (2 * h) == pytest.approx(slope, rel=1e-6, abs=1e-8)
 
 
+@pytest.mark.analytical
+@pytest.mark.parametrize(("right", "left"), PAIRS)
+def test_a_straight_strand_turns_its_end_joints_alone(right, left):
+    link, share = pair(right, left), right / (right + left)
+    A, r, k = link.hole_pitch / P, link.radius / P, link.skew / P
+
+    def straight(start, end):
+        return reach(A, r, k, False, 5, start, end, np.zeros((3, 7)))
+
+    found = straight(0.09, -0.05)
+    joints = np.exp(1j * share * 0.09) + 4 + np.exp(-1j * (1 - share) * 0.05)
+    assert found.vector == pytest.approx(5 * A - 2 * r * joints, rel=1e-13) and found.first == found.last == 0
+    h = 1e-6
+    assert found.by_start == pytest.approx((straight(0.09 + h, -0.05).vector - straight(0.09 - h, -0.05).vector) / (2 * h), rel=1e-7)
+    assert found.by_end == pytest.approx((straight(0.09, -0.05 + h).vector - straight(0.09, -0.05 - h).vector) / (2 * h), rel=1e-7)
+
+
 @pytest.mark.property
 @pytest.mark.parametrize(("right", "left"), PAIRS)
 def test_a_strand_seen_from_its_other_end(right, left):
