@@ -153,6 +153,12 @@ def test_every_joint_of_a_closed_chain_rolls(right, left):
     share = right / (right + left)
     joint = (right + left) * np.exp(1j * (share * turned + (1 - share) * next_turn))
     assert np.abs(gap - joint).max() < 1e-12 and closure.residual < 1e-12
+    seat = seat_height(link, 19) - 1j * seat_shift(link, 19)
+    assert place[0] == pytest.approx(seat * np.exp(1j * (turned[0] + np.pi / 2)), rel=1e-12), "row 0 sits on the driver"
+    on_driven = np.abs(
+        np.abs(place - states_at(closure, [0.1]).centre_distance[0]) - abs(seat_height(link, 23) - 1j * seat_shift(link, 23))
+    )
+    assert np.sum(on_driven < 1e-12) >= 8
 
 
 @pytest.mark.property

@@ -9,11 +9,14 @@ Two surfaces of different radii, R1 on the right of a plate and R2 on the left o
 the line between them by R1/(R1 + R2) of the one plate's angle and R2/(R1 + R2) of the other's: exact for circular arcs of either sign.
 """
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from drivewright.errors import InputError
+
+if TYPE_CHECKING:
+    from drivewright.chains.tooth import Tooth
 
 
 class Link(NamedTuple):
@@ -77,6 +80,12 @@ def seat_shift(link: Link, teeth: int) -> float:
     """
     t = np.pi / teeth
     return link.radius * np.sin(link.skew * t / link.radius) / np.sin(t) if link.skew else 0.0
+
+
+def tooth_turn(link: Link, tooth: "Tooth") -> float:
+    """Angle [rad] by which teeth stand turned from under plates that lie symmetrically, so that both flanks of a shifted plate touch:
+    -s cos a/rb, s the `seat_shift`, for a flank's support moves by s cos a and an involute's by rb times the angle."""
+    return float(-seat_shift(link, tooth.teeth) * np.cos(link.flank_angle) / tooth.base_radius)
 
 
 def contact_pitch(link: Link, teeth: int) -> float:

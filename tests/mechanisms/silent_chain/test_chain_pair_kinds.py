@@ -22,6 +22,9 @@ SPEC = {
 }
 
 
+EQUAL = ("joint.kind=round-pin", "joint.seat_radius=", "joint.rolling_radius=1.2 mm")
+
+
 def spec(*changes):
     tables = {key: dict(value) if isinstance(value, dict) else value for key, value in SPEC.items()}
     for change in changes:
@@ -108,12 +111,17 @@ def test_teeth_of_the_scene_lie_under_the_shifted_plates(changes):
     """The flanks of a seated plate, about the middle of its pins, touch the involutes on either side alike."""
     model = dw.build(spec(*changes))
     from drivewright.chains.interference import flank_gap
-    from drivewright.chains.link import seat_height, seat_shift
+    from drivewright.chains.link import seat_height, seat_shift, tooth_turn
 
     tooth = model.sprockets[0].tooth
     shift, height = seat_shift(model.link, 35), seat_height(model.link, 35)
-    turn = -shift * np.cos(model.link.flank_angle) / tooth.base_radius
+    turn = tooth_turn(model.link, tooth)
     pose = (shift, height, 0.0)  # astride of the tooth on the y axis
     gaps = [flank_gap(model.link, tooth, pose, side, turn).gap for side in ("left", "right")]
     assert gaps == pytest.approx([0.0, 0.0], abs=1e-12)
-    assert registry.mechanism("silent-chain").scene(model).bodies
+    drawn, plain = registry.mechanism("silent-chain").scene(model), registry.mechanism("silent-chain").scene(dw.build(spec(*EQUAL)))
+    ours, other = (
+        next(body for body in scene.bodies if body.name == "drive").shapes[0].outline.points(1e-6)[0] for scene in (drawn, plain)
+    )
+    turned = np.arctan2(ours[1], ours[0]) - np.arctan2(other[1], other[0])
+    assert np.sign(turned) == np.sign(turn) and abs(turned - turn) < 0.3 * abs(turn)

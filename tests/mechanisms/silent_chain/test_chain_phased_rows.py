@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import drivewright as dw
-from drivewright.chains.closure import mesh_order
+from drivewright.chains.closure import mesh_order, phased
 from drivewright.errors import SpecError
 from drivewright.spec import from_document
 from drivewright.spec.parsing import change_key
@@ -75,8 +75,9 @@ def test_force_that_rows_take_from_each_other():
     assert stiff["phased.force_difference"] == pytest.approx(2 * result["phased.force_difference"], rel=1e-9)
     model = dw.build(spec())
     gap, count = result.tables["phased_rows"]["distance_gap"].data, model.closure.free_plates
-    least = 1e8 / 3 / (count + 1) * 0.5 * np.max(np.abs(gap))
-    assert least <= result["phased.force_difference"] < 20 * least
+    both, arm = phased(model.closure, 0.5), 9.525e-3 / (2 * np.sin(np.pi / 37))
+    ends = np.abs(gap + arm * both.angle_gap), np.abs(gap - arm * both.angle_gap)
+    assert result["phased.force_difference"] == pytest.approx(1e8 / 3 / (count + 1) * 0.5 * np.max(ends), rel=1e-9)
     mean = 0.25 * (model.strands.tight + model.strands.slack)
     assert result["phased.load_share"] == pytest.approx(0.5 + 0.5 * result["phased.force_difference"] / mean)
     assert any("slack strand of one row" in finding for finding in run("drive.load_torque=13 N m", "contact.stiffness=1e6 N/mm").findings)

@@ -12,7 +12,7 @@ from drivewright.chains.drive_scene import (
     sprocket_parts,
     sprocket_shapes,
 )
-from drivewright.chains.link import seat_shift
+from drivewright.chains.link import tooth_turn
 from drivewright.chains.plate_stack import strand_parts
 from drivewright.chains.roller_link import pair_plate
 from drivewright.chains.roller_sprocket import RollerSprocket
@@ -53,8 +53,8 @@ def _under_the_chain(model: ChainModel, sprocket: Sprocket | RollerSprocket) -> 
     shapes = tuple(sprocket_shapes(sprocket, model.bore))
     if not model.link.skew or isinstance(sprocket, RollerSprocket):
         return shapes
-    turn = -seat_shift(model.worn, sprocket.tooth.teeth) * np.cos(model.link.flank_angle) / sprocket.tooth.base_radius
-    return tuple(shape._replace(outline=shape.outline.transformed((0.0, 0.0, float(turn)), False)) for shape in shapes)
+    turn = tooth_turn(model.worn, sprocket.tooth)
+    return tuple(shape._replace(outline=shape.outline.transformed((0.0, 0.0, turn), False)) for shape in shapes)
 
 
 def link_shapes(model: ChainModel) -> tuple[tuple[Shape, ...], ...]:
