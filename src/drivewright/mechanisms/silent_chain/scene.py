@@ -1,7 +1,5 @@
 """The chain drive on screen and for manufacture: scene over two teeth, drawings, parts."""
 
-import numpy as np
-
 from drivewright.chains.drive_scene import (
     SprocketView,
     closure_scene,
