@@ -14,7 +14,8 @@ Description
 Motion
 `kinematics`    poses, rates and the dependent coordinates; `chart` also across singular positions, `frames` vectors and points of bodies.
 `loads`         forces on the bodies, element by element.
-`dynamics`      equations of motion in the independent coordinates.
+`mass_matrix`, `joint_loads`  accelerations in the independent coordinates; what joints transmit, for their friction.
+`dynamics`      equations of motion, and the events in them.
 `simulate`      motion over time; `continuation` where the drives leave no freedom; `singular`, `passages` singular positions.
 `statics`       positions of rest; `linearise` small motions about them; `tolerance` small deviations of points and journals.
 
@@ -42,6 +43,8 @@ from drivewright.multibody.model import (
     Gear,
     Ideal,
     JointDrive,
+    JointFriction,
+    LinearActuator,
     LoadCurve,
     Lubricated,
     Marker,
@@ -67,6 +70,8 @@ __all__ = [
     "CamPair",
     "Curve",
     "JointDrive",
+    "JointFriction",
+    "LinearActuator",
     "Dry",
     "AppliedForce",
     "Friction",

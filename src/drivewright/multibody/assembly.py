@@ -14,12 +14,11 @@ from drivewright._typing import Floats
 from drivewright.errors import DoesNotAssemble
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.compile_model import compile_model, index_of, rows_and_equations
-from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.joints.rows import DISTANCE
 from drivewright.multibody.model import MultibodyModel
 from drivewright.multibody.partition import evaluate_again, evaluate_at, partition_at, scaled_jacobian, scaled_residuals
 from drivewright.multibody.singular import chart_through
-from drivewright.multibody.system import RESIDUAL, System, Work, scratch
+from drivewright.multibody.system import RESIDUAL, System, Work, memory_size, scratch
 from drivewright.multibody.tree import Tree, build_tree, expand
 from drivewright.numerics.linear import null_space
 
@@ -65,8 +64,7 @@ class Assembly:
 
 def pack(system: System, q: Floats, v: Floats) -> Floats:
     """Coordinates and rates as a state, nothing remembered."""
-    memory = len(system.contacts) + int(np.sum(system.contacts.law == LUGRE))
-    return np.concatenate([q[system.stored], v[system.independent], np.zeros(memory)])
+    return np.concatenate([q[system.stored], v[system.independent], np.zeros(memory_size(system))])
 
 
 def idealised(model: MultibodyModel) -> MultibodyModel:
@@ -255,16 +253,33 @@ def _without_redundant_rows(expanded, tree, system, work):
     whole = scaled_jacobian(system, work, range(len(system.sizes)))
     for k in dropped:
         if np.linalg.matrix_rank(whole[[*kept, k]], RANK) > np.linalg.matrix_rank(whole[kept], RANK):
-            raise DoesNotAssemble(
-                f"the drive cannot move: joint {expanded.joints[system.rows[k].joint].name!r} holds the mechanism fast. "
-                "Remove a joint or a drive, or free a direction (pin-slot instead of prismatic)"
-            )
+            raise DoesNotAssemble(_held_fast(expanded, system, whole, [*kept, k], expanded.joints[system.rows[k].joint].name))
     findings = tuple(
         f"joint '{name}' repeats a constraint that the joints before it impose already; its share of the forces is not "
         "determined by rigid bodies"
         for name in names
     )
     return system._replace(rows=system.rows[kept]), findings, None
+
+
+def _held_fast(expanded, system, jacobian, rows, joint):
+    """Why these rows do not let the drives move: several drives against each other, or one against the joints.
+
+    Weights c of the rows with c J = 0 for all that is not driven say which driven rates they tie together: c J rate = 0.
+    """
+    weights = null_space(jacobian[np.ix_(rows, system.stored)].T, rcond=RANK)
+    tied = np.max(np.abs(weights.T @ jacobian[np.ix_(rows, system.driven.coordinate)]), axis=0, initial=0.0)
+    fighting = [drive.joint for drive, size in zip(expanded.drives, tied, strict=True) if size > 1e-6 * np.max(tied)]
+    if len(fighting) > 1:
+        return (
+            f"the drives of joints {' and '.join(map(repr, fighting))} fight each other: the loop through joint {joint!r} leaves them "
+            f"{len(fighting) - 1} freedom{'s' if len(fighting) > 2 else ''}, and each is told its own motion. Remove one of them, or give it a "
+            "motor instead of a motion"
+        )
+    return (
+        f"the drive cannot move: joint {joint!r} holds the mechanism fast. "
+        "Remove a joint or a drive, or free a direction (pin-slot instead of prismatic)"
+    )
 
 
 def _on_branch(system, q, v, undecided, joint):

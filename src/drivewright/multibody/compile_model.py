@@ -9,8 +9,10 @@ from drivewright._typing import Bools, Floats
 from drivewright.errors import InputError, UnknownName
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.curves import Curve
+from drivewright.multibody.forces.actuator import ACTUATOR
 from drivewright.multibody.forces.bushing import BUSHING
 from drivewright.multibody.forces.contact import CONTACT, Laws, NoLaws
+from drivewright.multibody.forces.joint_friction import JOINT_FRICTION, JointFrictions, NoJointFriction
 from drivewright.multibody.forces.load import FORCE, TORQUE
 from drivewright.multibody.forces.rotational_spring import ROTATIONAL_SPRING
 from drivewright.multibody.forces.spring import SPRING
@@ -27,6 +29,7 @@ FORCE_TABLES = {
     "rotational_springs": ROTATIONAL_SPRING,
     "torques": TORQUE,
     "forces": FORCE,
+    "actuators": ACTUATOR,
     "bushings": BUSHING,
     "contacts": CONTACT,
 }  # field of the system -> type of its records
@@ -62,6 +65,7 @@ def compile_model(model: MultibodyModel, tree: Tree) -> System:
     for body in bodies[1:]:  # parents come first
         own = [k for k in (body["turn"], body["slide"], body["free"]) if k >= 0]
         body["driven"] = (bodies[body["parent"]]["driven"] or not body["parent"]) and all(k in given for k in own)
+    frictions = _frictions(model, tree, index)
     curves, pieces = _curves(index.curves)
     table, (row_table, equations) = table_of(BODY, bodies), rows_and_equations(rows)
     length = length_of(table, row_table, *(each for each in records.values() if "ax" in (each.dtype.names or ())))
@@ -75,6 +79,7 @@ def compile_model(model: MultibodyModel, tree: Tree) -> System:
         dependent=np.zeros(0, np.int64),
         **records,
         laws=_laws(index.laws),
+        frictions=frictions,
         wear=np.zeros((len(records["contacts"]), 0)),
         curves=curves,
         pieces=pieces,
@@ -108,6 +113,17 @@ def _laws(laws: Sequence[Any]) -> NoLaws | Laws:
     for code, law in enumerate(laws, start=1):
         chain = Laws(code, law, chain)
     return chain
+
+
+def _frictions(model: MultibodyModel, tree: Tree, index: ModelIndex) -> NoJointFriction | JointFrictions:
+    """Records of the ideal joints that rub: what a joint of the tree transmits is what its body needs, of others what their rows do."""
+    carried = {link.joint.name: index.numbers[link.body.name] for link in tree.links if link.joint}
+    rows = [
+        {**joint.friction_force.record(index), "child": carried.get(joint.name, -1), "joint": number}
+        for number, joint in enumerate(model.joints)
+        if joint.friction_force
+    ]
+    return JointFrictions(table_of(JOINT_FRICTION, rows)) if rows else NoJointFriction()
 
 
 def _measures_angles(rows: Records) -> Bools:
@@ -162,7 +178,7 @@ def _driven(drive: JointDrive, model: MultibodyModel, tree: Tree, index: ModelIn
     if joint is None:
         raise UnknownName("driven joint", drive.joint, [j.name for j in model.joints])
     if joint.driven_motion is None:
-        raise InputError(f"joint {joint.name!r} cannot be driven; drive a revolute or a prismatic joint")
+        raise InputError(f"joint {joint.name!r} cannot be driven; drive a revolute or a prismatic joint, or a pin in a slot")
     far = far_end(model, joint)
     first, second = joint.bodies[0], (far or joint).bodies[1]
     mover, base = (second, first) if first == GROUND else (first, second)

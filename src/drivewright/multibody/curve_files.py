@@ -13,6 +13,7 @@ from drivewright.spec.csv_columns import read_columns
 
 TURN = 2 * math.pi
 OVER = {"time": "time", "angle": "angle", "speed": "angular speed"}  # what a load may depend on: column -> dimension
+SLIDING = {"time": "time", "travel": "length", "velocity": "velocity"}  # what the force of an actuator may depend on
 SMOOTH_ENDS = {"rest": ("clamped", 0), "free": ("natural", 1)}  # kind of spline, terms of the end pieces beyond the value
 
 
@@ -29,14 +30,27 @@ def load_curve(file: Path, what: str, dimension: str, periodic: bool = False) ->
     return LoadCurve(curve if curve.period else _with_ends(curve, rows.y[[0, -1]], (0.0, 0.0)), rows.x_name)
 
 
+def actuator_curve(file: Path) -> LoadCurve:
+    """The Load of an actuator's CSV file: force over time, travel or velocity of its slide, straight from row to row, level beyond."""
+    rows = read_columns(file, SLIDING, {"force": "force"})
+    slopes = np.diff(rows.y) / np.diff(rows.x)
+    curve = _curve(rows.x, np.column_stack([rows.y[:-1], slopes]), 0.0)
+    return LoadCurve(_with_ends(curve, rows.y[[0, -1]], (0.0, 0.0)), rows.x_name)
+
+
+def delayed(curve: Curve, time: float) -> Curve:
+    """A Curve over time that begins so much later [s]."""
+    return Curve(curve.breaks + time, curve.coefficients, curve.period)
+
+
 def profile_curve(file: Path, ends: str, joint: str = "revolute") -> Curve:
     """The Curve of a drive over time: a spline with continuous velocity.
 
-    The angle of a revolute joint is counted from the first row, the travel of a prismatic one from the point of its line.
+    The angle of a revolute joint is counted from the first row, the travel of a prismatic joint or pin-slot from the point of its line.
     """
-    rows = read_columns(file, {"time": "time"}, {"travel": "length"} if joint == "prismatic" else {"angle": "angle"})
+    rows = read_columns(file, {"time": "time"}, {"travel": "length"} if joint != "revolute" else {"angle": "angle"})
     kind, moving = SMOOTH_ENDS[ends]
-    values = rows.y if joint == "prismatic" else rows.y - rows.y[0]
+    values = rows.y if joint != "revolute" else rows.y - rows.y[0]
     degree = 5 if kind == "clamped" and len(values) > 5 else 3
     spline = _spline(file, rows.x, values, degree, kind)
     speeds = moving * spline.derivative()(rows.x[[0, -1]])

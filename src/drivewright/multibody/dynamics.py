@@ -6,18 +6,20 @@ the state only start Newton's method: the loops are closed anew, exactly, at eve
 
 import numpy as np
 
-from drivewright._jit import implements, inner, per_lane
+from drivewright._jit import generic, implements, inner, per_lane
 from drivewright._typing import Floats
 from drivewright.multibody.chart import chart_offset, update_interpolated, update_kinematics, update_positions
 from drivewright.multibody.curves import curve_at
 from drivewright.multibody.forces.contact import LUGRE
+from drivewright.multibody.forces.joint_friction import JointFrictions, NoJointFriction
 from drivewright.multibody.forces.pin_contact import LASTING, SLOWEST, contact_signs, gap_motion
 from drivewright.multibody.kinematics import jacobian_determinant, update_velocities
+from drivewright.multibody.forces.sliding_friction import friction_event_value, joints_rub, rub, set_sliding, switch_joint
 from drivewright.multibody.loads import apply_forces
-from drivewright.multibody.system import BIAS, Motion, System, Work
+from drivewright.multibody.mass_matrix import solve_accelerations, update_mass_matrix
+from drivewright.multibody.system import Motion, System, Work
 from drivewright.numerics.lanes import all_lanes, any_lane, where
 from drivewright.numerics.ode import events, rate, switch
-from drivewright.numerics.small import ldl_factor, ldl_substitute
 
 DECADE = 0.1  # part of its determinant to which a split may fall, or whose inverse it may reach, before another one is made
 FIRST_PIN = 2  # among the event functions: before it stand the split's own and the singular position
@@ -48,6 +50,7 @@ def accelerations(system: System, work: Work, t: float, y: Floats, dy: Floats) -
     update_mass_matrix(system, work)
     apply_forces(system, work, t, y, dy)
     solve_accelerations(system, work)
+    rub(system.frictions, system, work, y, dy)
     for k in range(system.stored.size):
         dy[k] = work.coordinates[system.stored[k]].v
     for m in range(system.independent.size):
@@ -58,7 +61,7 @@ def accelerations(system: System, work: Work, t: float, y: Floats, dy: Floats) -
 def event_values(system: System, work: Work, t: float, y: Floats, values: Floats) -> None:
     """Whether the split of the coordinates, or the chart, still serves (below 0 it does not); how far the state stands from the singular
     position of the chart; then the depth of every pin with play: it touches where this rises through 0 and lets go where it falls; then
-    the other `contact_signs` of all pins, one kind after the other.
+    the other `contact_signs` of all pins, one kind after the other; then where ideal joints begin, or cease, to slide.
 
     y (states,) as in `loads.apply_forces`.
     """
@@ -71,13 +74,16 @@ def event_values(system: System, work: Work, t: float, y: Floats, values: Floats
     else:
         if not all_lanes(is_current(system, work, t, y)):  # at the end of a step the last rates were those of this very state
             update_positions(system, work, t, y)
-            if any_lane(has_contact(system, y)):
+            if joints_rub(system.frictions) or any_lane(has_contact(system, y)):
                 update_velocities(system, work)
                 update_mass_matrix(system, work)
         values[0], values[1] = validity_of_split(system, work), 1.0
     for n in range(pins):
         depth, reversal, hold = contact_signs(system, n, work, y)
         values[FIRST_PIN + n], values[FIRST_PIN + pins + n], values[FIRST_PIN + 2 * pins + n] = depth, reversal, hold
+    first = FIRST_PIN + 3 * pins
+    for k in range(values.size - first):
+        values[first + k] = friction_event_value(system.frictions, k, work, y)
 
 
 @inner
@@ -112,6 +118,30 @@ def is_current(system: System, work: Work, t: float, y: Floats) -> bool:
     return True
 
 
+@generic
+def friction_event(frictions: object, system: System, work: Work, index: int, t: float, y: Floats) -> None:
+    """The joint with friction of this number begins, or ceases, to slide.  y (states,) as in `sliding_friction.rub`."""
+    raise NotImplementedError
+
+
+@implements(friction_event, NoJointFriction)
+def _(frictions, system, work, index, t, y):
+    pass
+
+
+@implements(friction_event, JointFrictions)
+def _(frictions, system, work, index, t, y):
+    accelerations(system, work, t, y, work.friction.rates)
+    switch_joint(frictions, index, work, y)
+
+
+@inner
+def begin_sliding(system: System, work: Work, t: float, y: Floats) -> None:
+    """Joints with friction slide at the start where they move, and stick where they do not; y (states,) as in `sliding_friction.rub`."""
+    accelerations(system, work, t, y, work.friction.rates)
+    set_sliding(system.frictions, work, y)
+
+
 @inner
 def validity_of_split(system: System, work: Work) -> float:
     """Above 0 while the determinant is within a decade of that where the coordinates were split, with the same sign.
@@ -127,11 +157,15 @@ def validity_of_split(system: System, work: Work) -> float:
 
 @inner
 def contact_event(system: System, work: Work, index: int, t: float, y: Floats) -> None:
-    """A pin touches: remember the speed of approach.  It lets go, or is compressed anew without having let go: forget it.
+    """A pin touches: remember the speed of approach.  It lets go, or is compressed anew without having let go: forget it.  Or a joint with
+    friction begins, or ceases, to slide.
 
     y (states,) as in `loads.apply_forces`.
     """
     pins, pin = system.contacts.size, index - FIRST_PIN
+    if pin >= 3 * pins:
+        friction_event(system.frictions, system, work, pin - 3 * pins, t, y)
+        return
     if pin >= pins:
         if pin < 2 * pins:
             y[system.contacts[pin - pins].memory] = LASTING
@@ -144,77 +178,3 @@ def contact_event(system: System, work: Work, index: int, t: float, y: Floats) -
     y[contact.memory] = 0.0 if y[contact.memory] != 0.0 else max(rate, SLOWEST)
     if contact.law == LUGRE:
         y[contact.bristle] = 0.0
-
-
-@inner
-def update_mass_matrix(system: System, work: Work) -> None:
-    """Partial velocities R = d(body)/d(independent) of the bodies, and the factors of the mass matrix  sum R^T M R."""
-    free = system.independent.size
-    for m in range(free):
-        for n in range(m + 1):
-            work.mass[m, n] = 0.0
-    for i in range(1, system.bodies.size):
-        body = system.bodies[i]
-        if body.driven:  # its partials stay zero
-            continue
-        reduce_partial_velocities(system, work, i)
-        if all_lanes((body.mass == 0.0) & (body.inertia == 0.0)):
-            continue
-        for m in range(free):
-            one = work.reduced_partial_velocities[i, m]
-            for n in range(m + 1):
-                two = work.reduced_partial_velocities[i, n]
-                work.mass[m, n] += body.mass * (one.x * two.x + one.y * two.y) + body.inertia * one.t * two.t
-    ldl_factor(work.mass)
-
-
-@inner
-def solve_accelerations(system: System, work: Work) -> None:
-    """Solve  sum R^T M R a = sum R^T (F - M b)  for the independent accelerations (in work.force), after `update_mass_matrix`."""
-    free = system.independent.size
-    for m in range(free):
-        work.force[m] = 0.0
-    for i in range(1, system.bodies.size):
-        body, forces = system.bodies[i], work.poses[i]
-        fx, fy, ft = forces.fx, forces.fy, forces.ft
-        massless = all_lanes((body.mass == 0.0) & (body.inertia == 0.0))
-        if body.driven or (massless and all_lanes((fx == 0.0) & (fy == 0.0) & (ft == 0.0))):
-            continue
-        if not massless:
-            bx, by, bt = bias_acceleration(system, work, i)
-            fx += body.mass * (system.gravity_x - bx)
-            fy += body.mass * (system.gravity_y - by)
-            ft -= body.inertia * bt
-        for m in range(free):
-            partial = work.reduced_partial_velocities[i, m]
-            work.force[m] += partial.x * fx + partial.y * fy + partial.t * ft
-    ldl_substitute(work.mass, work.force)
-
-
-@inner
-def reduce_partial_velocities(system: System, work: Work, i: int) -> None:
-    """Partial velocities of body i by the independent coordinates, the dependent ones following."""
-    for m in range(system.independent.size):
-        partial = work.partial_velocities[i, system.independent[m]]
-        x, y, t = partial.x, partial.y, partial.t
-        for r in range(system.rows.size):
-            dependent = work.partial_velocities[i, system.dependent[r]]
-            x += dependent.x * work.dependency_matrix[r, m]
-            y += dependent.y * work.dependency_matrix[r, m]
-            t += dependent.t * work.dependency_matrix[r, m]
-        reduced = work.reduced_partial_velocities[i, m]
-        reduced.x, reduced.y, reduced.t = x, y, t
-
-
-@inner
-def bias_acceleration(system: System, work: Work, i: int) -> tuple[float, float, float]:
-    """Acceleration of body i with the independent accelerations zero."""
-    bx, by, bt = work.poses[i].bias_x, work.poses[i].bias_y, 0.0
-    for d in range(system.driven.size):
-        k = system.driven[d].coordinate
-        partial, a = work.partial_velocities[i, k], work.coordinates[k].a
-        bx, by, bt = bx + partial.x * a, by + partial.y * a, bt + partial.t * a
-    for r in range(system.rows.size):
-        partial, a = work.partial_velocities[i, system.dependent[r]], work.row_columns[BIAS, r]
-        bx, by, bt = bx + partial.x * a, by + partial.y * a, bt + partial.t * a
-    return bx, by, bt

@@ -2,6 +2,7 @@
 
 from drivewright._jit import inner
 from drivewright._typing import Floats
+from drivewright.multibody.forces.actuator import apply_actuator
 from drivewright.multibody.forces.bushing import apply_bushing
 from drivewright.multibody.forces.load import apply_load_force, apply_torque
 from drivewright.multibody.forces.pin_contact import apply_pin_contact
@@ -55,3 +56,5 @@ def apply_loads(system: System, work: Work, t: float) -> None:
         apply_torque(work.poses, system.torques[n], system.curves, system.pieces, t)
     for n in range(system.forces.size):
         apply_load_force(work.poses, system.forces[n], system.curves, system.pieces, t)
+    for n in range(system.actuators.size):
+        apply_actuator(work.poses, system.actuators[n], system.curves, system.pieces, t)

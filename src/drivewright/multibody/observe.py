@@ -9,12 +9,13 @@ import numpy as np
 from drivewright._jit import inner
 from drivewright._typing import ArrayLike, Floats
 from drivewright.multibody.chart import dependency_on_drive, update_kinematics
-from drivewright.multibody.dynamics import solve_accelerations, update_mass_matrix
 from drivewright.multibody.forces.contact import NO_FILM
 from drivewright.multibody.forces.pin_contact import contact_state, film_force
+from drivewright.multibody.forces.sliding_friction import friction_states, rub
 from drivewright.multibody.loads import apply_loads, apply_springs, clear_forces, pin_forces
-from drivewright.multibody.observed import FIELDS, PIN_FIELDS, POWER_FIELDS, Observed
-from drivewright.multibody.system import BIAS, SCRATCH, Motion, System, Work, motion
+from drivewright.multibody.mass_matrix import solve_accelerations, update_mass_matrix
+from drivewright.multibody.observed import FIELDS, FRICTION_FIELDS, PIN_FIELDS, POWER_FIELDS, Observed
+from drivewright.multibody.system import BIAS, SCRATCH, Motion, System, Work, joints_with_friction, motion
 
 
 def observe(system: System, t: ArrayLike, y: ArrayLike) -> Observed:
@@ -23,7 +24,7 @@ def observe(system: System, t: ArrayLike, y: ArrayLike) -> Observed:
     observed, loads = _room(system, t)
     if len(system.contacts):
         observe_pins(motion(system), t, y, np.zeros(y.shape[1]), observed.pins, loads)
-    observe_all(motion(system), t, y, loads, observed.bodies, observed.powers, observed.drives)
+    observe_all(motion(system), t, y, np.zeros(y.shape[1]), loads, observed.bodies, observed.powers, observed.drives, observed.frictions)
     return observed
 
 
@@ -32,14 +33,16 @@ def kernels_of_observation(system: System) -> list[Callable[[], object]]:
     t, y, kernels = np.zeros(1), np.zeros((1, 1)), cast(Any, (observe_pins, observe_all))
     observed, loads = _room(system, t)
     pins = partial(kernels[0].compile_for, motion(system), t, y, np.zeros(1), observed.pins, loads)
-    bodies = partial(kernels[1].compile_for, motion(system), t, y, loads, observed.bodies, observed.powers, observed.drives)
+    filled = observed.bodies, observed.powers, observed.drives, observed.frictions
+    bodies = partial(kernels[1].compile_for, motion(system), t, y, np.zeros(1), loads, *filled)
     return [pins, bodies] if len(system.contacts) else [bodies]
 
 
 def _room(system, t):
     """(`Observed` at the times t (m,) to be filled, loads (m, bodies, 3) of the pins with play on the bodies; (m, 0, 3) without them)."""
     pins, bodies = len(system.contacts), len(system.bodies)
-    counts = (bodies, len(FIELDS)), (pins, len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),)
+    rubbing = len(joints_with_friction(system))
+    counts = (bodies, len(FIELDS)), (pins, len(PIN_FIELDS)), (len(POWER_FIELDS),), (len(system.driven),), (rubbing, len(FRICTION_FIELDS))
     return Observed(t, *(np.zeros((len(t), *count)) for count in counts)), np.zeros((len(t), bodies if pins else 0, 3))
 
 
@@ -68,27 +71,30 @@ def observe_pins(motion: Motion, t: Floats, y: Floats, dy: Floats, pins: Floats,
 
 
 @inner
-def observe_all(motion: Motion, t: Floats, y: Floats, loads: Floats, bodies: Floats, powers: Floats, drives: Floats) -> None:
-    """What the bodies and the drives do under the loads of `observe_pins`.
+def observe_all(
+    motion: Motion, t: Floats, y: Floats, rates: Floats, loads: Floats, bodies: Floats, powers: Floats, drives: Floats, frictions: Floats
+) -> None:
+    """What the bodies, the drives and the joints with friction do under the loads of `observe_pins`.
 
-    t (m,) [s], y (m, n), loads (m, bodies or 0, 3); the arrays as in `Observed`, one row a time.
+    t (m,) [s], y (m, n), rates (n,) scratch, loads (m, bodies or 0, 3); the arrays as in `Observed`, one row a time.
     """
     system, work = motion.system, motion.work
     for n in range(t.size):
-        update_dynamics(system, work, t[n], y[n], loads[n], powers[n])
+        update_dynamics(system, work, t[n], y[n], rates, loads[n], powers[n])
+        friction_states(system.frictions, work, y[n], frictions[n])
         for i in range(system.bodies.size):
             _body(work, i, bodies[n, i])
         for d in range(system.driven.size):
             drives[n, d] = _drive(system, work, d)
-            powers[n, 3] += drives[n, d] * work.coordinates[system.driven[d].coordinate].v
+            powers[n, 4] += drives[n, d] * work.coordinates[system.driven[d].coordinate].v
             drives[n, d] *= system.driven[d].sign
 
 
 @inner
-def update_dynamics(system: System, work: Work, t: float, y: Floats, loads: Floats, powers: Floats) -> None:
+def update_dynamics(system: System, work: Work, t: float, y: Floats, rates: Floats, loads: Floats, powers: Floats) -> None:
     """Everything about the system at a state: poses, rates, forces with their powers, and the accelerations of all coordinates.
 
-    y (states,) as in `loads.apply_forces`; loads (bodies or 0, 3) of the pins with play.
+    y (states,) as in `loads.apply_forces`; rates (states,) is scratch; loads (bodies or 0, 3) of the pins with play.
     """
     update_kinematics(system, work, t, y)
     update_mass_matrix(system, work)
@@ -102,6 +108,9 @@ def update_dynamics(system: System, work: Work, t: float, y: Floats, loads: Floa
         here.fx, here.fy, here.ft = here.fx + loads[i, 0], here.fy + loads[i, 1], here.ft + loads[i, 2]
     powers[2] = _power(work) - powers[0] - powers[1]
     solve_accelerations(system, work)
+    without = _power(work)
+    rub(system.frictions, system, work, y, rates)
+    powers[3] = _power(work) - without
     for m in range(system.independent.size):
         work.coordinates[system.independent[m]].a = work.force[m]
     for r in range(system.rows.size):

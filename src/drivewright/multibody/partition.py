@@ -6,6 +6,7 @@ import numpy as np
 
 from drivewright._typing import Floats, Ints
 from drivewright.multibody.forces.contact import LUGRE
+from drivewright.multibody.forces.joint_friction import STATES, JointFrictions
 from drivewright.multibody.kinematics import evaluate_at_time
 from drivewright.multibody.system import RESIDUAL, System, Work, no_chart, scratch
 from drivewright.numerics.linear import pivot_order
@@ -63,10 +64,16 @@ def partition_into(system: System, dependent: Ints, work: Work) -> System:
             contact.bristle, place = place, place + 1
         else:
             contact.bristle = contact.memory
+    frictions = system.frictions
+    if isinstance(frictions, JointFrictions):
+        frictions = JointFrictions(frictions.table.copy())
+        for friction in frictions.table:
+            friction.sliding, friction.deflection, friction.relaxation, place = place, place + 1, place + 2, place + STATES
     return system._replace(
         dependent=np.asarray(dependent, np.int64),
         independent=independent,
         contacts=contacts,
+        frictions=frictions,
         reference_determinant=_determinant(scaled_jacobian(system, work, dependent)),
         chart=no_chart(len(independent), len(dependent)),
     )

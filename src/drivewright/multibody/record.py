@@ -23,6 +23,7 @@ POINT_FIELDS = ("angle", "w", "alpha", "x", "y", "vx", "vy", "ax", "ay")
 @dataclass(frozen=True)
 class Record:
     """Over the times t (m,): points {name: (m, POINT_FIELDS)}, pins (m, pins, PIN_FIELDS), powers (m, POWER_FIELDS), drives (m, drives),
+    frictions (m, ideal joints with friction, FRICTION_FIELDS),
     energy (m,) kinetic and of gravity, kinetic (m,) alone; last (bodies, FIELDS) at the end; stop where the run ended before its time.
 
     A time stands twice where two events fall together.
@@ -33,6 +34,7 @@ class Record:
     pins: Floats
     powers: Floats
     drives: Floats
+    frictions: Floats
     energy: Floats
     kinetic: Floats
     last: Floats
@@ -55,6 +57,7 @@ class Record:
             self.pins[keep],
             self.powers[keep],
             self.drives[keep],
+            self.frictions[keep],
             self.energy[keep],
             self.kinetic[keep],
             self.last,
@@ -65,13 +68,14 @@ class Record:
 def record(run: Run, markers: Mapping[str, Marker], start: float = -np.inf) -> Record:
     """The `Record` of a run for markers {name: Marker}, from a time on."""
     parts = [part for stretch in run.stretches for part in _parts(run.assembly, stretch, markers, start)]
-    t, points, pins, powers, drives, energy, kinetic = zip(*parts, strict=True)
+    t, points, pins, powers, drives, frictions, energy, kinetic = zip(*parts, strict=True)
     return Record(
         np.concatenate(t),
         {name: np.concatenate([p[name] for p in points]) for name in markers},
         np.concatenate(pins),
         np.concatenate(powers),
         np.concatenate(drives),
+        np.concatenate(frictions),
         np.concatenate(energy),
         np.concatenate(kinetic),
         final_state(run),
@@ -89,7 +93,7 @@ def _parts(assembly, stretch, markers, start):
     for first in range(int(np.searchsorted(stretch.t, start)), len(stretch.t), CHUNK):
         record = observe(stretch.system, stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK])
         points = {name: marker_motion(assembly, record, marker) for name, marker in markers.items()}
-        yield record.t, points, record.pins, record.powers, record.drives, *energy_of(stretch.system, record)
+        yield record.t, points, record.pins, record.powers, record.drives, record.frictions, *energy_of(stretch.system, record)
 
 
 def marker_motion(assembly: Assembly, record: Observed, marker: Marker) -> Floats:

@@ -13,14 +13,14 @@ from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.chart import outside_fold, solve_kinematics
 from drivewright.multibody.compile_model import compile_model
 from drivewright.multibody.continuation import Stretch, continue_motion, kernels_of_continuation
-from drivewright.multibody.dynamics import FIRST_PIN
+from drivewright.multibody.dynamics import FIRST_PIN, begin_sliding
 from drivewright.multibody.forces.pin_contact import LASTING, penetration
 from drivewright.multibody.model import MultibodyModel
 from drivewright.multibody.observe import FIELDS, kernels_of_observation, observe
 from drivewright.multibody.partition import evaluate_at, partition_coordinates
 from drivewright.multibody.passages import Passage, passage, smallest_singular_values
 from drivewright.multibody.singular import Outlook, distance_to_singularity, look_ahead
-from drivewright.multibody.system import System, Work, motion, no_chart
+from drivewright.multibody.system import System, Work, joints_with_friction, memory_size, motion, no_chart
 from drivewright.multibody.tree import build_tree, expand
 from drivewright.numerics.ode import Event, integrate, loop
 from drivewright.stops import Stop, note_stop
@@ -114,6 +114,7 @@ def simulate(
         return _driven(assembly, times, start + duration, settings, samples is None)
     system = assembly.system
     y = assembly.state if state is None else touching(system, start, np.array(state, float))
+    y = rubbing(system, start, y) if state is None else y
     if duration == 0:
         return Run(assembly, (Stretch(system, np.array([start]), y[None], start, y),), np.zeros((0, 3)), "", 0, start)
     return _legs(assembly, start, start + duration, y, settings, samples)
@@ -226,6 +227,13 @@ def touching(system: System, t: float, y: Floats) -> Floats:
     return y
 
 
+def rubbing(system: System, t: float, y: Floats) -> Floats:
+    """A state whose joints with friction slide where they move, and stick where they do not."""
+    if len(joints_with_friction(system)):
+        begin_sliding(*motion(system), t, y)
+    return y
+
+
 def _integrate(system, t, leg, y, settings, steps, samples, speed):
     most = settings.max_steps if samples is not None else min(settings.max_steps, MOST_KEPT // settings.per_step)
     longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
@@ -249,7 +257,9 @@ def _integrate(system, t, leg, y, settings, steps, samples, speed):
 def _watched(system):
     """What to do at each of `dynamics.event_values`."""
     pins, switches = len(system.contacts), Event(switches=True)
-    return [Event(-1, terminal=True), Event(), *[switches] * pins, *[Event(1, switches=True)] * pins, *[switches] * pins]
+    rising = Event(1, switches=True)
+    rubbing = len(joints_with_friction(system))
+    return [Event(-1, terminal=True), Event(), *[switches] * pins, *[rising] * pins, *[switches] * pins, *[rising] * rubbing]
 
 
 def unassembled(model: MultibodyModel) -> System:
@@ -273,12 +283,14 @@ def fastest_drive_speed(assembly: Assembly) -> float:
 def tolerances(system: System, settings: Settings, speed: float) -> Floats:
     """Absolute tolerance of every component of the state: rates get ten times the speed times that of the positions, memories none."""
     atol = settings.atol or settings.rtol * GEAR
-    memories = len(system.contacts) + int(np.sum(system.contacts.bristle != system.contacts.memory))
+    memories = memory_size(system)
     stored, free = np.full(len(system.stored), atol), np.full(len(system.independent), atol)
     values = np.concatenate([stored, 10 * max(speed, 1.0) * free, np.full(memories, 1.0)])
     for contact in system.contacts:
         if contact.bristle != contact.memory:
             values[contact.bristle] = atol
+    for friction in joints_with_friction(system):
+        values[friction.deflection] = atol / friction.presliding
     return values
 
 

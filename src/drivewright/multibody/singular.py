@@ -13,9 +13,8 @@ import numpy as np
 
 from drivewright._typing import Floats, Ints
 from drivewright.multibody.chart import solve_kinematics
-from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.partition import evaluate_at, partition_into, scaled_jacobian, scaled_residuals
-from drivewright.multibody.system import Chart, System, Work, motion
+from drivewright.multibody.system import Chart, System, Work, memory_size, motion
 from drivewright.numerics.linear import pivot_order
 
 NODES = np.array([-1.0, -0.85, -0.7, -0.55, 0.55, 0.7, 0.85, 1.0])  # of a chart, in parts of its half width
@@ -137,11 +136,6 @@ def _looped(system, q):
     return np.max(np.abs(columns), axis=(0, 1), initial=0.0) > 1e-12
 
 
-def _memories(system):
-    """What pins with play remember, in the state behind coordinates and rates."""
-    return len(system.contacts) + int(np.sum(system.contacts.law == LUGRE))
-
-
 def _dependent(system, work):
     """The coordinates that follow best: those in which the tangent of the motion is small, for the Jacobian says nothing in a fold."""
     free = len(system.independent)
@@ -192,7 +186,7 @@ def chart_through(system: System, q: Floats, v: Floats) -> System | None:
         return None
     dependent = np.setdiff1d(inside, inside[np.argsort(-np.abs(v / system.sizes)[inside])[:free]])
     fresh = partition_into(system, dependent, evaluate_at(system, q))
-    state = np.concatenate([q[fresh.stored], v[fresh.independent], np.zeros(_memories(system))])
+    state = np.concatenate([q[fresh.stored], v[fresh.independent], np.zeros(memory_size(system))])
     line = Line(fresh, motion(fresh).work, 0.0, state, v[fresh.independent] / speed, 1.0 / speed)
     here, slope = Place(0.0, q[dependent], 0.0, 0.0), v[dependent] / speed
     for width in WIDTHS:

@@ -14,9 +14,10 @@ from drivewright._typing import Floats, Ints
 from drivewright.errors import InputError, SolverError
 from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.chart import update_kinematics
-from drivewright.multibody.dynamics import update_mass_matrix, validity_of_split
+from drivewright.multibody.dynamics import validity_of_split
 from drivewright.multibody.forces.pin_contact import LASTING
 from drivewright.multibody.loads import apply_forces
+from drivewright.multibody.mass_matrix import update_mass_matrix
 from drivewright.multibody.partition import evaluate_at
 from drivewright.multibody.simulate import repartition
 from drivewright.multibody.system import BIAS, CURVE, PIECE, System, Work, motion

@@ -12,7 +12,15 @@ import numpy as np
 
 from drivewright._jit import by_reference
 from drivewright._typing import Floats, Ints
-from drivewright.multibody.forces.contact import Laws, NoLaws
+from drivewright.multibody.forces.contact import LUGRE, Laws, NoLaws
+from drivewright.multibody.forces.joint_friction import (
+    JOINT_FIELDS,
+    STATES,
+    FrictionWork,
+    JointFrictions,
+    NoFrictionWork,
+    NoJointFriction,
+)
 from drivewright.multibody.joints.rows import Equations, NoEquations
 from drivewright.multibody.records import Records, empty_table, record_type
 
@@ -69,9 +77,11 @@ class System(NamedTuple):
     rotational_springs: Records
     torques: Records
     forces: Records
+    actuators: Records
     bushings: Records
     contacts: Records
     laws: NoLaws | Laws  # of contacts that have one of their own
+    frictions: NoJointFriction | JointFrictions  # of ideal joints
     wear: Floats  # (contacts, bins): depth worn off each bearing, over the angle in its body's frame; no bins without wear
     curves: Records
     pieces: Records
@@ -102,6 +112,7 @@ class Work(NamedTuple):
     unit_load: Floats  # (independent,): scratch, what a unit force of a contact does
     node_state: Floats  # (stored + independent,): state of a node of the chart
     node_sums: Floats  # (rows, 3 + independent + driven): dependent coordinates, rates, bias and dependency matrix, summed over nodes
+    friction: NoFrictionWork | FrictionWork
 
 
 @by_reference
@@ -146,7 +157,36 @@ def scratch(system: System) -> Work:
         np.zeros(free),
         np.zeros(len(system.stored) + free),
         np.zeros((rows, 3 + free + given)),
+        _friction_work(system, bodies, rows, free),
     )
+
+
+def _friction_work(system, bodies, rows, free):
+    n = len(joints_with_friction(system))
+    if n == 0:
+        return NoFrictionWork()
+    return FrictionWork(
+        np.zeros((bodies, 3)),
+        np.zeros((rows, 7)),
+        np.zeros((n, 4)),
+        np.zeros((n, free)),
+        np.zeros((n, 1 + n, 2)),
+        np.zeros((n, n)),
+        np.zeros((2, n)),
+        np.zeros((n, len(JOINT_FIELDS))),
+        np.zeros(free),
+        np.zeros(len(system.stored) + free + memory_size(system)),
+    )
+
+
+def joints_with_friction(system: System) -> Records:
+    """Records (joints,) of the ideal joints that rub."""
+    return system.frictions.table if isinstance(system.frictions, JointFrictions) else ()
+
+
+def memory_size(system: System) -> int:
+    """Number of states behind coordinates and rates: what pins with play and joints with friction remember."""
+    return len(system.contacts) + int(np.sum(system.contacts.law == LUGRE)) + STATES * len(joints_with_friction(system))
 
 
 def no_chart(independent: int = 0, dependent: int = 0) -> Chart:

@@ -113,7 +113,11 @@ def _chosen(model: MultibodyModel, driven: Collection[str]) -> list[PointJoint]:
             group[root(first)] = root(second)
             chosen.append(joint)
         elif joint.name in driven:
-            raise InputError(f"joint {joint.name!r} is driven, but the driven joints before it hold its bodies already; drive fewer joints")
+            others = ", ".join(repr(other.name) for other in chosen if other.name in driven)
+            raise InputError(
+                f"the drives of joints {others} and {joint.name!r} fight each other: the first move the bodies of {joint.name!r} already. "
+                "Remove one of them, or give it a motor instead of a motion"
+            )
     return chosen
 
 

@@ -57,6 +57,24 @@ def lu_solve(lu: Floats, pivots: Floats | Ints, b: Floats) -> None:
 
 
 @inner
+def lu_solve_transposed(lu: Floats, pivots: Floats | Ints, b: Floats) -> None:
+    """Overwrite b (n,) with the solution x of a^T x = b, from the factors (n, n) and `pivots` (n,) of `lu_factor`."""
+    n = lu.shape[0]
+    for i in range(n):
+        for j in range(i):
+            b[i] -= lu[j, i] * b[j]
+        b[i] /= lu[i, i]
+    for i in range(n - 1, -1, -1):
+        for j in range(i + 1, n):
+            b[i] -= lu[j, i] * b[j]
+    for k in range(n - 1, -1, -1):
+        for i in range(k + 1, n):
+            is_best = pivots[k] == i
+            if any_lane(is_best):
+                b[k], b[i] = where(is_best, b[i], b[k]), where(is_best, b[k], b[i])
+
+
+@inner
 def ldl_solve(a: Floats, b: Floats) -> None:
     """Overwrite b (n,) with x of a x = b, a (n, n) symmetric and positive definite (its lower half is used up); nan in b where it is
     not."""

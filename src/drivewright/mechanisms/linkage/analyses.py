@@ -73,9 +73,12 @@ def _no_tolerances(spec: LinkageSpec) -> str | None:
         return "the spec declares no [[outputs]]"
     if not sources_of(spec):
         return "no joint states a clearance and no dimension has a tolerance"
-    if spec.drive is None or spec.drive.motor:
+    drives = list(spec.all_drives.values())
+    if not drives or drives[0].motor:
         return "no drive says where the mechanism stands"
-    return None if driven_joint(spec).kind == "revolute" else f"the drive pushes {spec.drive.joint!r}, so that it has no angle"
+    if len(drives) > 1:
+        return "several drives say where the mechanism stands, and `tolerances.angle` is one angle"
+    return None if driven_joint(spec, drives[0]).kind == "revolute" else f"the drive pushes {drives[0].joint!r}, so that it has no angle"
 
 
 def _no_wear(spec: LinkageSpec) -> str | None:
@@ -134,12 +137,13 @@ def _load_table(model: LinkageModel, done: Answers) -> Answer:
     assert table is not None
     output = model.output(table.output)
     with_play = [joint.name for joint in spec.joints if joint.pin not in (None, "ideal", "bushing")]
+    speed_key = f"{spec.turning_drive}.speed"
     points = [(speed, clearance) for speed in table.speeds for clearance in table.clearances]
 
     def model_at(point: tuple[float, float]) -> LinkageModel:
-        return build(spec.replace({"drive.speed": SI(point[0])} | {f"joints.{name}.clearance": SI(point[1]) for name in with_play}))
+        return build(spec.replace({speed_key: SI(point[0])} | {f"joints.{name}.clearance": SI(point[1]) for name in with_play}))
 
-    ideal = {speed: ideal_acceleration_peak(build(spec.replace({"drive.speed": SI(speed)})), output) for speed in table.speeds}
+    ideal = {speed: ideal_acceleration_peak(build(spec.replace({speed_key: SI(speed)})), output) for speed in table.speeds}
     return load_table(output, points, model_at, ideal)
 
 

@@ -38,7 +38,7 @@ def build(spec: LinkageSpec) -> LinkageModel:
         settings=_settings(spec),
         duration=spec.duration or spec.period,
         period=spec.period,
-        drive_speed=spec.drive.speed if spec.drive else None,
+        drive_speed=spec.drive_speed,
         window_start=spec.start_of_window if run else 0.0,
         samples_per_turn=run.samples_per_turn if run else 720,
         ensemble=run.ensemble if run else 1,

@@ -8,12 +8,13 @@ from drivewright.contact.laws import contact_law_names
 from drivewright.errors import SpecError
 from drivewright.mechanisms.linkage.joints import NORMALS, Joint
 from drivewright.mechanisms.linkage.spec import LinkageSpec
-from drivewright.mechanisms.linkage.tables import CENTROID, GROUND, LinkageOutput, central_inertia, place, points_of
+from drivewright.mechanisms.linkage.tables import CENTROID, GROUND, LinkageDrive, LinkageOutput, central_inertia, place, points_of
 from drivewright.multibody import model
 from drivewright.multibody.bodies import Marker
-from drivewright.multibody.curve_files import lift_curve, load_curve, profile_curve
+from drivewright.multibody.curve_files import actuator_curve, delayed, lift_curve, load_curve, profile_curve
 from drivewright.multibody.forces.contact import Dry
 from drivewright.multibody.forces.dry_contact import dry_contact
+from drivewright.multibody.forces.joint_friction import JointFriction
 from drivewright.multibody.model import MultibodyModel
 from drivewright.spec.csv_columns import PURE
 
@@ -22,7 +23,7 @@ def describe(spec: LinkageSpec, ideal: bool = False) -> MultibodyModel:
     """The multibody `Model` of a LinkageSpec; `ideal` takes the play out of every joint."""
     bodies = tuple(_body(name, body) for name, body in spec.bodies.items())
     joints = tuple(_joint(spec, joint, ideal) for joint in spec.joints)
-    drives, motors = _drive(spec)
+    drives, motors = _drives(spec)
     return model.MultibodyModel(bodies, joints, (*_forces(spec), *motors), drives, spec.gravity)
 
 
@@ -52,19 +53,21 @@ def _markers(spec, item) -> tuple[Marker, Marker]:
 
 
 def _revolute(spec, joint, ideal):
-    return model.Revolute(joint.name, *_markers(spec, joint), model.Ideal() if ideal else PINS[joint.pin](spec, joint))
+    pin = model.Ideal() if ideal else PINS[joint.pin](spec, joint)
+    return model.Revolute(joint.name, *_markers(spec, joint), pin, None if ideal else joint_friction(joint))
 
 
 def _prismatic(spec, joint, ideal):
-    return model.Prismatic(joint.name, *_markers(spec, joint), _unit(joint.axis))
+    return model.Prismatic(joint.name, *_markers(spec, joint), _unit(joint.axis), None if ideal else joint_friction(joint))
 
 
 def _pin_slot(spec, joint, ideal):
-    return model.PinSlot(joint.name, *_markers(spec, joint), _unit(joint.axis))
+    return model.PinSlot(joint.name, *_markers(spec, joint), _unit(joint.axis), None if ideal else joint_friction(joint))
 
 
 def _rolling(spec, joint, ideal):
-    return model.Rolling(joint.name, *_markers(spec, joint), joint.radius, _unit(joint.axis), joint.track_radius)
+    resistance = None if ideal else joint_friction(joint)
+    return model.Rolling(joint.name, *_markers(spec, joint), joint.radius, _unit(joint.axis), joint.track_radius, resistance)
 
 
 def _gear(spec, joint, ideal):
@@ -142,6 +145,25 @@ def _friction(joint):
     )
 
 
+def joint_friction(joint: Joint) -> JointFriction | None:
+    """The friction of an ideal joint; None where it has none, or is no ideal joint."""
+    if joint.kind == "rolling":
+        rolls = joint.rolling_resistance or joint.friction
+        return JointFriction(1.0, 1.0, presliding=joint.bristle_deflection, arm=joint.rolling_resistance) if rolls else None
+    static = joint.friction if joint.static_friction is None else joint.static_friction
+    if joint.kind not in ("revolute", "prismatic", "pin-slot") or not max(joint.friction, static, joint.viscous_friction):
+        return None
+    return JointFriction(
+        joint.friction,
+        static,
+        joint.friction_speed,
+        joint.viscous_friction,
+        joint.bristle_deflection,
+        arm=joint.bearing_radius,
+        guide=joint.bearing_length or 0.0,
+    )
+
+
 def _lubricated(spec, joint):
     return model.Lubricated(dry(spec, joint), joint.viscosity, joint.film, joint.roughness)
 
@@ -174,27 +196,36 @@ def _load(item, steady, what, dimension):
     return load_curve(item.file, what, dimension, item.periodic) if item.file else model.LoadCurve(model.line(steady, 0.0))
 
 
-def _drive(spec):
-    """(prescribed motions, motors) of the drive."""
-    drive = spec.drive
-    if drive is None:
-        return (), ()
-    if drive.motor:
-        body, on = driven_bodies(spec)
-        return (), (model.AppliedTorque("motor", body, load_curve(drive.motor, "torque", "torque"), on),)
-    motion = model.line(0.0, drive.speed) if drive.speed else profile_curve(drive.profile, drive.ends, driven_joint(spec).kind)
-    return (model.JointDrive(drive.joint, motion),), ()
+def _drives(spec):
+    """(prescribed motions, motors) of the drives."""
+    drives = list(spec.all_drives.values())
+    motions = tuple(model.JointDrive(drive.joint, _motion(spec, drive)) for drive in drives if not drive.motor)
+    return motions, tuple(_motor(spec, drive, "motor" if len(drives) == 1 else f"motor {drive.joint}") for drive in drives if drive.motor)
 
 
-def driven_bodies(spec: LinkageSpec) -> tuple[str, str]:
-    """(the body that the drive turns, the one it turns it from): first and second of the joint, the ground never first."""
-    first, second = (place(text)[0] for text in driven_joint(spec).connects)
+def _motion(spec, drive):
+    if drive.speed:
+        return model.line(drive.phase, drive.speed)
+    return delayed(profile_curve(drive.profile, drive.ends, driven_joint(spec, drive).kind), drive.delay)
+
+
+def _motor(spec, drive, name):
+    joint = driven_joint(spec, drive)
+    if joint.kind == "prismatic":
+        return model.LinearActuator(name, *_markers(spec, joint), _unit(joint.axis), actuator_curve(drive.motor))
+    body, on = driven_bodies(spec, drive)
+    return model.AppliedTorque(name, body, load_curve(drive.motor, "torque", "torque"), on)
+
+
+def driven_bodies(spec: LinkageSpec, drive: LinkageDrive) -> tuple[str, str]:
+    """(the body that a drive moves, the one it moves it from): first and second of the joint, the ground never first."""
+    first, second = (place(text)[0] for text in driven_joint(spec, drive).connects)
     return (second, first) if first == GROUND else (first, second)
 
 
-def driven_joint(spec: LinkageSpec) -> Joint:
-    """The Joint of the drive."""
-    return next(joint for joint in spec.joints if spec.drive and joint.name == spec.drive.joint)
+def driven_joint(spec: LinkageSpec, drive: LinkageDrive) -> Joint:
+    """The Joint of a drive."""
+    return next(joint for joint in spec.joints if joint.name == drive.joint)
 
 
 def output_marker(spec: LinkageSpec, output: LinkageOutput) -> Marker:

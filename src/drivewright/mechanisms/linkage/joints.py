@@ -60,9 +60,13 @@ class Joint(Spec):
     )
     link_damping: RotationalDamping = Field("0 N m s/rad", ge=0, description="massless-link: damping of the link's rotation")
     link_angle: Angle = Field("0 deg", description="massless-link: start direction of the link, from the first body's pin to the second's")
-    bearing_radius: Length = Field("10 mm", gt=0, description="dry, lubricated: radius of the bearing")
+    bearing_radius: Length = Field("10 mm", gt=0, description="dry, lubricated, or with friction: radius of the bearing")
     bearing_length: Length | None = Field(
-        None, gt=0, description="length of the bearing; twice its radius unless given", examples=["20 mm"]
+        None,
+        gt=0,
+        description="length of the bearing; twice its radius unless given. prismatic with friction: of the guide along its axis, at whose ends "
+        "a moment presses; what tilts the slider is not counted unless given",
+        examples=["20 mm"],
     )
     modulus: Pressure = Field("207 GPa", gt=0, description="dry: Young's modulus of bearing and journal")
     poisson: Number = Field(0.3, ge=0, lt=0.5, description="dry: Poisson's ratio of both")
@@ -72,16 +76,30 @@ class Joint(Spec):
         "energy as flores-2011 does; kelvin-voigt: linear spring and damper",
     )
     restitution: Number = Field(0.9, gt=0, le=1, description="dry: speed after an impact over the speed before it")
-    friction: Number = Field(0.0, ge=0, description="dry: coefficient of sliding friction")
-    friction_law: Literal["coulomb", "ambrosio", "lugre"] = Field(
-        "coulomb", description="coulomb: mu tanh(v/v0); ambrosio: a ramp that starts above v = 0; lugre: bristles"
+    friction: Number = Field(
+        0.0,
+        ge=0,
+        description="coefficient of sliding friction: of a dry pin, and of ideal pins, slides and slots by the force that they transmit; "
+        "rolling: of wheel and track, which must not slip",
     )
-    friction_speed: Velocity = Field("10 mm/s", gt=0, description="v0 of coulomb; end of ambrosio's ramp; Stribeck speed of lugre")
+    friction_law: Literal["coulomb", "ambrosio", "lugre"] = Field(
+        "coulomb",
+        description="of a dry pin. coulomb: mu tanh(v/v0); ambrosio: a ramp that starts above v = 0; lugre: bristles. Ideal joints slide by "
+        "Coulomb's law and stick",
+    )
+    friction_speed: Velocity = Field(
+        "10 mm/s", gt=0, description="v0 of coulomb; end of ambrosio's ramp; Stribeck speed of lugre and of ideal joints"
+    )
     friction_dead_speed: Velocity = Field("1 mm/s", ge=0, description="ambrosio: start of the ramp")
-    static_friction: Number | None = Field(None, ge=0, description="lugre: coefficient at rest; friction unless given", examples=[0.2])
-    bristle_deflection: Length = Field("10 um", gt=0, description="lugre: deflection at which the bristles carry the normal force")
+    static_friction: Number | None = Field(
+        None, ge=0, description="coefficient at rest, of lugre and of ideal joints; friction unless given", examples=[0.2]
+    )
+    bristle_deflection: Length = Field(
+        "10 um", gt=0, description="deflection before sliding: of lugre's bristles at the normal force, and of ideal joints"
+    )
     bristle_damping: Slowness = Field("0 s/m", ge=0, description="lugre: friction over normal force, per speed of the bristles")
-    viscous_friction: Slowness = Field("0 s/m", ge=0, description="lugre: friction over normal force, per sliding speed")
+    viscous_friction: Slowness = Field("0 s/m", ge=0, description="friction over normal force, per sliding speed: of lugre and of ideal joints")
+    rolling_resistance: Length = Field("0 mm", ge=0, description="rolling: moment that resists rolling over the normal force", examples=["0.05 mm"])
     stiffness: Stiffness | None = Field(
         None, gt=0, description="bushing: of its displacement; kelvin-voigt: of the contact", examples=["5e7 N/m"]
     )

@@ -18,7 +18,7 @@ NO_PERIOD = "wants a drive at constant speed, which gives the turn its length"
 
 def refuse_nonsense(spec: LinkageTables) -> None:
     """Raise SpecError for the first thing in the tables of a linkage that has no meaning."""
-    for rule in (_bodies, _names, _places, _joints, _zero_links, _massless_chains, _loads, _drive, _run, _studies):
+    for rule in (_bodies, _names, _places, _joints, _zero_links, _massless_chains, _loads, _drives, _run, _studies):
         rule(spec)
 
 
@@ -205,22 +205,39 @@ def _loads(spec):
             raise SpecError("give either torque or file", key=f"{key}.torque")
 
 
-def _drive(spec):
-    if spec.drive is None:
-        return
+def _drives(spec):
+    taken = {}
+    for key, drive in spec.all_drives.items():
+        _drive(spec, key, drive)
+        if drive.joint in taken:
+            raise SpecError(f"{taken[drive.joint]} drives joint {drive.joint!r} already; a joint has one drive", key=f"{key}.joint")
+        taken[drive.joint] = f"[{key}]" if key == "drive" else key
+
+
+DRIVEN = {"revolute": ("speed", "profile", "motor"), "prismatic": ("profile", "motor"), "pin-slot": ("profile",)}  # by which ways
+
+
+def _drive(spec, key, drive):
     names = {joint.name: joint for joint in spec.joints}
-    _known(spec.drive.joint, names, "joint", "drive.joint")
-    joint, ways = names[spec.drive.joint], [way for way in ("speed", "profile", "motor") if getattr(spec.drive, way) is not None]
-    if joint.kind not in ("revolute", "prismatic"):
-        raise SpecError(f"{joint.name!r} is a {joint.kind} joint; a drive turns a revolute or pushes a prismatic one", key="drive.joint")
-    if joint.has_play:
-        raise SpecError(f"{joint.name!r} has play (model = {joint.model!r}); drive an ideal joint", key="drive.joint")
+    _known(drive.joint, names, "joint", f"{key}.joint")
+    joint, ways = names[drive.joint], [way for way in ("speed", "profile", "motor") if getattr(drive, way) is not None]
+    if joint.kind not in DRIVEN:
+        raise SpecError(
+            f"{joint.name!r} is a {joint.kind} joint; a drive turns a revolute, or moves a prismatic joint or a pin in a slot",
+            key=f"{key}.joint",
+        )
+    if joint.has_play and ways != ["motor"]:
+        raise SpecError(f"{joint.name!r} has play (model = {joint.model!r}); drive an ideal joint, or take a motor", key=f"{key}.joint")
     if len(ways) != 1:
-        raise SpecError(f"give one of speed, profile and motor, got {' and '.join(ways) or 'none'}", key="drive.speed")
-    if joint.kind == "prismatic" and ways != ["profile"]:
-        raise SpecError(f"{joint.name!r} is prismatic: give a profile of its travel over time", key=f"drive.{ways[0]}")
-    if spec.drive.speed == 0:
-        raise SpecError("a drive at speed 0 never turns; leave [drive] out, or hold the body by a profile", key="drive.speed")
+        raise SpecError(f"give one of speed, profile and motor, got {' and '.join(ways) or 'none'}", key=f"{key}.speed")
+    if ways[0] not in DRIVEN[joint.kind]:
+        article = "is prismatic" if joint.kind == "prismatic" else "is a pin in a slot"
+        raise SpecError(f"{joint.name!r} {article}: give a profile of its travel over time", key=f"{key}.{ways[0]}")
+    if drive.speed == 0:
+        raise SpecError("a drive at speed 0 never turns; leave the drive out, or hold the body by a profile", key=f"{key}.speed")
+    for name, way in (("phase", "speed"), ("delay", "profile")):
+        if getattr(drive, name) and ways != [way]:
+            raise SpecError(f"belongs to a drive with a {way}; {joint.name!r} has a {ways[0]}", key=f"{key}.{name}")
 
 
 # -- the run and the studies ---------------------------------------------------------------------------------------------------

@@ -99,21 +99,27 @@ class LinkageForce(Spec):
 class LinkageDrive(Spec):
     """What moves the mechanism, at one joint."""
 
-    joint: Text = Field(description="name of a revolute joint (with a profile also a prismatic one)", examples=["O2"])
+    joint: Text = Field(description="name of a revolute joint; with a profile or a motor also of a prismatic one or a pin-slot", examples=["O2"])
     speed: Speed | None = Field(
         None,
         description="constant speed of the joint's first body relative to its second; where the first is the ground, of the second",
         examples=["100 rpm"],
     )
+    phase: Angle = Field("0 deg", description="turned at the start, at constant speed, beyond where the body's angle puts it")
     profile: DataFile | None = Field(
         None,
         description="CSV over time [s] instead: angle [deg] counted from the first row, or travel [mm] "
-        "of a prismatic joint from the point of its line",
+        "of a prismatic joint or pin-slot from the point of its line",
     )
+    delay: Time = Field("0 s", ge=0, description="until a profile begins")
     ends: Literal["rest", "free"] = Field(
         "rest", description="of a profile. rest: it starts and ends at rest; free: with any speed, which goes on after the end"
     )
-    motor: DataFile | None = Field(None, description="CSV instead: torque [N m] over speed [rpm] of a motor")
+    motor: DataFile | None = Field(
+        None,
+        description="CSV instead: torque [N m] of a motor over speed [rpm], angle [deg] or time [s]; force [N] of an actuator of a prismatic "
+        "joint over velocity [m/s], travel [mm] or time [s]",
+    )
 
 
 class Simulate(Spec):
@@ -242,7 +248,8 @@ class LinkageTables(MechanismSpec):
     rotational_springs: tuple[LinkageRotationalSpring, ...] = Field((), description="rotational springs and dampers")
     torques: tuple[LinkageTorque, ...] = Field((), description="torques")
     forces: tuple[LinkageForce, ...] = Field((), description="forces")
-    drive: LinkageDrive | None = Field(None, description="drive; without it the mechanism is free to move")
+    drive: LinkageDrive | None = Field(None, description="drive; without it, and without drives, the mechanism is free to move")
+    drives: tuple[LinkageDrive, ...] = Field((), description="further drives, at joints of their own")
     simulate: Simulate | None = Field(None, description="run; without it no dynamics")
     outputs: tuple[LinkageOutput, ...] = Field((), description="motions of interest")
     poincare: Poincare | None = Field(None, description="Poincare section")
@@ -254,10 +261,25 @@ class LinkageTables(MechanismSpec):
     limits: Limits = Field(Limits(), description="requirements")
 
     @property
+    def all_drives(self) -> dict[str, LinkageDrive]:
+        """{key: drive} of all drives, `drive` first."""
+        first = {"drive": self.drive} if self.drive else {}
+        return first | {f"drives.{number}": drive for number, drive in enumerate(self.drives)}
+
+    @property
+    def turning_drive(self) -> str | None:
+        """Key of the first drive at constant speed: whose turn is the turn of the mechanism."""
+        return next((key for key, drive in self.all_drives.items() if drive.speed), None)
+
+    @property
+    def drive_speed(self) -> float | None:
+        """Speed of the drive whose turn counts [rad/s]; None without a drive at constant speed."""
+        return self.all_drives[self.turning_drive].speed if self.turning_drive else None
+
+    @property
     def period(self) -> float | None:
         """Duration of a turn of the drive [s]; None without a drive at constant speed."""
-        speed = self.drive.speed if self.drive else None
-        return 6.283185307179586 / abs(speed) if speed else None
+        return 6.283185307179586 / abs(self.drive_speed) if self.drive_speed else None
 
     @property
     def duration(self) -> float | None:

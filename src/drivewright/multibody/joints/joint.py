@@ -20,6 +20,7 @@ from drivewright.scene import Shape
 if TYPE_CHECKING:
     from drivewright.multibody.forces.contact import Dry
     from drivewright.multibody.forces.element import ForceElement
+    from drivewright.multibody.forces.joint_friction import JointFrictionForce
     from drivewright.multibody.joints.pin_models import MasslessLink, Play
 
 RowFields: TypeAlias = Mapping[str, Any]  # fields of system.ROW; `kind` is a number of system, or an equation under @implements(row_terms)
@@ -91,6 +92,11 @@ class Joint:
     @property
     def force_element(self) -> "ForceElement | None":
         """The force that a joint with play, or one that gives way, consists of."""
+        return None
+
+    @property
+    def friction_force(self) -> "JointFrictionForce | None":
+        """The friction of an ideal joint, whose size is that of what the joint transmits."""
         return None
 
     @property

@@ -1,12 +1,13 @@
 """The pin in a slot."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.drawing import PIN, rounded
+from drivewright.multibody.forces.joint_friction import JointFriction, JointFrictionForce
 from drivewright.multibody.index import ModelIndex, unit_axis
 from drivewright.multibody.joints.joint import SLIDING_PIN, Axis, JointDrawing, PointJoint, RowFields, TreeRole, line_direction, travel
 from drivewright.multibody.wrenches import NORMAL_OF, ObservedBodies, Wrench
@@ -18,6 +19,17 @@ class PinSlot(PointJoint):
     """A point of `first` slides along a line of `second` and may turn."""
 
     axis: Axis = (1.0, 0.0)
+    friction: JointFriction | None = None
+
+    @property
+    def idealised(self) -> "PinSlot":
+        """The same joint without friction."""
+        return replace(self, friction=None)
+
+    @property
+    def friction_force(self) -> JointFrictionForce | None:
+        """The friction of the pin in its slot."""
+        return JointFrictionForce(self.name, "slot", self.first, self.second, self.friction, self.axis) if self.friction else None
 
     @property
     def tree_role(self) -> TreeRole:
@@ -33,6 +45,15 @@ class PinSlot(PointJoint):
         """Fields of its constraint rows."""
         pair, (x, y) = self.pair(index), unit_axis(self.axis, self.name)
         return [pair | {"k": pair["j"], "ex": -y, "ey": x}]
+
+    @property
+    def driven_motion(self) -> str:
+        """What a drive prescribes: the place of the pin along its slot."""
+        return "displacement"
+
+    def drive_wrench(self, bodies: ObservedBodies, mover: str, base: str) -> Wrench:
+        """What a drive of the joint gives to the body that it moves, and takes from the one on which it rests."""
+        return Wrench({}, mover, base, line_direction(self.second.body, self.axis, bodies), bodies.point(self.first))
 
     def wrenches(self, bodies: ObservedBodies) -> list[Wrench]:
         """What it can transmit."""

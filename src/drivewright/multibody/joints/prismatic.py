@@ -1,12 +1,13 @@
 """The prismatic joint."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.drawing import BLOCK, block
+from drivewright.multibody.forces.joint_friction import JointFriction, JointFrictionForce
 from drivewright.multibody.index import ModelIndex, unit_axis
 from drivewright.multibody.joints.joint import PRISMATIC, Axis, JointDrawing, PointJoint, RowFields, TreeRole, line_direction, travel
 from drivewright.multibody.wrenches import NORMAL_OF, ObservedBodies, Wrench, sum_torques
@@ -18,6 +19,17 @@ class Prismatic(PointJoint):
     """A point of `first` slides along a line of `second` that has direction `axis` in its frame; no relative rotation."""
 
     axis: Axis = (1.0, 0.0)
+    friction: JointFriction | None = None
+
+    @property
+    def idealised(self) -> "Prismatic":
+        """The same joint without friction."""
+        return replace(self, friction=None)
+
+    @property
+    def friction_force(self) -> JointFrictionForce | None:
+        """The friction of the slide."""
+        return JointFrictionForce(self.name, "slide", self.first, self.second, self.friction, self.axis) if self.friction else None
 
     @property
     def tree_role(self) -> TreeRole:

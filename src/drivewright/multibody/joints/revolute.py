@@ -10,6 +10,7 @@ from drivewright.multibody.drawing import PIN as PIN_RADIUS
 from drivewright.multibody.forces.bushing import Bushing, BushingForce
 from drivewright.multibody.forces.contact import Dry, Lubricated, PinContact
 from drivewright.multibody.forces.element import ForceElement
+from drivewright.multibody.forces.joint_friction import JointFriction, JointFrictionForce
 from drivewright.multibody.forces.rotational_spring import RotationalSpring
 from drivewright.multibody.index import ModelIndex
 from drivewright.multibody.joints.joint import PIN, Expansion, Joint, JointDrawing, PointJoint, RowFields, TreeRole
@@ -23,6 +24,7 @@ class Revolute(PointJoint):
     """A pin.  `first` carries the bearing (bush), `second` the journal; only a joint with play can tell them apart."""
 
     model: PinModel = Ideal()
+    friction: JointFriction | None = None  # of an ideal pin
 
     @property
     def is_constraint(self) -> bool:
@@ -36,8 +38,8 @@ class Revolute(PointJoint):
 
     @property
     def idealised(self) -> "Revolute":
-        """The same joint without play."""
-        return replace(self, model=Ideal())
+        """The same joint without play and friction."""
+        return replace(self, model=Ideal(), friction=None)
 
     @property
     def play(self) -> Play | None:
@@ -75,6 +77,13 @@ class Revolute(PointJoint):
         if isinstance(model, Bushing):
             return BushingForce(*ends, model)
         return PinContact(*ends, model) if isinstance(model, (Dry, Lubricated)) else None
+
+    @property
+    def friction_force(self) -> JointFrictionForce | None:
+        """The friction of an ideal pin."""
+        if self.friction is None or not self.is_constraint:
+            return None
+        return JointFrictionForce(self.name, "pin", self.first, self.second, self.friction, radius=self.friction.arm)
 
     @property
     def pin_markers(self) -> tuple[Marker, Marker]:

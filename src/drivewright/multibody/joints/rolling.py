@@ -1,12 +1,13 @@
 """The wheel that rolls without slip."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.multibody.bodies import GROUND
+from drivewright.multibody.forces.joint_friction import JointFriction, JointFrictionForce
 from drivewright.multibody.index import ModelIndex, unit_axis
 from drivewright.multibody.joints.joint import Axis, JointDrawing, PointJoint, RowFields, line_direction, travel
 from drivewright.multibody.joints.rows import CIRCLE, DISTANCE
@@ -25,6 +26,20 @@ class Rolling(PointJoint):
     radius: float
     axis: Axis = (1.0, 0.0)
     track_radius: float = 0.0
+    friction: JointFriction | None = None  # its resistance to rolling
+
+    @property
+    def idealised(self) -> "Rolling":
+        """The same joint without resistance."""
+        return replace(self, friction=None)
+
+    @property
+    def friction_force(self) -> JointFrictionForce | None:
+        """The moment that resists rolling."""
+        if self.friction is None:
+            return None
+        rub = replace(self.friction, guide=self.track_radius)
+        return JointFrictionForce(self.name, "wheel", self.first, self.second, rub, self.axis, self.radius)
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:
         """Fields of its constraint rows."""

@@ -108,7 +108,7 @@ def _turn(model, chain):
     run = simulate(model.assembly, model.period, samples=np.linspace(0, model.period, SAMPLES))
     observed = concatenate([observe(*states) for states in states_outside_folds(run)])
     e = _directions(model, chain, observed)
-    crank, speed = np.angle(e[0]), model.spec.drive.speed
+    crank, speed = np.angle(e[0]), model.drive_speed
     both = [ideal_motion(_bar(chain)._replace(branch=sign), crank) for sign in (1.0, -1.0)]  # in a fold one goes over into the other
     mine = np.argmin([np.abs(solution[0][2] - e[2]) for solution in both], axis=0)
     other, bent = (np.where(mine == 0, both[0][k], both[1][k]) for k in (0, 2))
@@ -129,7 +129,7 @@ def _links(model, chain):
     bar = _loaded(model, chain)
     if bar is None:
         return
-    speed, length = model.spec.drive.speed, PART * model.period
+    speed, length = model.drive_speed, PART * model.period
     run = simulate(model.assembly, length, Settings(1e-11), samples=np.array([0.0, length]))
     first, last = run.stretches[0], run.end
     start, end = observe(first.system, first.t[:1], first.y[:1]), observe(last[0], [last[1]], last[2][None])

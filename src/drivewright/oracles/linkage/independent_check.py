@@ -142,7 +142,7 @@ def _missing_in_exudyn(model):
     smooth = all(isinstance(pin, Ideal) or (isinstance(pin, Dry) and _plain(pin)) for pin in pins)
     joints = all(isinstance(joint, (Revolute, Prismatic, PinSlot)) for joint in wide.joints)
     tables = any(item.file for item in (*spec.torques, *spec.forces))
-    steady = spec.drive is None or spec.drive.speed is not None
+    steady = all(drive.speed is not None for drive in spec.all_drives.values())
     massive = all(body.mass > 0 and body.inertia > 0 for body in wide.bodies)
     known = {
         "the law of a joint with play": smooth,
