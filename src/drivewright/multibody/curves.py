@@ -27,13 +27,25 @@ def line(start: float, slope: float) -> Curve:
     return Curve(np.array([0.0, 1.0]), np.array([[start, slope, 0.0, 0.0, 0.0, 0.0]]))
 
 
+def curve_values(curve: Curve, x: Numbers) -> Floats:
+    """f of a `Curve` at x, any shape."""
+    coefficients, u = _piece_of(curve, x)
+    return np.sum(coefficients * u[..., None] ** np.arange(coefficients.shape[-1]), axis=-1)
+
+
 def curve_slope(curve: Curve, x: Numbers) -> Floats:
     """df/dx of a `Curve` at x, any shape."""
+    coefficients, u = _piece_of(curve, x)
+    powers = np.arange(1, coefficients.shape[-1])
+    return np.sum(powers * coefficients[..., 1:] * u[..., None] ** (powers - 1), axis=-1)
+
+
+def _piece_of(curve, x):
+    """(coefficients (..., 6) of the piece in which every x lies, x from its start on)."""
     breaks, coefficients = np.asarray(curve.breaks), np.asarray(curve.coefficients)
     x = breaks[0] + (x - breaks[0]) % curve.period if curve.period else np.asarray(x)
     piece = np.clip(np.searchsorted(breaks[: len(coefficients)], x, side="right") - 1, 0, None)
-    powers = np.arange(1, coefficients.shape[1])
-    return np.sum(powers * coefficients[piece, 1:] * (x - breaks[piece])[..., None] ** (powers - 1), axis=-1)
+    return coefficients[piece], x - breaks[piece]
 
 
 @inner

@@ -112,13 +112,14 @@ def _give(system, work, row, gradient, needs):
 
 @inner
 def wrench_of_joint(system: System, work: Work, friction: OneRecord, scratch: FrictionWork) -> tuple[float, float, float]:
-    """(force x, y [N], moment about the joint's point on the first body [N m]) of a joint on its first body, up to the sign of all."""
+    """(force x, y [N], moment about the joint's point on the first body [N m]) of a joint on its first body."""
     one = work.poses[friction.i]
     px, py = rotated(one, friction.ax, friction.ay)
     if friction.child >= 0:
         here, needs = work.poses[friction.child], scratch.wrenches[friction.child]
         x, y = here.x - one.x - px, here.y - one.y - py
-        return needs[0], needs[1], needs[2] + x * needs[1] - y * needs[0]
+        sign = 1.0 if friction.child == friction.i else -1.0
+        return sign * needs[0], sign * needs[1], sign * (needs[2] + x * needs[1] - y * needs[0])
     fx = fy = moment = 0.0
     for r in range(system.rows.size):
         if system.rows[r].joint == friction.joint:

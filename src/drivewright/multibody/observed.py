@@ -7,7 +7,7 @@ from drivewright._typing import Floats
 FIELDS = ("x", "y", "angle", "vx", "vy", "w", "ax", "ay", "alpha", "fx", "fy", "torque")
 PIN_FIELDS = ("depth", "normal", "friction", "slip", "nx", "ny", "fx", "fy")
 POWER_FIELDS = ("springs", "applied", "pins", "friction", "drives")
-FRICTION_FIELDS = ("rate", "force", "load", "share", "sliding")
+FRICTION_FIELDS = ("rate", "force", "load", "share", "sliding", "normal", "tangential")
 
 
 class Observed(NamedTuple):
@@ -17,7 +17,8 @@ class Observed(NamedTuple):
     pins (m, pins with play, PIN_FIELDS): depth below 0 in flight, n from the journal to the bearing's centre, force on the bearing;
     powers (m, POWER_FIELDS) that the elements give to the bodies [W], friction being that of ideal joints; drives (m, drives): torque or force
     of each drive; frictions (m, ideal joints with friction, FRICTION_FIELDS): rate of the joint, friction on its first body, that at the
-    coefficient 1, share of the largest static one, and -1, 1 where it slides, 0 where it sticks.
+    coefficient 1, share of the largest static one, -1, 1 where it slides, 0 where it sticks, and what it transmits: of a pin force x and
+    y, of a slide normal force and twice the moment over the guide's length, of a wheel normal (above 0: pressed) and tangential force.
     """
 
     t: Floats

@@ -80,17 +80,22 @@ class _Equations(NamedTuple):
     resultants: tuple[Floats, Floats]
 
 
-def _equations(assembly, system, observed):
-    expanded = assembly.expanded
-    places = ObservedBodies(
+def observed_bodies(assembly: Assembly, observed: Observed) -> ObservedBodies:
+    """The bodies of an assembly in observed states."""
+    bodies = assembly.expanded.bodies
+    return ObservedBodies(
         {name: k for k, name in enumerate(assembly.names)},
-        {GROUND: (0.0, 0.0)} | {body.name: body.centroid for body in expanded.bodies},
-        {GROUND: 0.0} | {body.name: body.angle for body in expanded.bodies},
+        {GROUND: (0.0, 0.0)} | {body.name: body.centroid for body in bodies},
+        {GROUND: 0.0} | {body.name: body.angle for body in bodies},
         observed,
     )
+
+
+def _equations(assembly, system, observed):
+    expanded, places = assembly.expanded, observed_bodies(assembly, observed)
     ideal = [joint for joint in expanded.joints if joint.is_constraint]
     groups = [joint.wrenches(places) for joint in ideal]
-    driven = [_drive_wrench(next(j for j in expanded.joints if j.name == drive.joint), places) for drive in expanded.drives]
+    driven = [drive_wrench(next(j for j in expanded.joints if j.name == drive.joint), places) for drive in expanded.drives]
     unknowns = [wrench for group in groups for wrench in group] + driven
     length = _length(unknowns, places)
     return _Equations(places, ideal, groups, unknowns, length, _columns(unknowns, places, length), _resultants(system, observed, length))
@@ -111,7 +116,7 @@ def _solve(assembly, system, observed):
     return Reactions(joints, _tensions(assembly.model, joints, places), sizes[:, start:], residual)
 
 
-def _drive_wrench(joint, places):
+def drive_wrench(joint: Joint, places: ObservedBodies) -> Wrench:
     """The unknown of a drive: it moves the first body against the second, or, where the first is the ground, the second."""
     first, second = joint.bodies
     mover, base = (second, first) if first == GROUND else (first, second)

@@ -11,6 +11,7 @@ import numpy as np
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.bodies import Marker
+from drivewright.multibody.locking import refuse_locked
 from drivewright.multibody.observe import FIELDS, Observed, observe
 from drivewright.multibody.simulate import Run
 from drivewright.multibody.system import System
@@ -91,7 +92,9 @@ def final_state(run: Run) -> Floats:
 
 def _parts(assembly, stretch, markers, start):
     for first in range(int(np.searchsorted(stretch.t, start)), len(stretch.t), CHUNK):
-        record = observe(stretch.system, stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK])
+        t, y = stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK]
+        record = observe(stretch.system, t, y)
+        refuse_locked(assembly, stretch.system, t, y, record.frictions)
         points = {name: marker_motion(assembly, record, marker) for name, marker in markers.items()}
         yield record.t, points, record.pins, record.powers, record.drives, record.frictions, *energy_of(stretch.system, record)
 

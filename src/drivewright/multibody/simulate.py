@@ -13,8 +13,10 @@ from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.chart import outside_fold, solve_kinematics
 from drivewright.multibody.compile_model import compile_model
 from drivewright.multibody.continuation import Stretch, continue_motion, kernels_of_continuation
+from drivewright.multibody.drive_positions import drive_positions
 from drivewright.multibody.dynamics import FIRST_PIN, begin_sliding
 from drivewright.multibody.forces.pin_contact import LASTING, penetration
+from drivewright.multibody.locking import locked_message
 from drivewright.multibody.model import MultibodyModel
 from drivewright.multibody.observe import FIELDS, kernels_of_observation, observe
 from drivewright.multibody.partition import evaluate_at, partition_coordinates
@@ -114,7 +116,7 @@ def simulate(
         return _driven(assembly, times, start + duration, settings, samples is None)
     system = assembly.system
     y = assembly.state if state is None else touching(system, start, np.array(state, float))
-    y = rubbing(system, start, y) if state is None else y
+    y = rubbing(system, start, y)
     if duration == 0:
         return Run(assembly, (Stretch(system, np.array([start]), y[None], start, y),), np.zeros((0, 3)), "", 0, start)
     return _legs(assembly, start, start + duration, y, settings, samples)
@@ -137,10 +139,12 @@ def _legs(assembly, t, end, y, settings, samples):
             advice = FULL
         if run.outcome == "min_step" and _stretched(system, t, y):
             advice = _stuck(assembly, t, end)
+        if run.outcome == "not_finite" and len(joints_with_friction(system)):
+            advice = locked_message(assembly, system, t, y) or advice
         if goes_on:
             system, y, leg = _onward(system, t, y, end, run.outcome == "event")
-            if len(system.chart.offsets) and settings.singular == "stop":
-                goes_on, advice = False, stop_advice(system.chart.origin_time)
+            if len(system.chart.offsets) and stops_at_folds(system, settings):
+                goes_on, advice = False, stop_advice(system.chart.origin_time, settings)
         if not goes_on:
             return Run(assembly, _joined(stretches), np.concatenate(impacts), advice, steps, end, tuple(passages))
 
@@ -195,11 +199,21 @@ def _leg(system, t, y, end):
     return Leg(min(end, t + 1.0 / pace), CAREFUL / pace) if pace > 0 else Leg(end)
 
 
-def stop_advice(time: float) -> str:
-    """Advice of a run that was to stop in a singular position."""
+def stops_at_folds(system: System, settings: Settings) -> bool:
+    """Whether a run ends in a singular position: where it was told to, or where ideal joints rub, whose forces have no limit there."""
+    return settings.singular == "stop" or len(joints_with_friction(system)) > 0
+
+
+def stop_advice(time: float, settings: Settings) -> str:
+    """Advice of a run that ends in a singular position."""
+    if settings.singular == "stop":
+        return (
+            f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; "
+            'take simulate.singular = "smooth" to go through it'
+        )
     return (
-        f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; "
-        'take simulate.singular = "smooth" to go through it'
+        f"the mechanism comes to a singular position at t = {time:.6g} s, where the forces in its joints grow without bound, and their "
+        "friction with them. Take the friction out of the ideal joints, give the pins play, or end the run before"
     )
 
 
@@ -228,8 +242,9 @@ def touching(system: System, t: float, y: Floats) -> Floats:
 
 
 def rubbing(system: System, t: float, y: Floats) -> Floats:
-    """A state whose joints with friction slide where they move, and stick where they do not."""
-    if len(joints_with_friction(system)):
+    """A state whose joints with friction slide where they move, and stick where they do not, unless it remembers whether they do."""
+    table = joints_with_friction(system)
+    if len(table) and not np.any(y[[*table.sliding, *table.relaxation]]):
         begin_sliding(*motion(system), t, y)
     return y
 
@@ -334,10 +349,10 @@ def work_at_state(system: System, t: float, y: Floats) -> Work:
 
 def _driven(assembly, times, end, settings, refine):
     """Kinematics: the dependent coordinates at the times, each from the one before."""
-    continuation = continue_motion(assembly.system, times, end, assembly.state, settings.singular == "stop", refine)
+    continuation = continue_motion(assembly.system, times, end, assembly.state, stops_at_folds(assembly.system, settings), refine)
     if continuation.outcome == "stuck":
         raise DoesNotAssemble(_stuck(assembly, continuation.reached, end))
-    advice = stop_advice(continuation.reached) if continuation.outcome == "stopped" else ""
+    advice = stop_advice(continuation.reached, settings) if continuation.outcome == "stopped" else ""
     return Run(
         assembly, continuation.stretches, np.zeros((0, 3)), advice, len(times), end, continuation.passages, continuation.refined_until
     )
@@ -346,11 +361,7 @@ def _driven(assembly, times, end, settings, refine):
 def _stuck(assembly, t, end):
     """Message on a drive that cannot go on."""
     work = evaluate_at(assembly.system, np.zeros(len(assembly.start.q)), t)
-    positions = []
-    for drive, driven in zip(assembly.model.drives, assembly.system.driven, strict=True):
-        value = driven.sign * work.coordinates.q[driven.coordinate]
-        turning = any(link.turn == driven.coordinate for link in assembly.tree.links)
-        positions.append(f"{drive.joint!r} at {np.degrees(value) % 360:.2f} deg" if turning else f"{drive.joint!r} at {1e3 * value:.4g} mm")
+    positions = drive_positions(assembly, assembly.system, work)
     joints = sorted({assembly.expanded.joints[row.joint].name for row in assembly.system.rows})
     if t <= 0.0:
         return (

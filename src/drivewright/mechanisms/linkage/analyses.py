@@ -9,15 +9,17 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.mechanisms.linkage.advice import advice
 from drivewright.mechanisms.linkage.build import LinkageModel, build
-from drivewright.mechanisms.linkage.describe import driven_joint
+from drivewright.mechanisms.linkage.describe import driven_joint, joint_friction
 from drivewright.mechanisms.linkage.joints import Joint
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.mechanisms.linkage.tables import Deviation, place
 from drivewright.multibody.analyses.bifurcation import bifurcation
 from drivewright.multibody.analyses.energy import energy
+from drivewright.multibody.analyses.friction import friction
 from drivewright.multibody.analyses.impact_load import ideal_acceleration_peak, load_table
 from drivewright.multibody.analyses.joint_forces import joint_forces
 from drivewright.multibody.analyses.lyapunov import lyapunov
+from drivewright.multibody.analyses.motors import motors
 from drivewright.multibody.analyses.oil_films import oil_films
 from drivewright.multibody.analyses.outputs import end, impact, motion
 from drivewright.multibody.analyses.pins import pins
@@ -60,6 +62,14 @@ def _no_pins(spec: LinkageSpec) -> str | None:
 
 def _no_turns(spec: LinkageSpec) -> str | None:
     return _no_outputs(spec) or (None if spec.period and spec.simulate else "there are no turns of a drive at constant speed")
+
+
+def _no_friction(spec: LinkageSpec) -> str | None:
+    return no_run(spec) or (None if any(joint_friction(joint) for joint in spec.joints if joint.is_ideal) else "no ideal joint has friction")
+
+
+def _no_drives(spec: LinkageSpec) -> str | None:
+    return no_run(spec) or (None if spec.all_drives else "there is no drive")
 
 
 def _no_oil(spec: LinkageSpec) -> str | None:
@@ -214,6 +224,8 @@ ANALYSES: tuple[Analysis[LinkageSpec, LinkageModel], ...] = (
     Analysis("pins", _of_model(pins), "forces, impacts and orbits of pins with play", missing=_no_pins),
     Analysis("forces", _of_model(joint_forces), "forces in all joints", missing=no_run),
     Analysis("energy", _of_model(energy), "energy audit and drive torque", missing=no_run),
+    Analysis("friction", _of_model(friction), "friction in ideal joints, efficiency", missing=_no_friction),
+    Analysis("motors", _of_model(motors), "motor sizing: torque, power, reflected inertia", missing=_no_drives),
     Analysis("singular", _of_model(singular_positions), "singular positions passed", missing=no_run),
     Analysis("spectrum", _of_model(spectrum), "accelerations in orders of the drive", missing=_no_turns),
     Analysis("poincare", _poincare, "Poincare section", missing=_no_table("poincare")),

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivewright.errors import DoesNotAssemble
-from drivewright.mechanisms.linkage.describe import describe, output_marker
+from drivewright.mechanisms.linkage.describe import describe, joint_friction, motor_name, output_marker
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.multibody.analyses.simulation_model import Output, RunLimits, SimulationModel
 from drivewright.multibody.assembly import assemble
@@ -51,6 +51,8 @@ def build(spec: LinkageSpec) -> LinkageModel:
             limits.link_compression,
             limits.energy_error,
         ),
+        motors={motor_name(spec, drive): drive.joint for drive in spec.all_drives.values() if drive.motor},
+        grips={joint.name: joint.friction for joint in spec.joints if joint.kind == "rolling" and joint_friction(joint)},
     )
 
 

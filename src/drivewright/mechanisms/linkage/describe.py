@@ -54,7 +54,8 @@ def _markers(spec, item) -> tuple[Marker, Marker]:
 
 def _revolute(spec, joint, ideal):
     pin = model.Ideal() if ideal else PINS[joint.pin](spec, joint)
-    return model.Revolute(joint.name, *_markers(spec, joint), pin, None if ideal else joint_friction(joint))
+    rub = joint_friction(joint) if joint.is_ideal and not ideal else None
+    return model.Revolute(joint.name, *_markers(spec, joint), pin, rub)
 
 
 def _prismatic(spec, joint, ideal):
@@ -200,7 +201,12 @@ def _drives(spec):
     """(prescribed motions, motors) of the drives."""
     drives = list(spec.all_drives.values())
     motions = tuple(model.JointDrive(drive.joint, _motion(spec, drive)) for drive in drives if not drive.motor)
-    return motions, tuple(_motor(spec, drive, "motor" if len(drives) == 1 else f"motor {drive.joint}") for drive in drives if drive.motor)
+    return motions, tuple(_motor(spec, drive) for drive in drives if drive.motor)
+
+
+def motor_name(spec: LinkageSpec, drive: LinkageDrive) -> str:
+    """Name of the torque or force that a motor gives."""
+    return "motor" if len(spec.all_drives) == 1 else f"motor {drive.joint}"
 
 
 def _motion(spec, drive):
@@ -209,8 +215,8 @@ def _motion(spec, drive):
     return delayed(profile_curve(drive.profile, drive.ends, driven_joint(spec, drive).kind), drive.delay)
 
 
-def _motor(spec, drive, name):
-    joint = driven_joint(spec, drive)
+def _motor(spec, drive):
+    joint, name = driven_joint(spec, drive), motor_name(spec, drive)
     if joint.kind == "prismatic":
         return model.LinearActuator(name, *_markers(spec, joint), _unit(joint.axis), actuator_curve(drive.motor))
     body, on = driven_bodies(spec, drive)

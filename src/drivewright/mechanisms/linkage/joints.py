@@ -146,6 +146,11 @@ class Joint(Spec):
         return self.pin not in (None, "ideal")
 
     @property
+    def is_ideal(self) -> bool:
+        """Whether it has neither play nor springs."""
+        return self.pin in (None, "ideal")
+
+    @property
     def has_contact(self) -> bool:
         """Whether journal and bearing touch by a contact law, dry or through the oil."""
         return self.pin in ("dry", "lubricated")

@@ -3,14 +3,17 @@
 from drivewright.multibody.analyses.energy_audit import audit_table
 from drivewright.multibody.analyses.ensemble import statistics
 from drivewright.multibody.analyses.simulation_model import ROWS, SimulationModel, cycle_columns, last_turn, run_of
-from drivewright.multibody.analyses.turns import audit_of_run, energy_numbers
+from drivewright.multibody.analyses.turns import audit_of_run, driven_columns, energy_numbers
 from drivewright.multibody.observe import POWER_FIELDS
+from drivewright.multibody.system import joints_with_friction
 from drivewright.result import Answer, Check, Column, Table, Value
 
+UNITS = {"torque": "N m", "force": "N"}  # of drives that turn, and of those that push
 MEANING = {
     "springs": "springs, dampers and bushings",
     "applied": "applied torques and forces",
     "pins": "pins with play",
+    "friction": "friction in ideal joints",
     "drives": "drives",
 }
 
@@ -25,7 +28,8 @@ def energy(model: SimulationModel) -> Answer:
 def work_audit(model: SimulationModel) -> Answer:
     """Work of every kind of element over the run, and what the audits leave over."""
     numbers = statistics(model, energy_numbers)
-    values = {f"energy.{name}": Value.of(numbers.of_run(name), "J", f"work of {MEANING[name]} over the run") for name in POWER_FIELDS}
+    told = [name for name in POWER_FIELDS if name != "friction" or joints_with_friction(model.assembly.system)]
+    values = {f"energy.{name}": Value.of(numbers.of_run(name), "J", f"work of {MEANING[name]} over the run") for name in told}
     values["energy.gap"] = Value(numbers.worst("gap"), "J", "largest gap of the energy audit")
     values["energy.error"] = Value(numbers.worst("error"), "-", "largest gap over the energy exchanged")
     limit, checks = model.limits.energy_error, []
@@ -40,10 +44,13 @@ def drive_torque(model: SimulationModel) -> Answer:
     """Largest torque (force) of the drives in the window; nothing without a drive."""
     if not model.assembly.model.drives:
         return Answer()
-    torque = Value.of(statistics(model).of_run("drive.torque"), "N m", "largest torque of the drive, either way")
-    limit = model.limits.drive_torque
-    checks = (Check.of(torque, "drive_torque", limit, "<=", "largest torque of the drive"),) if limit else ()
-    return Answer({"drive.max_torque": torque}, (), checks)
+    values = {
+        f"drive.max_{kind}": Value.of(statistics(model).of_run(f"drive.{kind}"), UNITS[kind], f"largest {kind} of the drive, either way")
+        for kind in driven_columns(model)
+    }
+    torque, limit = values.get("drive.max_torque"), model.limits.drive_torque
+    checks = (Check.of(torque, "drive_torque", limit, "<=", "largest torque of the drive"),) if limit and torque else ()
+    return Answer(values, (), checks)
 
 
 def _torque_tables(model):
@@ -52,8 +59,10 @@ def _torque_tables(model):
     if not names:
         return ()
     turn = last_turn(model)
-    columns = (
-        *cycle_columns(model, turn.t),
-        *(Column(f"torque_{name}", "N m", f"torque of the drive at joint {name!r}", turn.drives[:, k]) for k, name in enumerate(names)),
-    )
-    return (Table("drive", "Torque of the drive over the last turn", columns),)
+    columns = [
+        Column(f"{kind}_{names[k]}", UNITS[kind], f"{kind} of the drive at joint {names[k]!r}", turn.drives[:, k])
+        for kind, chosen in driven_columns(model).items()
+        for k in chosen
+    ]
+    told = " and ".join(driven_columns(model)).capitalize()
+    return (Table("drive", f"{told} of the drive over the last turn", (*cycle_columns(model, turn.t), *columns)),)

@@ -20,7 +20,7 @@ def simulation_plots(
     """
     plots = [plot for name, of_point in outputs.items() for plot in _output_plots(tables, name, of_point, has_play)]
     plots += [plot for name, clearance in clearances.items() for plot in _pin_plots(tables, name, clearance)]
-    plots += [*_run_plots(tables, list(clearances)), *_study_plots(tables)]
+    plots += [*_run_plots(tables, list(clearances)), *_friction_plots(tables), *_study_plots(tables)]
     return tuple(_with_folds(tables, plot) for plot in plots)
 
 
@@ -108,14 +108,30 @@ def _run_plots(tables: Mapping[str, Table], joints: list[str]) -> Iterator[Plot]
         yield Plot("impacts", "Impacts", "impacts", "time", ("speed",), style="stems", by="joint" if several else "")
     if drive:
         limits = (("drive_torque", "limit"), ("-drive_torque", "limit"))
-        torques = tuple(c.name for c in drive.columns if c.name.startswith("torque_"))
-        yield Plot("drive", "Torque of the drive", "drive", drive.columns[0].name, torques, limits)
+        torques, forces = (tuple(c.name for c in drive.columns if c.name.startswith(kind)) for kind in ("torque_", "force_"))
+        if torques:
+            yield Plot("drive", "Torque of the drive", "drive", drive.columns[0].name, torques, limits)
+        if forces:
+            yield Plot("drive.force", "Force of the drive", "drive", drive.columns[0].name, forces)
     if energy:
         columns = tuple(c.name for c in energy.columns[1:] if c.name != "gap" and np.any(c.data))
         if len(columns) > 1:  # energy that nothing works on stays where it is
             yield Plot("energy", "Energy balance", "energy", "time", columns)
     yield Plot("poincare", "Poincare section at crank angle zero", "poincare", "position", ("velocity",), style="points")
     yield Plot("lyapunov", "Largest Lyapunov exponent, converging", "lyapunov", "turn", ("exponent",), ((0.0, "chaos above 0"),))
+
+
+def _friction_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
+    """Friction in ideal joints, and what it takes, over the cycle."""
+    table = tables.get("friction")
+    if table is None:
+        return
+    x, names = table.columns[0].name, [column.name for column in table.columns]
+    for unit, word in (("N m", "torque in pins and wheels"), ("N", "force in slides and slots")):
+        rubbing = tuple(name for name in names if name.endswith(".friction") and table[name].unit == unit)
+        if rubbing:
+            yield Plot(f"friction.{'torque' if unit == 'N m' else 'force'}", f"Friction {word}", "friction", x, rubbing)
+    yield Plot("friction.loss", "Power lost by friction", "friction", x, tuple(name for name in names if name.endswith(".loss")))
 
 
 def _study_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:

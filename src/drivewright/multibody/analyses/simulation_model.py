@@ -1,7 +1,7 @@
 """A mechanism with what is asked of its run: assembled, its twin without play, outputs, turn, window, settings; and the runs of both."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -63,6 +63,8 @@ class SimulationModel:
     ensemble: int = 1
     seed: int = 1
     limits: RunLimits = RunLimits()
+    motors: Mapping[str, str] = field(default_factory=dict)  # {name of the force element: joint that it moves}
+    grips: Mapping[str, float] = field(default_factory=dict)  # {rolling joint: coefficient of friction up to which it does not slip}
 
     @property
     def findings(self) -> tuple[str, ...]:

@@ -58,12 +58,21 @@ def output_numbers(model: SimulationModel, run: Run) -> RunNumbers:
     for output in model.outputs if model.has_play else ():
         add_impact_load(record, output, ends, numbers, ideal_peak(model, output))
     if model.assembly.model.drives:
-        torque = np.max(np.abs(record.drives), axis=1)
-        numbers.whole["drive.torque"] = float(np.max(torque))
-        numbers.turns.update({"drive.torque": largest_per_turn(record.t, torque, turns)} if len(turns) > 1 else {})
+        for kind, chosen in driven_columns(model).items():
+            effort = np.max(np.abs(record.drives[:, chosen]), axis=1)
+            numbers.whole[f"drive.{kind}"] = float(np.max(effort))
+            numbers.turns.update({f"drive.{kind}": largest_per_turn(record.t, effort, turns)} if len(turns) > 1 else {})
     for number, name in enumerate(model.pins):
         _pin(model, run, record, number, name, ends, numbers)
     return numbers
+
+
+def driven_columns(model: SimulationModel) -> dict[str, list[int]]:
+    """{"torque": numbers of the drives that turn, "force": of those that push}, what there is of them."""
+    assembly = model.assembly.model
+    turning = [next(j for j in assembly.joints if j.name == drive.joint).driven_motion == "rotation" for drive in assembly.drives]
+    kinds = {kind: [k for k, turns in enumerate(turning) if turns is wanted] for kind, wanted in (("torque", True), ("force", False))}
+    return {kind: numbers for kind, numbers in kinds.items() if numbers}
 
 
 def window_record(model: SimulationModel, run: Run) -> Record:

@@ -31,8 +31,8 @@ JOINT_FRICTION = record_type(
     "ax ay bx by ex ey arm guide friction static_friction stribeck_speed viscous presliding",
 )
 STATES = 3  # of a joint with friction
-JOINT_FIELDS = ("rate", "coefficient", "friction", "load", "mobility")
-RATE, COEFFICIENT, FRICTION, LOAD, MOBILITY = range(5)  # rate of the joint, g, friction on its first body, friction at g = 1, see `rub`
+JOINT_FIELDS = ("rate", "coefficient", "friction", "load", "mobility", "normal", "tangential")
+RATE, COEFFICIENT, FRICTION, LOAD, MOBILITY, NORMAL, TANGENTIAL = range(7)  # rate of the joint, g, friction on its first body, friction at g = 1, see `rub`
 
 
 @dataclass(frozen=True)

@@ -19,9 +19,11 @@ from drivewright.multibody.forces.joint_friction import (
     FRICTION,
     LOAD,
     MOBILITY,
+    NORMAL,
     PIN,
     RATE,
     SLIDE,
+    TANGENTIAL,
     WHEEL,
     FrictionWork,
     JointFrictions,
@@ -108,7 +110,9 @@ def _(frictions, work, y, out):
     for k in range(frictions.table.size):
         found, friction = work.friction.joints[k], frictions.table[k]
         out[k, 0], out[k, 1], out[k, 2] = found[RATE], found[FRICTION], found[LOAD]
-        out[k, 3], out[k, 4] = abs(found[COEFFICIENT]) / friction.static_friction, y[friction.sliding]
+        largest = friction.static_friction
+        out[k, 5], out[k, 6] = found[NORMAL], found[TANGENTIAL]
+        out[k, 3], out[k, 4] = abs(found[COEFFICIENT]) / largest if largest > 0.0 else 0.0, y[friction.sliding]
 
 
 # ------------------------------------------------------------------------------------------------------------- friction law
@@ -229,7 +233,9 @@ def add_friction(frictions: JointFrictions, system: System, work: Work, y: Float
     balanced = solve_friction(frictions, scratch)
     for k in range(frictions.table.size):
         friction, unit = frictions.table[k], scratch.unit[k]
-        size = scratch.joints[k, FRICTION] if balanced else np.nan
+        if not balanced:
+            scratch.joints[k, FRICTION] = np.nan
+        size = scratch.joints[k, FRICTION]
         for m in range(system.independent.size):
             work.force[m] += size * scratch.accelerations[k, m]
         one, two = work.poses[friction.i], work.poses[friction.j]
@@ -332,7 +338,7 @@ def load_of(friction: OneRecord, scratch: FrictionWork, k: int) -> None:
         q += scratch.response[k, 1 + l, 1] * scratch.joints[l, FRICTION]
     load, by_p, by_q = friction_of_load(friction, p, q)
     coefficient = scratch.joints[k, COEFFICIENT]
-    scratch.joints[k, LOAD] = load
+    scratch.joints[k, LOAD], scratch.joints[k, NORMAL], scratch.joints[k, TANGENTIAL] = load, p, q
     scratch.columns[0, k] = scratch.joints[k, FRICTION] + coefficient * load
     for l in range(scratch.joints.shape[0]):
         scratch.matrix[k, l] = coefficient * (by_p * scratch.response[k, 1 + l, 0] + by_q * scratch.response[k, 1 + l, 1])

@@ -1,0 +1,137 @@
+"""Friction of ideal joints over the run: losses, sticking, grip of wheels, efficiency, and whether the mechanism holds itself."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from drivewright.multibody.analyses.actuation import actuations
+from drivewright.multibody.analyses.ensemble import statistics
+from drivewright.multibody.analyses.simulation_model import SimulationModel, cycle_columns, last_turn, run_of
+from drivewright.multibody.analyses.turns import RunNumbers, mean_per_turn, start_of_window, turn_ends
+from drivewright.multibody.forces.joint_friction import KINDS
+from drivewright.multibody.observe import POWER_FIELDS, concatenate, observe
+from drivewright.multibody.observed import FRICTION_FIELDS
+from drivewright.multibody.simulate import Run, states_outside_folds
+from drivewright.multibody.system import joints_with_friction
+from drivewright.numerics.signals import time_mean
+from drivewright.result import Answer, Check, Column, Table, Value
+
+AT_REST = 1e-3  # rate over the largest one of the run below which a joint is at rest
+TURNING = (KINDS["pin"], KINDS["wheel"])
+
+
+def rubbing_joints(model: SimulationModel) -> list[tuple[str, bool]]:
+    """(name, whether it turns) of the ideal joints with friction, in the order of the records."""
+    table, joints = joints_with_friction(model.assembly.system), model.assembly.expanded.joints
+    return [(joints[one.joint].name, int(one.kind) in TURNING) for one in table]
+
+
+def friction_numbers(model: SimulationModel, run: Run) -> RunNumbers:
+    """Means over the window of the losses and of what sticks, and the largest friction of every joint, in SI."""
+    start = start_of_window(model, run.end[1])
+    observed = concatenate([observe(*states) for states in states_outside_folds(run, start)])
+    ends, numbers = turn_ends(model, start, observed.t[-1]), RunNumbers()
+    rates = {f"{name}.{key}": values for k, (name, _) in enumerate(rubbing_joints(model)) for key, values in _of_joint(observed, k).items()}
+    driving = sum((one.power for one in actuations(model, observed)), np.zeros(len(observed.t)))
+    losses = -observed.powers[:, POWER_FIELDS.index("friction")]
+    rates |= {"driving": driving, "losses": losses, "holds": ((driving > 0) & (driving < losses)).astype(float)}
+    for name, values in rates.items():
+        numbers.whole[name] = time_mean(observed.t, values)
+        numbers.turns.update({name: mean_per_turn(observed.t, values, ends)} if len(ends) > 1 else {})
+    numbers.whole["loads"] = -_load_power(observed, driving, model)
+    for k, (name, _) in enumerate(rubbing_joints(model)):
+        numbers.whole[f"{name}.most"] = float(np.max(np.abs(observed.friction(k, "force"))))
+    return numbers
+
+
+def _of_joint(observed, k):
+    power = -observed.friction(k, "force") * observed.friction(k, "rate")
+    return {"power": power, "stuck": (observed.friction(k, "sliding") == 0.0).astype(float)}
+
+
+def _load_power(observed, driving, model):
+    """Mean power that the loads give: what is applied, but for the motors."""
+    applied = observed.powers[:, POWER_FIELDS.index("applied")]
+    motors = driving - observed.powers[:, POWER_FIELDS.index("drives")]
+    return time_mean(observed.t, applied - motors) if len(observed.t) > 1 else 0.0
+
+
+def friction(model: SimulationModel) -> Answer:
+    """Losses by joint, efficiency, sticking, grip of wheels; friction over the last turn as a table."""
+    numbers, values = statistics(model, friction_numbers), {}
+    for name, turns in rubbing_joints(model):
+        unit, word = ("N m", "torque") if turns else ("N", "force")
+        power = Value.of(numbers.mean(f"{name}.power"), "W", f"mean power that friction in joint {name!r} takes")
+        most = Value.of(numbers.of_run(f"{name}.most", f"{name}.power"), unit, f"largest friction {word} in joint {name!r}")
+        values |= {f"joints.{name}.friction_power": power, f"joints.{name}.max_friction": most}
+        if model.assembly.freedom:
+            share = numbers.mean(f"{name}.stuck")
+            values[f"joints.{name}.stick_share"] = Value.of(share, "-", f"share of the time in which joint {name!r} sticks")
+    values["friction.power"] = Value.of(numbers.mean("losses"), "W", "mean power that friction in ideal joints takes")
+    values |= _efficiency(model)
+    return Answer(values, (_table(model),), tuple(_grip_checks(model)), tuple(_standstill(model)))
+
+
+def _efficiency(model):
+    """Power that loads take over that of drives and motors; whether friction alone holds the mechanism against its load."""
+    numbers = statistics(model, friction_numbers)
+    given, taken = numbers.members[0].whole["driving"], numbers.members[0].whole["loads"]
+    values = {}
+    if given > 0.0 and taken > 0.0:
+        words = "mean power taken by the loads over that given by drives and motors, in the window"
+        values["efficiency"] = Value(taken / given, "-", words)
+    if given != 0.0:
+        words = "share of the time in which the load would move the drive without friction, and with friction does not"
+        values["friction.self_locking_share"] = Value.of(numbers.mean("holds"), "-", words)
+    return values
+
+
+def _table(model):
+    turn, columns = last_turn(model), []
+    for k, (name, turns) in enumerate(rubbing_joints(model)):
+        rate, force = (turn.frictions[:, k, FRICTION_FIELDS.index(field)] for field in ("rate", "force"))
+        words = ("torque", "N m", "rad/s", "angular velocity") if turns else ("force", "N", "m/s", "sliding velocity")
+        columns += [
+            Column(f"{name}.friction", words[1], f"friction {words[0]} in joint {name!r} on its first body", force),
+            Column(f"{name}.rate", words[2], f"{words[3]} of joint {name!r}, of its first body relative to its second", rate),
+            Column(f"{name}.loss", "W", f"power that friction in joint {name!r} takes", -force * rate),
+        ]
+    return Table("friction", "Friction in ideal joints over the last turn", (*cycle_columns(model, turn.t), *columns))
+
+
+def _grip_checks(model) -> Iterator[Check]:
+    """A wheel must be pressed on its track, and not slip."""
+    run = run_of(model)
+    observed = concatenate([observe(*states) for states in states_outside_folds(run, start_of_window(model, run.end[1]))])
+    for k, (name, _) in enumerate(rubbing_joints(model)):
+        if name not in model.grips:
+            continue
+        normal, tangential = observed.friction(k, "normal"), observed.friction(k, "tangential")
+        words = f"least force that presses the wheel of joint {name!r} on its track; below 0 it lifts off"
+        yield Check(f"contact.{name}", float(np.min(normal)), 0.0, ">=", "N", words, (name,))
+        if model.grips[name] > 0.0:
+            share = np.divide(np.abs(tangential), normal, out=np.full(len(normal), np.inf), where=normal > 0.0)
+            words = f"largest tangential over normal force of the wheel of joint {name!r}; above the coefficient of friction it slips"
+            yield Check(f"grip.{name}", float(np.max(share)), model.grips[name], "<=", "-", words, (name,))
+
+
+def _standstill(model) -> Iterator[str]:
+    """A finding where friction holds the mechanism at the end of the run: since when, and how near the joints are to sliding."""
+    run = run_of(model)
+    if model.assembly.freedom == 0 or run.advice:
+        return
+    observed = concatenate([observe(*states) for states in states_outside_folds(run)])
+    rates = np.abs(observed.frictions[:, :, FRICTION_FIELDS.index("rate")])
+    moving = np.any(rates > AT_REST * np.max(rates, axis=0, initial=0.0), axis=1)
+    if moving[-1] or not np.any(moving):
+        if np.any(moving):
+            return
+        since = float(observed.t[0])
+    else:
+        since = float(observed.t[np.flatnonzero(moving)[-1]])
+    shares = observed.frictions[-1, :, FRICTION_FIELDS.index("share")]
+    held = ", ".join(f"{name!r} {100 * share:.3g} %" for (name, _), share in zip(rubbing_joints(model), shares, strict=True))
+    yield (
+        f"the mechanism stands still from t = {since:.4g} s to the end of the run: friction holds it. Used of what each joint can hold: {held}. "
+        "A motor or load that is meant to move it has to be larger, or the friction smaller"
+    )

@@ -1,0 +1,134 @@
+"""What drives and motors must be able to give: torque, speed, power over the window, and the inertia that they feel."""
+
+import numpy as np
+
+from drivewright._typing import Floats
+from drivewright.motion.motor_sizing import MotorSizing, size_motor
+from drivewright.multibody.analyses.actuation import Actuation, actuations
+from drivewright.multibody.analyses.simulation_model import SimulationModel, run_of
+from drivewright.multibody.analyses.turns import start_of_window
+from drivewright.multibody.curves import curve_slope, curve_values
+from drivewright.multibody.forces.joint_friction import JointFrictions
+from drivewright.multibody.observe import Observed, concatenate, observe
+from drivewright.multibody.records import table_of
+from drivewright.multibody.simulate import states_outside_folds
+from drivewright.multibody.system import PIECE, System
+from drivewright.result import Answer, Column, Table, Value
+
+POSITIONS = 73  # at which the inertia is felt
+QUANTITIES = (
+    # key, of MotorSizing, unit where it turns, unit where it slides, words
+    ("rms", "rms_torque", "N m", "N", "root mean square of the {effort}"),
+    ("peak", "peak_torque", "N m", "N", "largest {effort}, either way"),
+    ("mean_power", "mean_power", "W", "W", "mean power"),
+    ("peak_power", "peak_power", "W", "W", "largest power"),
+    ("braking_power", "braking_power", "W", "W", "largest power that flows back"),
+    ("peak_speed", "peak_speed", "rad/s", "m/s", "largest {rate}"),
+)
+
+
+def observe_window(model: SimulationModel) -> Observed:
+    """`Observed` over the window of the run; of whole turns where the drive makes some."""
+    run = run_of(model)
+    start, end = start_of_window(model, run.end[1]), run.end[1]
+    observed = concatenate([observe(*states) for states in states_outside_folds(run, start)])
+    if model.period and (turns := int((end - start) / model.period + 1e-9)):
+        keep = observed.t <= (start + turns * model.period) * (1 + 1e-12)
+        observed = Observed(*(field[keep] for field in observed))
+    return observed
+
+
+def motors(model: SimulationModel) -> Answer:
+    """Sizing of every drive and motor: values and a table with a row each."""
+    observed, values, rows = observe_window(model), {}, []
+    for one in actuations(model, observed):
+        sizing, inertia = size_motor(observed.t, one.effort, one.rate), felt_inertia(model, one)
+        own = {**_sizing_values(one, sizing), **_inertia_values(one, inertia)}
+        values |= {f"drives.{one.name}.{key}": value for key, value in own.items()}
+        rows.append((one, own))
+    return Answer(values, (_table(rows),) if rows else ())
+
+
+def _sizing_values(one: Actuation, sizing: MotorSizing) -> dict[str, Value]:
+    effort, rate = ("torque", "speed") if one.turns else ("force", "velocity")
+    values = {}
+    for key, field, turning, sliding, words in QUANTITIES:
+        name = f"{key}_{effort}" if key in ("rms", "peak") else key
+        told = words.format(effort=effort, rate=rate)
+        values[name] = Value(getattr(sizing, field), turning if one.turns else sliding, f"{told} of the drive at joint {one.name!r}")
+    return values
+
+
+def _inertia_values(one: Actuation, inertia: Floats) -> dict[str, Value]:
+    if not len(inertia):
+        return {}
+    unit, word = ("kg m^2", "inertia") if one.turns else ("kg", "mass")
+    where = f"that the drive at joint {one.name!r} feels, other drives held"
+    return {
+        f"reflected_{word}": Value(float(np.mean(inertia)), unit, f"mean {word} {where}"),
+        f"max_reflected_{word}": Value(float(np.max(inertia)), unit, f"largest {word} {where}"),
+    }
+
+
+def _table(rows) -> Table:
+    """A row a drive; torque and inertia of those that turn, force and mass of those that slide."""
+
+    def column(name, unit, meaning, keys):
+        numbers = [next((own[key].value for key in keys if key in own), np.nan) for _, own in rows]
+        return Column(name, unit, meaning, np.array(numbers))
+
+    turning, sliding = (any(one.turns is turns for one, _ in rows) for turns in (True, False))
+    columns = [Column("joint", "-", "joint of the drive", np.array([one.name for one, _ in rows]))]
+    for kind, unit, there in (("torque", "N m", turning), ("force", "N", sliding)):
+        if there:
+            columns += [
+                column(f"rms_{kind}", unit, f"root mean square of the {kind}", [f"rms_{kind}"]),
+                column(f"peak_{kind}", unit, f"largest {kind}", [f"peak_{kind}"]),
+            ]
+    columns += [column(key, "W", words, [key]) for key, _, unit, _, words in QUANTITIES if unit == "W"]
+    for kind, unit, there in (("inertia", "kg m^2", turning), ("mass", "kg", sliding)):
+        if there:
+            columns.append(column(f"reflected_{kind}", unit, f"mean {kind} that the drive feels", [f"reflected_{kind}"]))
+            columns.append(column(f"max_reflected_{kind}", unit, f"largest {kind} that the drive feels", [f"max_reflected_{kind}"]))
+    return Table("motors", "Motor sizing", tuple(columns))
+
+
+# ---------------------------------------------------------------------------------------------------------- reflected inertia
+
+
+def felt_inertia(model: SimulationModel, one: Actuation) -> Floats:
+    """Inertia [kg m^2], or mass [kg], (m,) that a drive feels at positions over the window: how much more it gives for a unit more of
+    acceleration, other drives as they are and without friction; nothing of a motor, which does not prescribe a motion."""
+    run, felt = run_of(model), []
+    number = next((k for k, drive in enumerate(model.assembly.model.drives) if drive.joint == one.name), None)
+    if number is None:
+        return np.zeros(0)
+    for system, t, y in states_outside_folds(run, start_of_window(model, run.end[1]), POSITIONS):
+        for k in range(len(t)):
+            steady, faster = (_drive_effort(model, system, number, t[k], y[k], acceleration) for acceleration in (0.0, 1.0))
+            felt.append(faster - steady)
+    return np.array(felt)
+
+
+def _drive_effort(model, system, number, t, y, acceleration):
+    """Torque of a drive at a state with this acceleration, friction left out."""
+    changed = _accelerated(_frictionless(system), model.assembly.model.drives[number].motion, number, t, acceleration)
+    return float(observe(changed, [t], y[None]).drives[0, number])
+
+
+def _frictionless(system: System) -> System:
+    if not isinstance(system.frictions, JointFrictions):
+        return system
+    table = system.frictions.table.copy()
+    table.friction = table.static_friction = table.viscous = 0.0
+    return system._replace(frictions=JointFrictions(table))
+
+
+def _accelerated(system, motion, number, t, acceleration):
+    """The system with the motion of a drive replaced by one through the same place at the same rate, with this acceleration."""
+    piece = {"start": t, "c0": float(curve_values(motion, t)), "c1": float(curve_slope(motion, t)), "c2": 0.5 * acceleration}
+    curves, place = system.curves.copy(), len(system.pieces)
+    index = system.driven[number].curve
+    curves.first[index], curves.count[index], curves.period[index] = place, 1, 0.0
+    pieces = np.concatenate([system.pieces, table_of(PIECE, [piece])]).view(np.recarray)
+    return system._replace(curves=curves.view(np.recarray), pieces=pieces)
