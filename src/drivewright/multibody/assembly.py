@@ -273,8 +273,8 @@ def _held_fast(expanded, system, jacobian, rows, joint):
     if len(fighting) > 1:
         return (
             f"the drives of joints {' and '.join(map(repr, fighting))} fight each other: the loop through joint {joint!r} leaves them "
-            f"{len(fighting) - 1} freedom{'s' if len(fighting) > 2 else ''}, and each is told its own motion. Remove one of them, or give it a "
-            "motor instead of a motion"
+            f"{len(fighting) - 1} freedom{'s' if len(fighting) > 2 else ''}, and each is told its own motion. Remove one of them, or give "
+            "it a motor instead of a motion"
         )
     return (
         f"the drive cannot move: joint {joint!r} holds the mechanism fast. "

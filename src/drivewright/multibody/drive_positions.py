@@ -7,7 +7,7 @@ from drivewright.multibody.system import System, Work
 
 
 def drive_positions(assembly: Assembly, system: System, work: Work) -> list[str]:
-    """"'JOINT' at 37.25 deg" of every drive, or mm of what slides, at the coordinates in `work`."""
+    """ "'JOINT' at 37.25 deg" of every drive, or mm of what slides, at the coordinates in `work`."""
     positions = []
     for drive, driven in zip(assembly.model.drives, system.driven, strict=True):
         value = driven.sign * work.coordinates.q[driven.coordinate]

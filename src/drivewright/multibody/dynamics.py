@@ -13,8 +13,8 @@ from drivewright.multibody.curves import curve_at
 from drivewright.multibody.forces.contact import LUGRE
 from drivewright.multibody.forces.joint_friction import JointFrictions, NoJointFriction
 from drivewright.multibody.forces.pin_contact import LASTING, SLOWEST, contact_signs, gap_motion
-from drivewright.multibody.kinematics import jacobian_determinant, update_velocities
 from drivewright.multibody.forces.sliding_friction import friction_event_value, joints_rub, rub, set_sliding, switch_joint
+from drivewright.multibody.kinematics import jacobian_determinant, update_velocities
 from drivewright.multibody.loads import apply_forces
 from drivewright.multibody.mass_matrix import solve_accelerations, update_mass_matrix
 from drivewright.multibody.system import Motion, System, Work
@@ -136,10 +136,13 @@ def _(frictions, system, work, index, t, y):
 
 
 @inner
-def begin_sliding(system: System, work: Work, t: float, y: Floats) -> None:
-    """Joints with friction slide at the start where they move, and stick where they do not; y (states,) as in `sliding_friction.rub`."""
+def begin_sliding(system: System, work: Work, t: float, y: Floats, frictions: JointFrictions) -> None:
+    """Joints with friction, those of the system, slide at the start where they move, and stick where they do not.
+
+    y (states,) as in `sliding_friction.rub`.
+    """
     accelerations(system, work, t, y, work.friction.rates)
-    set_sliding(system.frictions, work, y)
+    set_sliding(frictions, work, y)
 
 
 @inner

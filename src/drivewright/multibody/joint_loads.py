@@ -6,10 +6,10 @@ which the dependent coordinates are in balance; a joint of the tree then carries
 
 from drivewright._jit import inner
 from drivewright._typing import Floats
-from drivewright.multibody.mass_matrix import bias_acceleration
 from drivewright.multibody.forces.joint_friction import FrictionWork
 from drivewright.multibody.frames import rotated
 from drivewright.multibody.joints.rows import terms_of_row
+from drivewright.multibody.mass_matrix import bias_acceleration
 from drivewright.multibody.records import OneRecord
 from drivewright.multibody.system import SCRATCH, System, Work
 from drivewright.numerics.small import lu_solve_transposed

@@ -14,7 +14,7 @@ from drivewright.errors import InputError
 from drivewright.multibody.assembly import Assembly
 from drivewright.multibody.drive_positions import drive_positions
 from drivewright.multibody.dynamics import begin_sliding
-from drivewright.multibody.forces.joint_friction import COEFFICIENT, FrictionWork
+from drivewright.multibody.forces.joint_friction import COEFFICIENT, FrictionWork, JointFrictions
 from drivewright.multibody.forces.sliding_friction import friction_of_load
 from drivewright.multibody.records import Records
 from drivewright.multibody.system import System, joints_with_friction, motion
@@ -41,9 +41,10 @@ def refuse_locked(assembly: Assembly, system: System, t: Floats, y: Floats, acce
 
 def locked_message(assembly: Assembly, system: System, t: float, y: Floats) -> str:
     """What locks the mechanism at a state y (n,): the pose, the joint, and how much friction would let it move; "" where nothing does."""
-    moving = motion(system)
-    begin_sliding(moving.system, moving.work, t, y.copy())
-    scratch, table = moving.work.friction, joints_with_friction(system)
+    moving, frictions = motion(system), system.frictions
+    assert isinstance(frictions, JointFrictions)
+    begin_sliding(moving.system, moving.work, t, y.copy(), frictions)
+    scratch, table = moving.work.friction, frictions.table
     found = locking(table, scratch)
     if found is None:
         return ""
@@ -51,8 +52,8 @@ def locked_message(assembly: Assembly, system: System, t: float, y: Floats) -> s
     places = drive_positions(assembly, system, moving.work)
     where = f", drive {' and '.join(places)}" if places else ""
     return (
-        f"friction locks the mechanism at t = {t:.6g} s{where}: joint {name!r} presses itself fast, so that no force of the drives moves it. "
-        f"It moves with up to {100 * found.share:.3g} % of the friction stated. Take a smaller coefficient, lengthen a guide "
+        f"friction locks the mechanism at t = {t:.6g} s{where}: joint {name!r} presses itself fast, so that no force of the drives "
+        f"moves it. It moves with up to {100 * found.share:.3g} % of the friction stated. Take a smaller coefficient, lengthen a guide "
         "(bearing_length), or let forces act nearer to the joint"
     )
 

@@ -15,10 +15,11 @@ class Observed(NamedTuple):
 
     bodies (m, bodies, FIELDS): centroid, rates, accelerations, and the force and torque of all elements on the body, gravity left out;
     pins (m, pins with play, PIN_FIELDS): depth below 0 in flight, n from the journal to the bearing's centre, force on the bearing;
-    powers (m, POWER_FIELDS) that the elements give to the bodies [W], friction being that of ideal joints; drives (m, drives): torque or force
-    of each drive; frictions (m, ideal joints with friction, FRICTION_FIELDS): rate of the joint, friction on its first body, that at the
-    coefficient 1, share of the largest static one, -1, 1 where it slides, 0 where it sticks, and what it transmits: of a pin force x and
-    y, of a slide normal force and twice the moment over the guide's length, of a wheel normal (above 0: pressed) and tangential force.
+    powers (m, POWER_FIELDS) that the elements give to the bodies [W], friction being that of ideal joints; drives (m, drives): torque or
+    force of each drive; frictions (m, ideal joints with friction, FRICTION_FIELDS): rate of the joint, friction on its first body, that
+    at the coefficient 1, share of the largest static one, -1, 1 where it slides, 0 where it sticks, and what it transmits: of a pin force
+    x and y, of a slide normal force and twice the moment over the guide's length, of a wheel normal (above 0: pressed) and tangential
+    force.
     """
 
     t: Floats

@@ -15,6 +15,7 @@ from drivewright.multibody.compile_model import compile_model
 from drivewright.multibody.continuation import Stretch, continue_motion, kernels_of_continuation
 from drivewright.multibody.drive_positions import drive_positions
 from drivewright.multibody.dynamics import FIRST_PIN, begin_sliding
+from drivewright.multibody.forces.joint_friction import JointFrictions
 from drivewright.multibody.forces.pin_contact import LASTING, penetration
 from drivewright.multibody.locking import locked_message
 from drivewright.multibody.model import MultibodyModel
@@ -243,9 +244,9 @@ def touching(system: System, t: float, y: Floats) -> Floats:
 
 def rubbing(system: System, t: float, y: Floats) -> Floats:
     """A state whose joints with friction slide where they move, and stick where they do not, unless it remembers whether they do."""
-    table = joints_with_friction(system)
-    if len(table) and not np.any(y[[*table.sliding, *table.relaxation]]):
-        begin_sliding(*motion(system), t, y)
+    frictions = system.frictions
+    if isinstance(frictions, JointFrictions) and not np.any(y[[*frictions.table.sliding, *frictions.table.relaxation]]):
+        begin_sliding(*motion(system), t, y, frictions)
     return y
 
 

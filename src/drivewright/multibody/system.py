@@ -6,21 +6,14 @@ nothing.  Joints that close loops are constraint rows.  Of the coordinates some 
 split into independent and dependent ones; the rows make the dependent ones follow.
 """
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright._jit import by_reference
 from drivewright._typing import Floats, Ints
 from drivewright.multibody.forces.contact import LUGRE, Laws, NoLaws
-from drivewright.multibody.forces.joint_friction import (
-    JOINT_FIELDS,
-    STATES,
-    FrictionWork,
-    JointFrictions,
-    NoFrictionWork,
-    NoJointFriction,
-)
+from drivewright.multibody.forces.joint_friction import JOINT_FIELDS, STATES, FrictionWork, JointFrictions, NoFrictionWork, NoJointFriction
 from drivewright.multibody.joints.rows import Equations, NoEquations
 from drivewright.multibody.records import Records, empty_table, record_type
 
@@ -112,7 +105,7 @@ class Work(NamedTuple):
     unit_load: Floats  # (independent,): scratch, what a unit force of a contact does
     node_state: Floats  # (stored + independent,): state of a node of the chart
     node_sums: Floats  # (rows, 3 + independent + driven): dependent coordinates, rates, bias and dependency matrix, summed over nodes
-    friction: NoFrictionWork | FrictionWork
+    friction: Any  # NoFrictionWork | FrictionWork
 
 
 @by_reference

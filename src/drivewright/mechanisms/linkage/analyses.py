@@ -65,7 +65,9 @@ def _no_turns(spec: LinkageSpec) -> str | None:
 
 
 def _no_friction(spec: LinkageSpec) -> str | None:
-    return no_run(spec) or (None if any(joint_friction(joint) for joint in spec.joints if joint.is_ideal) else "no ideal joint has friction")
+    return no_run(spec) or (
+        None if any(joint_friction(joint) for joint in spec.joints if joint.is_ideal) else "no ideal joint has friction"
+    )
 
 
 def _no_drives(spec: LinkageSpec) -> str | None:

@@ -64,8 +64,8 @@ class Joint(Spec):
     bearing_length: Length | None = Field(
         None,
         gt=0,
-        description="length of the bearing; twice its radius unless given. prismatic with friction: of the guide along its axis, at whose ends "
-        "a moment presses; what tilts the slider is not counted unless given",
+        description="length of the bearing; twice its radius unless given. prismatic with friction: of the guide along its axis, at "
+        "whose ends a moment presses; what tilts the slider is not counted unless given",
         examples=["20 mm"],
     )
     modulus: Pressure = Field("207 GPa", gt=0, description="dry: Young's modulus of bearing and journal")
@@ -84,8 +84,8 @@ class Joint(Spec):
     )
     friction_law: Literal["coulomb", "ambrosio", "lugre"] = Field(
         "coulomb",
-        description="of a dry pin. coulomb: mu tanh(v/v0); ambrosio: a ramp that starts above v = 0; lugre: bristles. Ideal joints slide by "
-        "Coulomb's law and stick",
+        description="of a dry pin. coulomb: mu tanh(v/v0); ambrosio: a ramp that starts above v = 0; lugre: bristles. Ideal joints "
+        "slide by Coulomb's law and stick",
     )
     friction_speed: Velocity = Field(
         "10 mm/s", gt=0, description="v0 of coulomb; end of ambrosio's ramp; Stribeck speed of lugre and of ideal joints"
@@ -98,8 +98,12 @@ class Joint(Spec):
         "10 um", gt=0, description="deflection before sliding: of lugre's bristles at the normal force, and of ideal joints"
     )
     bristle_damping: Slowness = Field("0 s/m", ge=0, description="lugre: friction over normal force, per speed of the bristles")
-    viscous_friction: Slowness = Field("0 s/m", ge=0, description="friction over normal force, per sliding speed: of lugre and of ideal joints")
-    rolling_resistance: Length = Field("0 mm", ge=0, description="rolling: moment that resists rolling over the normal force", examples=["0.05 mm"])
+    viscous_friction: Slowness = Field(
+        "0 s/m", ge=0, description="friction over normal force, per sliding speed: of lugre and of ideal joints"
+    )
+    rolling_resistance: Length = Field(
+        "0 mm", ge=0, description="rolling: moment that resists rolling over the normal force", examples=["0.05 mm"]
+    )
     stiffness: Stiffness | None = Field(
         None, gt=0, description="bushing: of its displacement; kelvin-voigt: of the contact", examples=["5e7 N/m"]
     )

@@ -99,7 +99,9 @@ class LinkageForce(Spec):
 class LinkageDrive(Spec):
     """What moves the mechanism, at one joint."""
 
-    joint: Text = Field(description="name of a revolute joint; with a profile or a motor also of a prismatic one or a pin-slot", examples=["O2"])
+    joint: Text = Field(
+        description="name of a revolute joint; with a profile or a motor also of a prismatic one or a pin-slot", examples=["O2"]
+    )
     speed: Speed | None = Field(
         None,
         description="constant speed of the joint's first body relative to its second; where the first is the ground, of the second",
@@ -117,8 +119,8 @@ class LinkageDrive(Spec):
     )
     motor: DataFile | None = Field(
         None,
-        description="CSV instead: torque [N m] of a motor over speed [rpm], angle [deg] or time [s]; force [N] of an actuator of a prismatic "
-        "joint over velocity [m/s], travel [mm] or time [s]",
+        description="CSV instead: torque [N m] of a motor over speed [rpm], angle [deg] or time [s]; force [N] of an actuator of a "
+        "prismatic joint over velocity [m/s], travel [mm] or time [s]",
     )
 
 

@@ -132,6 +132,6 @@ def _standstill(model) -> Iterator[str]:
     shares = observed.frictions[-1, :, FRICTION_FIELDS.index("share")]
     held = ", ".join(f"{name!r} {100 * share:.3g} %" for (name, _), share in zip(rubbing_joints(model), shares, strict=True))
     yield (
-        f"the mechanism stands still from t = {since:.4g} s to the end of the run: friction holds it. Used of what each joint can hold: {held}. "
-        "A motor or load that is meant to move it has to be larger, or the friction smaller"
+        f"the mechanism stands still from t = {since:.4g} s to the end of the run: friction holds it. Used of what each joint can hold: "
+        f"{held}. A motor or load that is meant to move it has to be larger, or the friction smaller"
     )

@@ -32,7 +32,9 @@ JOINT_FRICTION = record_type(
 )
 STATES = 3  # of a joint with friction
 JOINT_FIELDS = ("rate", "coefficient", "friction", "load", "mobility", "normal", "tangential")
-RATE, COEFFICIENT, FRICTION, LOAD, MOBILITY, NORMAL, TANGENTIAL = range(7)  # rate of the joint, g, friction on its first body, friction at g = 1, see `rub`
+RATE, COEFFICIENT, FRICTION, LOAD, MOBILITY, NORMAL, TANGENTIAL = range(
+    7
+)  # rate of the joint, g, friction on its first body, friction at g = 1, see `rub`
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ class JointFrictionForce(ForceElement):
 class NoJointFriction(NamedTuple):
     """No ideal joint rubs: such systems share kernels without a trace of friction."""
 
-    count: int = 0
+    joints: int = 0
 
 
 @by_reference
@@ -98,7 +100,7 @@ class JointFrictions(NamedTuple):
 class NoFrictionWork(NamedTuple):
     """Scratch of a system in which no ideal joint rubs."""
 
-    count: int = 0
+    joints: int = 0
 
 
 @by_reference

@@ -9,6 +9,8 @@ a few equations, solved by Newton's method from f = 0 on.  Where their Jacobian 
 the joints lock.
 """
 
+from typing import Any
+
 import numpy as np
 
 from drivewright._jit import generic, implements, inner, per_lane
@@ -143,7 +145,8 @@ def joint_rate(work: Work, friction: OneRecord, unit: tuple[float, float, float,
 def sliding_coefficient(friction: OneRecord, rate: float) -> float:
     """Coefficient at a rate, viscous part included, above 0."""
     speed = abs(rate)
-    return stribeck(speed, friction.friction, friction.static_friction, friction.stribeck_speed) + friction.viscous * speed
+    dry: Any = stribeck(speed, friction.friction, friction.static_friction, friction.stribeck_speed)
+    return dry + friction.viscous * speed
 
 
 @inner
@@ -175,7 +178,7 @@ def switch_joint(frictions: JointFrictions, index: int, work: Work, y: Floats) -
 
 
 @inner
-def stick(friction: OneRecord, load: float, mobility: float, deflection: float, y: Floats) -> None:
+def stick(friction: OneRecord, load: Any, mobility: Any, deflection: Any, y: Floats) -> None:
     """From here on the joint sticks; tau [s] damps its spring, of the stiffness mu_s h/d, by `DAMPING_RATIO`.  y (states,)."""
     frequency = np.sqrt(friction.static_friction * load * mobility / friction.presliding + SLOWEST**2)
     y[friction.sliding], y[friction.deflection], y[friction.relaxation] = 0.0, deflection, 2.0 * DAMPING_RATIO / frequency
@@ -284,8 +287,8 @@ def transmit(frictions: JointFrictions, system: System, work: Work, column: int)
 
 @inner
 def wheel_normal(work: Work, friction: OneRecord) -> tuple[float, float]:
-    """Unit vector from the track to the wheel's centre: across a straight track; between the centres where `guide`, the radius of the track,
-    is not 0."""
+    """Unit vector from the track to the wheel's centre: across a straight track; between the centres where `guide`, the radius of the
+    track, is not 0."""
     one, two = work.poses[friction.i], work.poses[friction.j]
     if friction.guide == 0.0:
         return rotated(two, -friction.ey, friction.ex)
