@@ -16,7 +16,9 @@ AUDITS = pytest.mark.parametrize("by", [audit, audit_of_samples])
 
 def seen(t, powers, energy, kinetic):
     """A `Record` of which only powers and energy are known."""
-    return Record(t, {}, np.zeros((len(t), 0, 8)), powers, np.zeros((len(t), 0)), energy, kinetic, np.zeros((1, 12)))
+    return Record(
+        t, {}, np.zeros((len(t), 0, 8)), powers, np.zeros((len(t), 0)), np.zeros((len(t), 0, 7)), energy, kinetic, np.zeros((1, 12))
+    )
 
 
 def halved(steps):

@@ -14,7 +14,9 @@ from drivewright.multibody.model import (
     Bushing,
     CamPair,
     Curve,
+    Dry,
     Gear,
+    Ideal,
     JointDrive,
     LoadCurve,
     Marker,
@@ -28,6 +30,7 @@ from drivewright.multibody.model import (
     line,
 )
 from drivewright.multibody.observe import Observed, observe
+from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Settings, simulate
 
 pytestmark = pytest.mark.analytical
@@ -631,3 +634,21 @@ def test_follower_force_on_a_lever_is_a_constant_torque_and_a_fixed_one_a_pendul
     t, about = np.linspace(0, 2, 11), 0.05 + 0.1**2 + 0.05**2
     near(Seen(lever(True, (0.0, 0.3)), t)("lever", "w"), 0.12 / about * t)
     near(Seen(lever(False, (0.3, 0.0)), t)("lever", "angle"), swing(1.2, np.sqrt(0.12 / about), t)[0])
+
+
+def test_a_pin_with_play_between_two_moving_bodies_is_driven():
+    """Two bars in line on a dry pin of little play, the second turned against the first: as on an ideal pin, but for the play."""
+
+    def arm(pin):
+        bodies = (Body("one", 1.0, 0.02, (0.1, 0.0)), Body("two", 0.5, 0.01, (0.05, 0.0), angle=0.4))
+        joints = (Revolute("hub", Marker("one"), Marker(GROUND)), Revolute("elbow", Marker("two"), Marker("one", 0.2), pin))
+        drives = (JointDrive("hub", line(0.0, 3.0)), JointDrive("elbow", line(0.0, 2.0)))
+        return record(
+            simulate(assemble(MultibodyModel(bodies, joints, drives=drives)), 0.2, samples=np.array([0.2])), {"two": Marker("two")}
+        )
+
+    ideal, loose = arm(Ideal()), arm(Dry(1e-5, 0.01, 1e8, damping=300.0, exponent=1.0))
+    assert loose.point("two", "angle")[-1] == pytest.approx(0.4 + 3.0 * 0.2 + 2.0 * 0.2, rel=1e-9)
+    assert loose.point("two", "w")[-1] == pytest.approx(5.0, rel=1e-9)
+    for field in ("x", "y"):
+        assert loose.point("two", field)[-1] == pytest.approx(ideal.point("two", field)[-1], abs=2e-5)

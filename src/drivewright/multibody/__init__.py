@@ -16,6 +16,7 @@ Motion
 `loads`         forces on the bodies, element by element.
 `mass_matrix`, `joint_loads`  accelerations in the independent coordinates; what joints transmit, for their friction.
 `dynamics`      equations of motion, and the events in them.
+`locking`       friction that locks; `drive_positions` says where the drives stand.
 `simulate`      motion over time; `continuation` where the drives leave no freedom; `singular`, `passages` singular positions.
 `statics`       positions of rest; `linearise` small motions about them; `tolerance` small deviations of points and journals.
 

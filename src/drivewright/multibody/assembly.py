@@ -155,7 +155,7 @@ def _close(expanded, tree, system, q):
         if _newton(loops, work, q, columns) < CLOSED:
             break
     else:
-        raise DoesNotAssemble(_does_not_close(expanded, loops, work))
+        raise DoesNotAssemble(_drives_apart(expanded, tree, loops, q, work) or _does_not_close(expanded, loops, work))
     if loops is system:
         return system, work
     rows = system.rows.copy()
@@ -220,6 +220,28 @@ def _giving_way(expanded, tree, system, work, free):
             chosen.append(k)
             basis = np.column_stack([basis, rest / np.linalg.norm(rest)])
     return chosen
+
+
+def _drives_apart(expanded, tree, system, q, work):
+    """Why several drives do not start together, where the loops close with the first of them alone; else None."""
+    first, others = system.driven[:1], list(system.driven[1:])
+    columns = sorted([*system.stored, *(driven.coordinate for driven in others)])
+    freed = system._replace(driven=first, stored=np.array(columns, dtype=np.int64))
+    alone = evaluate_at(freed, work.coordinates.q)
+    if not others or _newton(freed, alone, q.copy(), columns) >= CLOSED:
+        return None
+    names = [drive.joint for drive in expanded.drives]
+    turning = {link.turn for link in tree.links}
+    places = []
+    for name, driven in zip(names[1:], others, strict=True):
+        off = alone.coordinates.q[driven.coordinate] - work.coordinates.q[driven.coordinate]
+        if abs(off) > CLOSED * system.sizes[driven.coordinate]:
+            how = f"{np.degrees(off):.4g} deg" if driven.coordinate in turning else f"{1e3 * off:.4g} mm"
+            places.append(f"joint {name!r} would have to stand {how} away from where its drive starts")
+    return (
+        f"the drives of joints {' and '.join(map(repr, names))} fight each other: with {names[0]!r} where it starts, {', '.join(places)}. "
+        "Start the bodies where the loops close, or drive fewer joints"
+    )
 
 
 def _does_not_close(expanded, system, work):

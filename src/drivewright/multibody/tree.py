@@ -9,9 +9,10 @@ from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 from drivewright.errors import InputError, UnknownName
-from drivewright.multibody.bodies import GROUND, Body
+from drivewright.multibody.bodies import GROUND, Body, Marker
+from drivewright.multibody.joints.gear import Gear
 from drivewright.multibody.joints.joint import Joint, PointJoint
-from drivewright.multibody.joints.revolute import far_end_name
+from drivewright.multibody.joints.revolute import Revolute, far_end_name
 from drivewright.multibody.model import MultibodyModel
 
 
@@ -43,7 +44,8 @@ class Tree:
 
 
 def expand(model: MultibodyModel) -> MultibodyModel:
-    """The model with what stands for its joints in the simulation: every massless link as a body of its own."""
+    """The model with what stands for its joints in the simulation: every massless link as a body of its own, and what a drive turns where
+    its pin has play."""
     bodies, joints, forces = list(model.bodies), [], list(model.forces)
     for joint in model.joints:
         expansion = joint.expansion
@@ -53,7 +55,21 @@ def expand(model: MultibodyModel) -> MultibodyModel:
         bodies += expansion.bodies
         forces += expansion.forces
         joints += expansion.joints
-    return replace(model, bodies=tuple(bodies), joints=tuple(joints), forces=tuple(forces))
+    drives = [_expand_drive(drive, model, bodies, joints) for drive in model.drives]
+    return replace(model, bodies=tuple(bodies), joints=tuple(joints), forces=tuple(forces), drives=tuple(drives))
+
+
+def _expand_drive(drive, model, bodies, joints):
+    """A drive of a pin with play between two moving bodies turns a body without mass on the second, whose angle the first one has; that
+    body and its joints are added to the lists."""
+    joint = next((joint for joint in model.joints if joint.name == drive.joint), None)
+    if not isinstance(joint, PointJoint) or joint.play is None or GROUND in joint.bodies:
+        return drive
+    rotor = Body(f"drive:{joint.name}", angle=next((body.angle for body in model.bodies if body.name == joint.first.body), 0.0))
+    name = f"{joint.name} (drive)"
+    bodies.append(rotor)
+    joints += [Revolute(name, Marker(rotor.name), joint.second), Gear(f"{joint.name} (turn)", rotor.name, joint.first.body, 1.0)]
+    return replace(drive, joint=name)
 
 
 def far_end(model: MultibodyModel, joint: Joint) -> Joint | None:

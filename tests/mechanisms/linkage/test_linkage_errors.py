@@ -95,7 +95,6 @@ CASES = [
     ("joints.B.viscosity", "40 mm^2/s", "joints.2.viscosity", "wants a viscosity, got '40 mm^2/s' (kinematic viscosity); write Pa s"),
     ("joints.B.diametral_clearance", "0.2 mm", "joints.2.diametral_clearance", "unknown key; known here: name, kind, "),
     ("drive.joint", "o4", "drive.joint", "no joint is called 'o4' (did you mean 'O4'?); there are: O2, A, B, O4"),
-    ("drive.joint", "B", "drive.joint", "'B' has play (model = 'dry'); drive an ideal joint"),
     ("drive.speed", "0 rpm", "drive.speed", "never turns"),
     ("drive.speed", "5 1/s", "drive.speed", "a frequency counts events"),
     ("drive", {"joint": "O2"}, "drive.speed", "give one of speed, profile and motor, got none"),

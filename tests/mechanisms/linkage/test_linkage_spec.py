@@ -79,7 +79,7 @@ def test_the_contract_s_words_mean_what_they_say():
     assert [f.damping for f in found.forces] == [0.1, 0.1] and {f.first for f in found.forces} == {"coupler", "knife"}
     (drive,) = found.drives
     assert drive.joint == "O2" and value(drive.motion, 0.25) == pytest.approx(4 * math.pi, rel=1e-14)
-    assert driven_bodies(spec) == ("crank", "ground")
+    assert driven_bodies(spec, spec.drive) == ("crank", "ground")
     assert spec.duration == pytest.approx(2.0, rel=1e-14) and spec.start_of_window == pytest.approx(5 / 8, rel=1e-14)
     tip = output_marker(spec, spec.outputs[1])
     arms = np.array([[-0.424, 0.0], [tip.x - 0.424, tip.y]])  # from B to O4 and to the tip

@@ -166,7 +166,8 @@ def spec(**tables):
     output = SimpleNamespace(name="tip", body="knife", point="B")
     item = SimpleNamespace(at="knife.B", tolerance=3e-4, axis=(0.0, -2.0), distribution="normal")
     drive = SimpleNamespace(joint="O2", motor=None)
-    known = {"joints": joints, "outputs": [output], "drive": drive, "tolerances": SimpleNamespace(dimensions=(item,))}
+    drives = {"drive": drive} if tables.pop("drive", True) else {}
+    known = {"joints": joints, "outputs": [output], "all_drives": drives, "tolerances": SimpleNamespace(dimensions=(item,))}
     return SimpleNamespace(**known | tables)
 
 

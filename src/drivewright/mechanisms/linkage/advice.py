@@ -16,6 +16,27 @@ def advice(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
     return (*clearance_share(spec), *restitution(spec), *inertia_extent(spec), *window(spec, end))
 
 
+def assumed_friction(spec: LinkageSpec) -> tuple[str, ...]:
+    """Findings on the friction of ideal joints: what was not given for it, and where it is not taken into account."""
+    return tuple(text for joint in spec.joints if (text := _friction_finding(joint)))
+
+
+def _friction_finding(joint):
+    rubs = joint.friction or joint.static_friction or joint.viscous_friction
+    if not rubs or not joint.is_ideal:
+        return None
+    if joint.kind not in ("revolute", "prismatic", "pin-slot", "rolling"):
+        return f"friction of joint {joint.name!r} is not taken into account: it is a {joint.kind}, and neither pin, slide, slot nor wheel"
+    if joint.kind == "revolute" and "bearing_radius" not in joint.model_fields_set:
+        return f"friction in joint {joint.name!r} acts at the radius {1e3 * joint.bearing_radius:g} mm, as no bearing_radius is given"
+    if joint.kind == "prismatic" and joint.bearing_length is None:
+        return (
+            f"friction in joint {joint.name!r} is that of the force across the slide alone; what tilts the slider and presses its ends "
+            "counts with bearing_length, the length of the guide"
+        )
+    return None
+
+
 def shortest_link(spec: LinkageSpec) -> tuple[float, str | None]:
     """(length [m], body) of the shortest distance between two joints on one body; (inf, None) where no body has two apart."""
     links = [(math.inf, None)]

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivewright.errors import DoesNotAssemble
+from drivewright.mechanisms.linkage.advice import assumed_friction
 from drivewright.mechanisms.linkage.describe import describe, joint_friction, motor_name, output_marker
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.multibody.analyses.simulation_model import Output, RunLimits, SimulationModel
@@ -19,6 +20,11 @@ class LinkageModel(SimulationModel):
     """The mechanism of a spec, ready to run."""
 
     spec: LinkageSpec
+
+    @property
+    def findings(self) -> tuple[str, ...]:
+        """Of the assembly, and what is assumed for friction in ideal joints."""
+        return (*self.assembly.findings, *assumed_friction(self.spec))
 
 
 def build(spec: LinkageSpec) -> LinkageModel:

@@ -226,8 +226,6 @@ def _drive(spec, key, drive):
             f"{joint.name!r} is a {joint.kind} joint; a drive turns a revolute, or moves a prismatic joint or a pin in a slot",
             key=f"{key}.joint",
         )
-    if joint.has_play and ways != ["motor"]:
-        raise SpecError(f"{joint.name!r} has play (model = {joint.model!r}); drive an ideal joint, or take a motor", key=f"{key}.joint")
     if len(ways) != 1:
         raise SpecError(f"give one of speed, profile and motor, got {' and '.join(ways) or 'none'}", key=f"{key}.speed")
     if ways[0] not in DRIVEN[joint.kind]:

@@ -10,8 +10,10 @@ from drivewright.multibody.analyses.simulation_model import SimulationModel
 from drivewright.multibody.curves import curve_values
 from drivewright.multibody.forces.actuator import LinearActuator
 from drivewright.multibody.forces.load import AppliedTorque
-from drivewright.multibody.observe import Observed
+from drivewright.multibody.locking import refuse_locked
+from drivewright.multibody.observe import Observed, concatenate, observe
 from drivewright.multibody.reactions import drive_wrench, observed_bodies
+from drivewright.multibody.simulate import Run, states_outside_folds
 from drivewright.multibody.wrenches import NORMAL_OF, ObservedBodies
 
 
@@ -29,6 +31,15 @@ class Actuation(NamedTuple):
         return self.effort * self.rate
 
 
+def observe_run(model: SimulationModel, run: Run, start: float = -np.inf) -> Observed:
+    """`Observed` of a run from a time on, without the middles of folds; InputError where friction locks it."""
+    parts = []
+    for system, t, y in states_outside_folds(run, start):
+        parts.append(observe(system, t, y))
+        refuse_locked(model.assembly, system, t, y, parts[-1].frictions)
+    return concatenate(parts)
+
+
 def actuations(model: SimulationModel, observed: Observed) -> list[Actuation]:
     """The `Actuation` of every drive, then of every motor, in observed states."""
     return [*_drives(model, observed), *_motors(model, observed)]
@@ -36,14 +47,15 @@ def actuations(model: SimulationModel, observed: Observed) -> list[Actuation]:
 
 def _drives(model: SimulationModel, observed: Observed) -> Iterator[Actuation]:
     expanded, places = model.assembly.expanded, observed_bodies(model.assembly, observed)
-    for number, drive in enumerate(expanded.drives):
+    names = [drive.joint for drive in model.assembly.model.drives]
+    for number, (name, drive) in enumerate(zip(names, expanded.drives, strict=True)):
         joint = next(one for one in expanded.joints if one.name == drive.joint)
         wrench = drive_wrench(joint, places)
         rate = sum((torque * places.field(body, "w") for body, torque in wrench.torques.items()), np.zeros(len(observed.t)))
         if wrench.force is not None and wrench.point is not None:
             moved = velocity_at(places, wrench.first, wrench.point) - velocity_at(places, wrench.second, wrench.point)
             rate = np.sum(wrench.force * moved, axis=1)
-        yield Actuation(drive.joint, joint.driven_motion == "rotation", observed.drives[:, number], rate)
+        yield Actuation(name, joint.driven_motion == "rotation", observed.drives[:, number], rate)
 
 
 def velocity_at(places: ObservedBodies, body: str, point: Floats) -> Floats:

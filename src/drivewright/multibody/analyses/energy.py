@@ -28,7 +28,7 @@ def energy(model: SimulationModel) -> Answer:
 def work_audit(model: SimulationModel) -> Answer:
     """Work of every kind of element over the run, and what the audits leave over."""
     numbers = statistics(model, energy_numbers)
-    told = [name for name in POWER_FIELDS if name != "friction" or joints_with_friction(model.assembly.system)]
+    told = [name for name in POWER_FIELDS if name != "friction" or len(joints_with_friction(model.assembly.system))]
     values = {f"energy.{name}": Value.of(numbers.of_run(name), "J", f"work of {MEANING[name]} over the run") for name in told}
     values["energy.gap"] = Value(numbers.worst("gap"), "J", "largest gap of the energy audit")
     values["energy.error"] = Value(numbers.worst("error"), "-", "largest gap over the energy exchanged")

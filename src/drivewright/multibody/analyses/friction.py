@@ -4,14 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from drivewright.multibody.analyses.actuation import actuations
+from drivewright.multibody.analyses.actuation import actuations, observe_run
 from drivewright.multibody.analyses.ensemble import statistics
 from drivewright.multibody.analyses.simulation_model import SimulationModel, cycle_columns, last_turn, run_of
 from drivewright.multibody.analyses.turns import RunNumbers, mean_per_turn, start_of_window, turn_ends
 from drivewright.multibody.forces.joint_friction import KINDS
-from drivewright.multibody.observe import POWER_FIELDS, concatenate, observe
+from drivewright.multibody.observe import POWER_FIELDS
 from drivewright.multibody.observed import FRICTION_FIELDS
-from drivewright.multibody.simulate import Run, states_outside_folds
+from drivewright.multibody.simulate import Run
 from drivewright.multibody.system import joints_with_friction
 from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
@@ -29,7 +29,7 @@ def rubbing_joints(model: SimulationModel) -> list[tuple[str, bool]]:
 def friction_numbers(model: SimulationModel, run: Run) -> RunNumbers:
     """Means over the window of the losses and of what sticks, and the largest friction of every joint, in SI."""
     start = start_of_window(model, run.end[1])
-    observed = concatenate([observe(*states) for states in states_outside_folds(run, start)])
+    observed = observe_run(model, run, start)
     ends, numbers = turn_ends(model, start, observed.t[-1]), RunNumbers()
     rates = {f"{name}.{key}": values for k, (name, _) in enumerate(rubbing_joints(model)) for key, values in _of_joint(observed, k).items()}
     driving = sum((one.power for one in actuations(model, observed)), np.zeros(len(observed.t)))
@@ -61,13 +61,13 @@ def friction(model: SimulationModel) -> Answer:
     numbers, values = statistics(model, friction_numbers), {}
     for name, turns in rubbing_joints(model):
         unit, word = ("N m", "torque") if turns else ("N", "force")
-        power = Value.of(numbers.mean(f"{name}.power"), "W", f"mean power that friction in joint {name!r} takes")
+        power = Value.of(numbers.mean(f"{name}.power"), "W", f"mean power lost to friction in joint {name!r}")
         most = Value.of(numbers.of_run(f"{name}.most", f"{name}.power"), unit, f"largest friction {word} in joint {name!r}")
         values |= {f"joints.{name}.friction_power": power, f"joints.{name}.max_friction": most}
         if model.assembly.freedom:
             share = numbers.mean(f"{name}.stuck")
             values[f"joints.{name}.stick_share"] = Value.of(share, "-", f"share of the time in which joint {name!r} sticks")
-    values["friction.power"] = Value.of(numbers.mean("losses"), "W", "mean power that friction in ideal joints takes")
+    values["friction.power"] = Value.of(numbers.mean("losses"), "W", "mean power lost to friction in ideal joints")
     values |= _efficiency(model)
     return Answer(values, (_table(model),), tuple(_grip_checks(model)), tuple(_standstill(model)))
 
@@ -92,9 +92,9 @@ def _table(model):
         rate, force = (turn.frictions[:, k, FRICTION_FIELDS.index(field)] for field in ("rate", "force"))
         words = ("torque", "N m", "rad/s", "angular velocity") if turns else ("force", "N", "m/s", "sliding velocity")
         columns += [
-            Column(f"{name}.friction", words[1], f"friction {words[0]} in joint {name!r} on its first body", force),
-            Column(f"{name}.rate", words[2], f"{words[3]} of joint {name!r}, of its first body relative to its second", rate),
-            Column(f"{name}.loss", "W", f"power that friction in joint {name!r} takes", -force * rate),
+            Column(f"{name}.friction", words[1], f"friction {words[0]} in joint {name!r}", force),
+            Column(f"{name}.rate", words[2], f"{words[3]} of joint {name!r}", rate),
+            Column(f"{name}.loss", "W", f"power lost to friction in joint {name!r}", -force * rate),
         ]
     return Table("friction", "Friction in ideal joints over the last turn", (*cycle_columns(model, turn.t), *columns))
 
@@ -102,7 +102,7 @@ def _table(model):
 def _grip_checks(model) -> Iterator[Check]:
     """A wheel must be pressed on its track, and not slip."""
     run = run_of(model)
-    observed = concatenate([observe(*states) for states in states_outside_folds(run, start_of_window(model, run.end[1]))])
+    observed = observe_run(model, run, start_of_window(model, run.end[1]))
     for k, (name, _) in enumerate(rubbing_joints(model)):
         if name not in model.grips:
             continue
@@ -120,7 +120,7 @@ def _standstill(model) -> Iterator[str]:
     run = run_of(model)
     if model.assembly.freedom == 0 or run.advice:
         return
-    observed = concatenate([observe(*states) for states in states_outside_folds(run)])
+    observed = observe_run(model, run)
     rates = np.abs(observed.frictions[:, :, FRICTION_FIELDS.index("rate")])
     moving = np.any(rates > AT_REST * np.max(rates, axis=0, initial=0.0), axis=1)
     if moving[-1] or not np.any(moving):

@@ -4,12 +4,12 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.motion.motor_sizing import MotorSizing, size_motor
-from drivewright.multibody.analyses.actuation import Actuation, actuations
+from drivewright.multibody.analyses.actuation import Actuation, actuations, observe_run
 from drivewright.multibody.analyses.simulation_model import SimulationModel, run_of
 from drivewright.multibody.analyses.turns import start_of_window
 from drivewright.multibody.curves import curve_slope, curve_values
 from drivewright.multibody.forces.joint_friction import JointFrictions
-from drivewright.multibody.observe import Observed, concatenate, observe
+from drivewright.multibody.observe import Observed, observe
 from drivewright.multibody.records import table_of
 from drivewright.multibody.simulate import states_outside_folds
 from drivewright.multibody.system import PIECE, System
@@ -17,13 +17,13 @@ from drivewright.result import Answer, Column, Table, Value
 
 POSITIONS = 73  # at which the inertia is felt
 QUANTITIES = (
-    # key, of MotorSizing, unit where it turns, unit where it slides, words
-    ("rms", "rms_torque", "N m", "N", "root mean square of the {effort}"),
-    ("peak", "peak_torque", "N m", "N", "largest {effort}, either way"),
-    ("mean_power", "mean_power", "W", "W", "mean power"),
-    ("peak_power", "peak_power", "W", "W", "largest power"),
-    ("braking_power", "braking_power", "W", "W", "largest power that flows back"),
-    ("peak_speed", "peak_speed", "rad/s", "m/s", "largest {rate}"),
+    # key, of MotorSizing, unit where it turns, unit where it slides, words, what they mean
+    ("rms", "rms_torque", "N m", "N", "rms {effort}", "root mean square over the time of the window"),
+    ("peak", "peak_torque", "N m", "N", "peak {effort}", "the largest, either way"),
+    ("mean_power", "mean_power", "W", "W", "mean power", "from the drive into the mechanism"),
+    ("peak_power", "peak_power", "W", "W", "peak power", "from the drive into the mechanism"),
+    ("braking_power", "braking_power", "W", "W", "braking power", "the largest that flows back into the drive"),
+    ("peak_speed", "peak_speed", "rad/s", "m/s", "peak {rate}", "the largest, either way"),
 )
 
 
@@ -31,7 +31,7 @@ def observe_window(model: SimulationModel) -> Observed:
     """`Observed` over the window of the run; of whole turns where the drive makes some."""
     run = run_of(model)
     start, end = start_of_window(model, run.end[1]), run.end[1]
-    observed = concatenate([observe(*states) for states in states_outside_folds(run, start)])
+    observed = observe_run(model, run, start)
     if model.period and (turns := int((end - start) / model.period + 1e-9)):
         keep = observed.t <= (start + turns * model.period) * (1 + 1e-12)
         observed = Observed(*(field[keep] for field in observed))
@@ -52,10 +52,10 @@ def motors(model: SimulationModel) -> Answer:
 def _sizing_values(one: Actuation, sizing: MotorSizing) -> dict[str, Value]:
     effort, rate = ("torque", "speed") if one.turns else ("force", "velocity")
     values = {}
-    for key, field, turning, sliding, words in QUANTITIES:
+    for key, field, turning, sliding, words, meaning in QUANTITIES:
         name = f"{key}_{effort}" if key in ("rms", "peak") else key
-        told = words.format(effort=effort, rate=rate)
-        values[name] = Value(getattr(sizing, field), turning if one.turns else sliding, f"{told} of the drive at joint {one.name!r}")
+        told = f"{words.format(effort=effort, rate=rate)} of drive {one.name!r}, {meaning}"
+        values[name] = Value(getattr(sizing, field), turning if one.turns else sliding, told)
     return values
 
 
@@ -63,10 +63,10 @@ def _inertia_values(one: Actuation, inertia: Floats) -> dict[str, Value]:
     if not len(inertia):
         return {}
     unit, word = ("kg m^2", "inertia") if one.turns else ("kg", "mass")
-    where = f"that the drive at joint {one.name!r} feels, other drives held"
+    where = f"reflected {word} of drive {one.name!r}, {{}} over the positions in the window, other drives held"
     return {
-        f"reflected_{word}": Value(float(np.mean(inertia)), unit, f"mean {word} {where}"),
-        f"max_reflected_{word}": Value(float(np.max(inertia)), unit, f"largest {word} {where}"),
+        f"reflected_{word}": Value(float(np.mean(inertia)), unit, where.format("mean")),
+        f"max_reflected_{word}": Value(float(np.max(inertia)), unit, f"largest {where.format('largest')}"),
     }
 
 
@@ -82,14 +82,14 @@ def _table(rows) -> Table:
     for kind, unit, there in (("torque", "N m", turning), ("force", "N", sliding)):
         if there:
             columns += [
-                column(f"rms_{kind}", unit, f"root mean square of the {kind}", [f"rms_{kind}"]),
-                column(f"peak_{kind}", unit, f"largest {kind}", [f"peak_{kind}"]),
+                column(f"rms_{kind}", unit, f"rms {kind}", [f"rms_{kind}"]),
+                column(f"peak_{kind}", unit, f"peak {kind}", [f"peak_{kind}"]),
             ]
-    columns += [column(key, "W", words, [key]) for key, _, unit, _, words in QUANTITIES if unit == "W"]
+    columns += [column(key, "W", words, [key]) for key, _, unit, _, words, _ in QUANTITIES if unit == "W"]
     for kind, unit, there in (("inertia", "kg m^2", turning), ("mass", "kg", sliding)):
         if there:
-            columns.append(column(f"reflected_{kind}", unit, f"mean {kind} that the drive feels", [f"reflected_{kind}"]))
-            columns.append(column(f"max_reflected_{kind}", unit, f"largest {kind} that the drive feels", [f"max_reflected_{kind}"]))
+            columns.append(column(f"reflected_{kind}", unit, f"reflected {kind}, mean over positions", [f"reflected_{kind}"]))
+            columns.append(column(f"max_reflected_{kind}", unit, f"largest reflected {kind}", [f"max_reflected_{kind}"]))
     return Table("motors", "Motor sizing", tuple(columns))
 
 

@@ -41,6 +41,7 @@ TRIES = 30
 SETTLED = 1e-12  # last correction over the largest friction
 JUST_STICKING = 1.0 - 1e-9  # deflection of a joint that stops sliding
 DAMPING_RATIO = 1.0  # of the spring by which a joint sticks
+AT_REST = 1e-3  # part of Stribeck's speed below which a joint that is driven counts as coming to rest
 SLOWEST = 1.0  # natural frequency of that spring that counts at least [rad/s]
 
 
@@ -207,21 +208,23 @@ def set_coefficients(frictions: JointFrictions, system: System, work: Work, y: F
 
     Where the drives leave no freedom a joint has no memory: it slides the way that it is moved, and at rest nothing is known of it.
     """
+    is_driven = system.independent.size == 0
     for k in range(frictions.table.size):
         friction, found = frictions.table[k], work.friction.joints[k]
         unit = unit_force(work, friction)
         work.friction.unit[k, 0], work.friction.unit[k, 1], work.friction.unit[k, 2], work.friction.unit[k, 3] = unit
         rate = found[RATE] = joint_rate(work, friction, unit)
-        sliding = np.sign(rate) if system.independent.size == 0 else y[friction.sliding]
+        sliding = y[friction.sliding]
         dy[friction.sliding] = dy[friction.deflection] = dy[friction.relaxation] = 0.0
-        if sliding != 0.0:
+        if is_driven:
+            share = rate / (AT_REST * friction.stribeck_speed)
+            found[COEFFICIENT] = min(max(share, -1.0), 1.0) * sliding_coefficient(friction, rate)
+        elif sliding != 0.0:
             size = sliding_coefficient(friction, rate)
             found[COEFFICIENT] = sliding * size if sliding * rate >= 0.0 else sliding * friction.static_friction
-        elif system.independent.size > 0:
+        else:
             dy[friction.deflection] = rate / friction.presliding
             found[COEFFICIENT] = friction.static_friction * sticking_share(friction, rate, y) + friction.viscous * rate
-        else:
-            found[COEFFICIENT] = 0.0
 
 
 # ----------------------------------------------------------------------------------------------------------------- balance

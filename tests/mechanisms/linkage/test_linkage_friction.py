@@ -1,0 +1,307 @@
+"""Friction of ideal joints, several drives, actuators and motor sizing, as a user states them."""
+
+import numpy as np
+import pytest
+
+import drivewright as dw
+from drivewright.errors import InputError, SpecError
+from drivewright.mechanisms.linkage.build import build
+from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.spec.base import validate_tables
+
+pytestmark = pytest.mark.analytical
+
+G = 9.81
+DOWN = ["0 m/s^2", "-9.81 m/s^2"]
+
+
+def spec_of(bodies, joints, points=None, **tables):
+    return validate_tables(
+        LinkageSpec,
+        {
+            "format": 1,
+            "mechanism": "linkage",
+            "ground": {"points": {"O": ["0 mm", "0 mm"], **(points or {})}},
+            "bodies": bodies,
+            "joints": joints,
+            "outputs": [{"name": "out", "body": next(iter(bodies)), "point": "centroid"}],
+            **tables,
+        },
+    )
+
+
+def body(mass="2 kg", inertia="0.1 kg m^2", **more):
+    return {"mass": mass, "inertia": inertia, "points": {"C": ["0 mm", "0 mm"]}, **more}
+
+
+def guide(**more):
+    return {"name": "guide", "kind": "prismatic", "connects": ["block.C", "ground.O"], "axis": [1, 0], **more}
+
+
+def block(joint=None, start="1 m/s", duration="1 s", **tables):
+    return spec_of(
+        {"block": body(velocity=[start, "0 m/s"])}, [guide(**(joint or {}))], gravity=DOWN, simulate={"duration": duration}, **tables
+    )
+
+
+def value(result, name):
+    return result.values[name].value
+
+
+# -- friction ---------------------------------------------------------------------------------------------------------------------
+
+
+def test_a_block_stops_where_its_energy_is_used_up():
+    result = dw.run(block({"friction": 0.2}), only=["end", "friction", "energy"])
+    assert value(result, "bodies.block.x") == pytest.approx(1 / (2 * 0.2 * G), abs=2e-5)
+    assert value(result, "energy.friction") == pytest.approx(-1.0, rel=1e-6)
+    assert value(result, "joints.guide.max_friction") == pytest.approx(0.2 * 2 * G, rel=1e-6)
+    told = [text for text in result.findings if "stands still" in text]
+    assert len(told) == 1
+    assert "from t = 0.51" in told[0]
+    assert "'guide'" in told[0]
+
+
+def test_friction_of_a_slide_says_that_tilting_is_left_out():
+    assert any("bearing_length" in text for text in build(block({"friction": 0.2})).findings)
+    assert not build(block({"friction": 0.2, "bearing_length": "100 mm"})).findings
+
+
+def test_friction_of_a_pin_says_at_which_radius():
+    pin = {"name": "pin", "connects": ["block.C", "ground.O"], "friction": 0.1}
+    free = spec_of({"block": body(angular_velocity="60 rpm")}, [pin], simulate={"duration": "1 s"})
+    assert any("at the radius 10 mm" in text for text in build(free).findings)
+    given = free.replace({"joints.pin.bearing_radius": "8 mm"})
+    assert not build(given).findings
+
+
+def drawer(mu, load="10 N", push="0.1 m/s", tmp_path=None):
+    profile = tmp_path / "push.csv"
+    profile.write_text("time [s],travel [mm]\n0,0\n0.25,25\n0.5,50\n1,100\n")
+    return spec_of(
+        {"block": body("1 kg", points={"C": ["0 mm", "0 mm"], "S": ["0 mm", "100 mm"]}), "pusher": body("0.1 kg", "1e-5 kg m^2")},
+        [
+            guide(friction=mu, bearing_length="400 mm"),
+            {"name": "drive", "kind": "prismatic", "connects": ["pusher.C", "ground.P"], "axis": [1, 0]},
+            {"name": "slot", "kind": "pin-slot", "connects": ["pusher.C", "block.S"], "axis": [0, 1]},
+        ],
+        {"P": ["0 mm", "100 mm"]},
+        forces=[{"body": "block", "force": [f"-{load}", "0 N"]}],
+        drive={"joint": "drive", "profile": str(profile), "ends": "free"},
+        simulate={"duration": "1 s"},
+    )
+
+
+def test_efficiency_of_a_drawer(tmp_path):
+    """1 - 2 mu a/L of the work goes into the load."""
+    result = dw.run(drawer(0.3, tmp_path=tmp_path), only=["friction", "motors", "energy"])
+    assert value(result, "efficiency") == pytest.approx(1 - 2 * 0.3 * 0.1 / 0.4, rel=1e-6)
+    assert value(result, "drives.drive.peak_force") == pytest.approx(10 / 0.85, rel=1e-6)
+    assert value(result, "drive.max_force") == pytest.approx(10 / 0.85, rel=1e-6)
+    assert value(result, "drives.drive.mean_power") == pytest.approx(10 / 0.85 * 0.1, rel=1e-6)
+    assert value(result, "drives.drive.reflected_mass") == pytest.approx(1.1, rel=1e-9)
+
+
+def test_a_drawer_that_locks_is_told_with_pose_and_joint(tmp_path):
+    result = dw.run(drawer(2.5, tmp_path=tmp_path), only=["friction"])
+    told = " ".join(result.findings)
+    assert "friction locks the mechanism at t = 0 s, drive 'drive' at 0 mm: joint 'guide' presses itself fast" in told
+    assert "up to 80 %" in told
+
+
+@pytest.mark.parametrize(("mu", "holds"), [(0.2, 0.0), (0.8, 1.0)])
+def test_a_wedge_below_its_angle_of_friction_holds_its_load(mu, holds, tmp_path):
+    """Lowered by a pin in a slot of 35 degrees: tan = 0.70; beyond, the drive has to push where without friction it would brake."""
+    profile = tmp_path / "down.csv"
+    profile.write_text("time [s],travel [mm]\n0,0\n0.25,25\n0.5,50\n1,100\n")
+    angle = np.radians(35.0)
+    wedge = spec_of(
+        {"block": body("1 kg"), "pin": body("0.1 kg", "1e-5 kg m^2")},
+        [
+            {"name": "up", "kind": "prismatic", "connects": ["block.C", "ground.O"], "axis": [0, 1]},
+            {"name": "drive", "kind": "prismatic", "connects": ["pin.C", "ground.O"], "axis": [1, 0]},
+            {
+                "name": "slot",
+                "kind": "pin-slot",
+                "connects": ["pin.C", "block.C"],
+                "axis": [float(np.cos(angle)), float(np.sin(angle))],
+                "friction": mu,
+            },
+        ],
+        forces=[{"body": "block", "force": ["0 N", "-50 N"]}],
+        drive={"joint": "drive", "profile": str(profile), "ends": "free"},
+        simulate={"duration": "1 s"},
+    )
+    result = dw.run(wedge, only=["friction"])
+    assert value(result, "friction.self_locking_share") == pytest.approx(holds, abs=1e-6)
+
+
+def wheel(**joint):
+    slope = np.radians(20.0)
+    axis = [float(np.cos(slope)), float(np.sin(slope))]
+    return spec_of(
+        {"wheel": body("3 kg", "0.02 kg m^2")},
+        [{"name": "track", "kind": "rolling", "connects": ["wheel.C", "ground.P"], "radius": "100 mm", "axis": axis, **joint}],
+        {"P": [f"{100 * np.sin(slope)} mm", f"{-100 * np.cos(slope)} mm"]},
+        gravity=DOWN,
+        simulate={"duration": "0.5 s"},
+    )
+
+
+@pytest.mark.parametrize(("mu", "grips"), [(0.2, True), (0.1, False)])
+def test_a_wheel_that_would_slip_fails_its_check(mu, grips):
+    """T/N = tan(slope) J/(J + m R^2) = 0.1456."""
+    result = dw.run(wheel(friction=mu), only=["friction"])
+    check = next(check for check in result.checks if check.name == "grip.track")
+    assert check.value == pytest.approx(np.tan(np.radians(20.0)) * 0.02 / 0.05, rel=1e-6)
+    assert check.ok is grips
+    assert "it slips" in check.message
+
+
+# -- drives ---------------------------------------------------------------------------------------------------------------------------
+
+
+def motor(tmp_path, text, name="motor.csv"):
+    path = tmp_path / name
+    path.write_text(text)
+    return str(path)
+
+
+def test_an_actuator_runs_up_along_its_line(tmp_path):
+    """m v' = F0 (1 - v/v0)."""
+    file = motor(tmp_path, "velocity [m/s],force [N]\n-1,60\n0,40\n2,0\n4,-40\n")
+    spec = block(start="0 m/s", drive={"joint": "guide", "motor": file}, duration="0.4 s")
+    result = dw.run(spec, only=["end", "motors"])
+    assert value(result, "bodies.block.vx") == pytest.approx(2 * (1 - np.exp(-0.4 * 40 / 2 / 2)), rel=1e-7)
+    assert value(result, "drives.guide.peak_force") == pytest.approx(40.0, rel=1e-9)
+    assert value(result, "drives.guide.peak_power") == pytest.approx(40 * 0.5 * 1.0, rel=1e-3)
+
+
+def test_an_actuator_over_its_travel_is_a_spring(tmp_path):
+    file = motor(tmp_path, "travel [mm],force [N]\n-1000,800\n1000,-800\n")
+    result = dw.run(block(drive={"joint": "guide", "motor": file}, duration="0.3 s"), only=["end"])
+    assert value(result, "bodies.block.x") == pytest.approx(np.sin(20 * 0.3) / 20, rel=1e-6)
+
+
+def two_sliders(tmp_path, first, second):
+    """Two sliders at right angles on one block each, nothing between: two drives."""
+    return spec_of(
+        {"block": body(), "other": body()},
+        [guide(), {"name": "lift", "kind": "prismatic", "connects": ["other.C", "block.C"], "axis": [0, 1]}],
+        drive={"joint": "guide", **first},
+        drives=[{"joint": "lift", **second}],
+        simulate={"duration": "1 s"},
+    )
+
+
+def test_two_drives_each_with_its_profile_and_delay(tmp_path):
+    file = motor(tmp_path, "time [s],travel [mm]\n0,0\n0.1,20\n0.2,40\n0.3,60\n", "profile.csv")
+    result = dw.run(two_sliders(tmp_path, {"profile": file}, {"profile": file, "delay": "0.5 s"}), only=["end", "motors", "energy"])
+    assert value(result, "bodies.other.x") == pytest.approx(0.06, rel=1e-9)
+    assert value(result, "bodies.other.y") == pytest.approx(0.06, rel=1e-9)
+    assert value(result, "drives.guide.reflected_mass") == pytest.approx(4.0, rel=1e-9)
+    assert value(result, "drives.lift.reflected_mass") == pytest.approx(2.0, rel=1e-9)
+    early = dw.run(
+        two_sliders(tmp_path, {"profile": file}, {"profile": file, "delay": "0.5 s"}).replace({"simulate.duration": "0.4 s"}), only=["end"]
+    )
+    assert value(early, "bodies.other.y") == pytest.approx(0.0, abs=1e-12)
+
+
+def four_bar(**drives):
+    bodies = {
+        "crank": body("1 kg", points={"A": ["0 mm", "0 mm"], "B": ["50 mm", "0 mm"]}, angle="40 deg"),
+        "coupler": body("1 kg", points={"B": ["0 mm", "0 mm"], "D": ["150 mm", "0 mm"]}, angle="20 deg"),
+        "rocker": body("1 kg", points={"E": ["0 mm", "0 mm"], "D": ["120 mm", "0 mm"]}, angle="80 deg"),
+    }
+    joints = [
+        {"name": "A", "connects": ["ground.O", "crank.A"]},
+        {"name": "B", "connects": ["crank.B", "coupler.B"]},
+        {"name": "D", "connects": ["coupler.D", "rocker.D"]},
+        {"name": "E", "connects": ["ground.E", "rocker.E"]},
+    ]
+    return spec_of(bodies, joints, {"E": ["170 mm", "0 mm"]}, simulate={"duration": "0.1 s"}, **drives)
+
+
+@pytest.mark.error
+def test_drives_that_fight_name_both():
+    spec = four_bar(drive={"joint": "A", "speed": "60 rpm"}, drives=[{"joint": "E", "speed": "30 rpm"}])
+    with pytest.raises(InputError) as error:
+        build(spec)
+    assert "the drives of joints 'A' and 'E' fight each other: with 'A' where it starts, joint 'E' would have to stand" in str(error.value)
+    pin = 50 * np.array([np.cos(np.radians(40)), np.sin(np.radians(40))]) - [170, 0]  # of the crank from E
+    reach = np.hypot(*pin)
+    angle = np.arctan2(pin[1], pin[0]) - np.arccos((120**2 + reach**2 - 150**2) / (2 * 120 * reach))
+    spec = spec.replace({"bodies.rocker.angle": f"{float(angle)!r} rad"})
+    with pytest.raises(InputError) as error:
+        build(spec)
+    assert "the drives of joints 'A' and 'E' fight each other: the loop through joint" in str(error.value)
+
+
+@pytest.mark.error
+def test_a_motor_beside_a_drive_does_not_fight(tmp_path):
+    file = motor(tmp_path, "speed [rpm],torque [N m]\n-100,2\n100,2\n")
+    spec = four_bar(drive={"joint": "A", "speed": "60 rpm"}, drives=[{"joint": "E", "motor": file}])
+    result = dw.run(spec, only=["motors", "energy"])
+    assert value(result, "drives.E.rms_torque") == pytest.approx(2.0, rel=1e-9)
+    assert value(result, "drives.A.mean_power") == pytest.approx(-value(result, "drives.E.mean_power"), abs=30.0)
+
+
+@pytest.mark.error
+@pytest.mark.parametrize(
+    ("drives", "key", "words"),
+    [
+        (
+            {"drives": [{"joint": "A", "speed": "60 rpm"}, {"joint": "A", "speed": "30 rpm"}]},
+            "drives.1.joint",
+            "drives.0 drives joint 'A' already",
+        ),
+        (
+            {"drive": {"joint": "A", "speed": "60 rpm"}, "drives": [{"joint": "A", "speed": "30 rpm"}]},
+            "drives.0.joint",
+            "[drive] drives joint",
+        ),
+        ({"drives": [{"joint": "X", "speed": "60 rpm"}]}, "drives.0.joint", "no joint is called 'X'"),
+        ({"drives": [{"joint": "A"}]}, "drives.0.speed", "give one of speed, profile and motor"),
+        ({"drives": [{"joint": "A", "speed": "60 rpm", "delay": "1 s"}]}, "drives.0.delay", "belongs to a drive with a profile"),
+    ],
+)
+def test_drives_that_have_no_meaning(drives, key, words):
+    with pytest.raises(SpecError) as error:
+        four_bar(**drives)
+    assert error.value.key == key
+    assert words in str(error.value)
+
+
+def test_a_drive_begins_at_its_phase():
+    result = dw.run(four_bar(drive={"joint": "A", "speed": "-60 rpm", "phase": "90 deg"}), only=["end"])
+    assert value(result, "bodies.crank.angle") == pytest.approx(np.radians(40 + 90 - 36.0), rel=1e-9)
+
+
+def test_drives_in_a_list_are_the_drive():
+    """One drive stated as `[drive]` and as the first of `[[drives]]`."""
+    one = dw.run(four_bar(drive={"joint": "A", "speed": "60 rpm"}), only=["energy", "motors"])
+    two = dw.run(four_bar(drives=[{"joint": "A", "speed": "60 rpm"}]), only=["energy", "motors"])
+    assert one.values.keys() == two.values.keys()
+    for name in one.values:
+        assert value(two, name) == value(one, name)
+
+
+def test_the_pin_of_a_slot_is_driven_along_it(tmp_path):
+    """A crank in a slotted arm, driven along the slot: the circle about O and the place on the arm give both angles."""
+    file = motor(tmp_path, "time [s],travel [mm]\n0,100\n0.25,105\n0.5,110\n1,120\n", "slot.csv")
+    bodies = {
+        "arm": body("1 kg", points={"O": ["0 mm", "0 mm"]}, angle="20 deg"),
+        "crank": body("1 kg", points={"Q": ["0 mm", "0 mm"], "P": ["60 mm", "0 mm"]}, angle="60 deg"),
+    }
+    joints = [
+        {"name": "O", "connects": ["ground.O", "arm.O"]},
+        {"name": "Q", "connects": ["ground.Q", "crank.Q"]},
+        {"name": "slot", "kind": "pin-slot", "connects": ["crank.P", "arm.O"], "axis": [1, 0]},
+    ]
+    spec = spec_of(
+        bodies, joints, {"Q": ["80 mm", "0 mm"]}, drive={"joint": "slot", "profile": file, "ends": "free"}, simulate={"duration": "1 s"}
+    )
+    result = dw.run(spec, only=["end", "energy", "motors"])
+    cosine = (0.08**2 + 0.12**2 - 0.06**2) / (2 * 0.08 * 0.12)
+    assert value(result, "bodies.arm.angle") == pytest.approx(np.arccos(cosine), rel=1e-9)
+    assert result.values["drives.slot.peak_force"].unit == "N"
