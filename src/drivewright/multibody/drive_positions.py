@@ -12,5 +12,6 @@ def drive_positions(assembly: Assembly, system: System, work: Work) -> list[str]
     for drive, driven in zip(assembly.model.drives, system.driven, strict=True):
         value = driven.sign * work.coordinates.q[driven.coordinate]
         turning = any(link.turn == driven.coordinate for link in assembly.tree.links)
-        positions.append(f"{drive.joint!r} at {np.degrees(value) % 360:.2f} deg" if turning else f"{drive.joint!r} at {1e3 * value:.4g} mm")
+        angle, way = round(float(np.degrees(value)), 6) % 360, round(1e3 * float(value), 9) + 0.0  # no 360.00 deg, no -0 mm of rounding
+        positions.append(f"{drive.joint!r} at {angle:.2f} deg" if turning else f"{drive.joint!r} at {way:.4g} mm")
     return positions
