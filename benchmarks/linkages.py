@@ -211,3 +211,30 @@ def bifurcation(clearances=200, turns=300):
         (seconds, seconds),
         (f"wanted under 35 s; {steps / clearances / turns:.0f} steps a turn, {1e6 * seconds / steps:.2f} us a step"),
     )
+
+
+def friction():
+    """What friction in every ideal joint costs: a slider-crank with a dry wrist at constant speed, and one of ideal joints under a motor."""
+    import dataclasses
+
+    from timing import best
+
+    from drivewright import multibody as mb
+
+    rub = mb.JointFriction(0.05, 0.08, arm=BEARING, guide=0.04)
+    loose = slider_crank()
+    tight = [dataclasses.replace(joint, model=mb.Ideal()) if joint.name == "wrist" else joint for joint in loose.joints]
+    motor = mb.AppliedTorque("motor", "crank", mb.LoadCurve(mb.line(2.0, -0.004), "speed"))
+    cases = (
+        ("dry wrist, 5 turns at 5000 rpm", loose, 5 * PERIOD),
+        ("motor of 2 N m, 0.2 s from rest", mb.MultibodyModel(loose.bodies, tuple(tight), (motor,), gravity=(0.0, -9.81)), 0.2),
+    )
+    for name, model, duration in cases:
+        rubbing = [joint if joint.name == "wrist" and joint.play else dataclasses.replace(joint, friction=rub) for joint in model.joints]
+        seconds = []
+        for title, joints in (("ideal", model.joints), ("with friction", tuple(rubbing))):
+            assembly = mb.assemble(dataclasses.replace(model, joints=joints))
+            run = mb.simulate(assembly, duration)
+            seconds.append(best(lambda assembly=assembly: mb.simulate(assembly, duration)))
+            more = "" if len(seconds) == 1 else f"; {seconds[1][0] / seconds[0][0]:.2f} times as long"
+            yield f"{name}: {title}", seconds[-1], f"{run.steps} steps, {1e6 * seconds[-1][0] / run.steps:.1f} us each{more}"

@@ -318,6 +318,7 @@ SECTIONS = (
     ("Slider-crank with play: work and precision", linkages.work_precision),
     ("Folder: table of impact load coefficients", linkages.table),
     ("Slider-crank with play: bifurcation diagram", linkages.bifurcation),
+    ("Friction in ideal joints", linkages.friction),
     *shafts.SECTIONS,
     *indexing.SECTIONS,
     *chains.SECTIONS,

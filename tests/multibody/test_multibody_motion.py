@@ -19,6 +19,7 @@ from drivewright.multibody.model import (
     Ideal,
     JointDrive,
     LoadCurve,
+    Lubricated,
     Marker,
     MultibodyModel,
     PinSlot,
@@ -652,3 +653,15 @@ def test_a_pin_with_play_between_two_moving_bodies_is_driven():
     assert loose.point("two", "w")[-1] == pytest.approx(5.0, rel=1e-9)
     for field in ("x", "y"):
         assert loose.point("two", field)[-1] == pytest.approx(ideal.point("two", field)[-1], abs=2e-5)
+
+
+@pytest.mark.parametrize("form", ["long", "short", "reynolds"])
+def test_an_oil_film_brakes_its_journal(form):
+    """A journal that turns in the middle of its bearing runs down by Petroff's torque; bearing and journal keep their sum."""
+    viscosity, length, radius, clearance, inertia, spin = 0.04, 0.02, 0.01, 5e-5, 1e-4, 100.0
+    oil = Lubricated(Dry(clearance, radius, 1e10, length=length), viscosity, form)
+    bodies = (Body("bush", 50.0, 2e-4), Body("journal", 0.5, inertia, angular_velocity=spin))
+    seen = Seen(MultibodyModel(bodies, (Revolute("pin", Marker("bush"), Marker("journal"), oil),)), np.linspace(0, 0.05, 6))
+    drag = 2 * np.pi * viscosity * length * radius**3 / clearance
+    near(seen("journal", "w") - seen("bush", "w"), spin * np.exp(-drag * (1 / inertia + 1 / 2e-4) * np.linspace(0, 0.05, 6)), rel=1e-6)
+    near(inertia * seen("journal", "w") + 2e-4 * seen("bush", "w"), inertia * spin, rel=1e-9)

@@ -10,7 +10,7 @@
 `impact`     impact laws, restitution and damping; a cylinder in a hollow.
 `friction`   Coulomb, Ambrosio, Stribeck and LuGre friction.
 `elastohydrodynamic`  oil film of a line contact under pressure.
-`film`       closed forms of a journal bearing's oil film; `reynolds` solves its equation.
+`film`       closed forms of a journal bearing's oil film; `reynolds` solves its equation, `film_table` keeps its solutions for a time step.
 `wear`       Archard wear of a bearing over its angle.
 """
 
@@ -51,7 +51,8 @@ _WHERE = {
         "lasting_factor",
     ),
     "friction": ("ambrosio", "coulomb", "lugre", "lugre_rate", "stribeck"),
-    "film": ("long_bearing", "short_bearing"),
+    "film": ("journal_friction", "long_bearing", "short_bearing"),
+    "film_table": ("FilmTable", "film_table", "tabulated_bearing"),
     "reynolds": ("Film", "FilmMap", "closed_form_map", "film_deviation", "film_map", "solve_film"),
     "conforming": ("conforming_half_angle", "conforming_pressure"),
     "laws": ("ContactParameters", "contact_law", "contact_law_names"),

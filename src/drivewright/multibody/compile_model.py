@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from drivewright._typing import Bools, Floats
+from drivewright.contact.film_table import FilmTable
 from drivewright.errors import InputError, UnknownName
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.curves import Curve
@@ -41,6 +42,7 @@ def index_of(model: MultibodyModel, tree: Tree) -> ModelIndex:
         {GROUND: 0} | {link.body.name: k for k, link in enumerate(tree.links, start=1)},
         {GROUND: 0.0} | {body.name: body.angle for body in model.bodies},
         {GROUND: (0.0, 0.0)} | {body.name: body.centroid for body in model.bodies},
+        [],
         [],
         [],
     )
@@ -80,6 +82,7 @@ def compile_model(model: MultibodyModel, tree: Tree) -> System:
         **records,
         laws=_laws(index.laws),
         frictions=frictions,
+        films=_films(index.films),
         wear=np.zeros((len(records["contacts"]), 0)),
         curves=curves,
         pieces=pieces,
@@ -124,6 +127,11 @@ def _frictions(model: MultibodyModel, tree: Tree, index: ModelIndex) -> NoJointF
         if joint.friction_force
     ]
     return JointFrictions(table_of(JOINT_FRICTION, rows)) if rows else NoJointFriction()
+
+
+def _films(tables: Sequence[FilmTable]) -> Floats:
+    """Coefficients of the tables of oil films, one after another."""
+    return np.stack([table.coefficients for table in tables]) if tables else np.zeros((0, 2, 0, 0, 4, 4))
 
 
 def _measures_angles(rows: Records) -> Bools:

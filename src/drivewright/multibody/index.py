@@ -5,6 +5,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from drivewright.contact.film_table import FilmTable
 from drivewright.errors import InputError, UnknownName
 from drivewright.multibody.bodies import Marker
 from drivewright.multibody.curves import Curve
@@ -12,13 +13,14 @@ from drivewright.multibody.curves import Curve
 
 class ModelIndex(NamedTuple):
     """By name of the body: its number in the arrays, its start angle [rad], its centroid in its frame [m]; and the
-    curves and contact laws collected."""
+    curves, contact laws and oil films collected."""
 
     numbers: Mapping[str, int]
     angles: Mapping[str, float]
     centroids: Mapping[str, tuple[float, float]]
     curves: list[Curve]
     laws: list[Any]
+    films: list[FilmTable]
 
     def number(self, name: str, whose: str) -> int:
         """Number of a body; UnknownName says who names it."""
@@ -46,6 +48,12 @@ class ModelIndex(NamedTuple):
         """Number, from 1, of a contact law that the kernels are to know."""
         self.laws.append(law)
         return len(self.laws)
+
+    def add_film(self, table: FilmTable) -> int:
+        """Number of an oil film's table that the kernels are to know; the same table has one number."""
+        if not any(table is other for other in self.films):
+            self.films.append(table)
+        return next(k for k, other in enumerate(self.films) if other is table)
 
 
 def unit_axis(axis: tuple[float, float], joint: str) -> tuple[float, float]:

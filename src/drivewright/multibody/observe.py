@@ -142,9 +142,10 @@ def _pin(system, number, work, y, out):
     out[0], out[1], out[2], out[3], out[4], out[5] = depth, normal, rubbing, slip, nx, ny
     across = normal * wear_slope - rubbing  # along (-ny, nx)
     out[6], out[7] = -normal * nx - across * ny, -normal * ny + across * nx
+    out[9] = work.poses[contact.j].w - work.poses[contact.i].w
     if contact.film != NO_FILM:
-        fx, fy = film_force(contact, work.poses)
-        out[6], out[7] = out[6] + fx, out[7] + fy
+        fx, fy, drag = film_force(contact, work.poses, system.films)
+        out[6], out[7], out[8] = out[6] + fx, out[7] + fy, drag
 
 
 @inner

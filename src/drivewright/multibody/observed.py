@@ -5,7 +5,7 @@ from typing import NamedTuple
 from drivewright._typing import Floats
 
 FIELDS = ("x", "y", "angle", "vx", "vy", "w", "ax", "ay", "alpha", "fx", "fy", "torque")
-PIN_FIELDS = ("depth", "normal", "friction", "slip", "nx", "ny", "fx", "fy")
+PIN_FIELDS = ("depth", "normal", "friction", "slip", "nx", "ny", "fx", "fy", "drag", "spin")
 POWER_FIELDS = ("springs", "applied", "pins", "friction", "drives")
 FRICTION_FIELDS = ("rate", "force", "load", "share", "sliding", "normal", "tangential")
 
@@ -14,7 +14,8 @@ class Observed(NamedTuple):
     """Arrays over the times t (m,).
 
     bodies (m, bodies, FIELDS): centroid, rates, accelerations, and the force and torque of all elements on the body, gravity left out;
-    pins (m, pins with play, PIN_FIELDS): depth below 0 in flight, n from the journal to the bearing's centre, force on the bearing;
+    pins (m, pins with play, PIN_FIELDS): depth below 0 in flight, n from the journal to the bearing's centre, force on the bearing, torque
+    of an oil film on it, angular velocity of the journal against it;
     powers (m, POWER_FIELDS) that the elements give to the bodies [W], friction being that of ideal joints; drives (m, drives): torque or
     force of each drive; frictions (m, ideal joints with friction, FRICTION_FIELDS): rate of the joint, friction on its first body, that
     at the coefficient 1, share of the largest static one, -1, 1 where it slides, 0 where it sticks, and what it transmits: of a pin force

@@ -75,6 +75,7 @@ class System(NamedTuple):
     contacts: Records
     laws: NoLaws | Laws  # of contacts that have one of their own
     frictions: NoJointFriction | JointFrictions  # of ideal joints
+    films: Floats  # (tables, 2, ...): coefficients of `contact.film_table`
     wear: Floats  # (contacts, bins): depth worn off each bearing, over the angle in its body's frame; no bins without wear
     curves: Records
     pieces: Records

@@ -116,7 +116,9 @@ class Joint(Spec):
     rotational_stiffness: RotationalStiffness = Field("0 N m/rad", ge=0, description="bushing: of its rotation")
     rotational_damping: RotationalDamping = Field("0 N m s/rad", ge=0, description="bushing: of its rotation")
     viscosity: Viscosity = Field("40 mPa s", gt=0, description="lubricated: dynamic viscosity of the oil")
-    film: Literal["long", "short"] = Field("long", description="lubricated: long bearing (no flow along it) or short bearing")
+    film: Literal["long", "short", "reynolds"] = Field(
+        "long", description="lubricated: long bearing (no flow along it), short bearing, or Reynolds' equation for its length"
+    )
     roughness: Length = Field("1 um", gt=0, description="lubricated: film thickness at which the oil gives way to contact")
     wear_coefficient: WearCoefficient | None = Field(
         None, ge=0, description="dry: volume worn off the bearing per force and sliding", examples=["1e-6 mm^3/(N m)"]

@@ -17,6 +17,8 @@ def oil_films(model: SimulationModel) -> Answer:
         oil = joint.play
         if isinstance(oil, Lubricated):
             slenderness = oil.contact.length / (2 * oil.contact.bearing_radius)
+            if oil.film == "reynolds":
+                continue
             form = long_bearing if oil.film == "long" else short_bearing
             solved = film_map(slenderness, eccentricities, directions)
             off = film_deviation(closed_form_map(form, slenderness, eccentricities, directions), solved)

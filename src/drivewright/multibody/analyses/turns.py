@@ -165,7 +165,7 @@ def _pin(model, run, record, number, name, ends, numbers):
     pin = dict(zip(PIN_FIELDS, np.moveaxis(record.pins[:, number], 1, 0), strict=True))
     force, span = np.hypot(pin["fx"], pin["fy"]), record.t[-1] - record.t[0]
     at = run.impacts[(run.impacts[:, 1] == number) & (run.impacts[:, 0] >= record.t[0]) & (run.impacts[:, 0] <= record.t[-1]), 0]
-    means = {"touching": (pin["depth"] > 0).astype(float), "lost": np.abs(pin["friction"] * pin["slip"])}
+    means = {"touching": (pin["depth"] > 0).astype(float), "lost": np.abs(pin["friction"] * pin["slip"]) + pin["drag"] * pin["spin"]}
     numbers.whole.update(
         {
             f"{name}.force": float(np.max(force)),

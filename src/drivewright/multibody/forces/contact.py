@@ -7,6 +7,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from drivewright._jit import generic, implements
+from drivewright.contact.film_table import film_table
 from drivewright.contact.impact import lasting_factor
 from drivewright.contact.normal import normal_force
 from drivewright.multibody.bodies import Marker
@@ -16,14 +17,14 @@ from drivewright.multibody.records import record_type
 from drivewright.multibody.wrenches import ObservedBodies, Reaction, cross
 
 NO_FRICTION, COULOMB, AMBROSIO, LUGRE = range(4)
-NO_FILM, LONG_FILM, SHORT_FILM = range(3)
+NO_FILM, LONG_FILM, SHORT_FILM, REYNOLDS_FILM = range(4)
 CONTACT = record_type(
-    "i j memory bristle law film cylinder further",
+    "i j memory bristle law film film_table cylinder further",
     "ax ay bx by clearance bearing_radius stiffness exponent hysteresis lasting damping friction slip_speed dead_speed static_friction "
     "bristle_stiffness bristle_damping viscous viscosity length roughness",
 )
 _FRICTION = {"none": NO_FRICTION, "coulomb": COULOMB, "ambrosio": AMBROSIO, "lugre": LUGRE}
-_FILM = {"long": LONG_FILM, "short": SHORT_FILM}
+_FILM = {"long": LONG_FILM, "short": SHORT_FILM, "reynolds": REYNOLDS_FILM}
 
 
 @dataclass(frozen=True)
@@ -64,7 +65,7 @@ class Lubricated:
 
     contact: Dry
     viscosity: float  # [Pa s]
-    film: str = "long"  # long | short
+    film: str = "long"  # long | short | reynolds: of its length, by a table
     roughness: float = 1e-6  # least film thickness; film and contact blend over this depth [m]
 
     noun: ClassVar[str] = "play"
@@ -123,6 +124,8 @@ class PinContact(ForceElement):
         dry = self.model.contact if isinstance(self.model, Lubricated) else self.model
         rub = dry.friction
         film = {"film": _FILM[oil.film], "viscosity": oil.viscosity, "roughness": oil.roughness} if oil else {}
+        if oil and oil.film == "reynolds":
+            film["film_table"] = index.add_film(film_table(dry.length / (2 * dry.bearing_radius)))
         return (
             index.pair(self.first, self.second, f"joint {self.name!r}")
             | film
@@ -151,11 +154,11 @@ class PinContact(ForceElement):
         )
 
     def reaction(self, number: int, bodies: ObservedBodies) -> Reaction:
-        """The walls press at the bearing's radius, the oil at the journal's centre."""
-        observed = {name: bodies.observed.pin(number, name) for name in ("depth", "normal", "friction", "nx", "ny", "fx", "fy")}
+        """The walls press at the bearing's radius, the oil at the journal's centre, about which it drags the bearing along."""
+        observed = {name: bodies.observed.pin(number, name) for name in ("depth", "normal", "friction", "nx", "ny", "fx", "fy", "drag")}
         contact = self.model.contact if isinstance(self.model, Lubricated) else self.model
         n, force = np.stack([observed["nx"], observed["ny"]], axis=-1), np.stack([observed["fx"], observed["fy"]], axis=-1)
         rubbing = observed["friction"][:, None] * n @ np.array([[0.0, -1.0], [1.0, 0.0]])
         oil = force + observed["normal"][:, None] * n - rubbing
         moment = -contact.bearing_radius * cross(n, rubbing) - (observed["depth"] + contact.clearance) * cross(n, oil)
-        return Reaction(force, moment)
+        return Reaction(force, moment + observed["drag"])

@@ -9,13 +9,14 @@ import numpy as np
 
 from drivewright._jit import inner, per_lane
 from drivewright._typing import Floats, Numbers
-from drivewright.contact.film import long_bearing, short_bearing
+from drivewright.contact.film import journal_friction, long_bearing, short_bearing
+from drivewright.contact.film_table import tabulated_bearing
 from drivewright.contact.friction import ambrosio, coulomb, lugre, lugre_rate
 from drivewright.contact.impact import cylinder_energy, cylinder_force
 from drivewright.contact.normal import PowerLaw, normal_force
 from drivewright.contact.wear import wear_at
-from drivewright.multibody.forces.contact import AMBROSIO, COULOMB, LONG_FILM, LUGRE, NO_FILM, further_force
-from drivewright.multibody.frames import apply_force, relative_motion, rotated
+from drivewright.multibody.forces.contact import AMBROSIO, COULOMB, LONG_FILM, LUGRE, NO_FILM, SHORT_FILM, further_force
+from drivewright.multibody.frames import apply_force, apply_torque_pair, relative_motion, rotated
 from drivewright.multibody.records import OneRecord, Records
 from drivewright.multibody.system import System, Work
 from drivewright.numerics.lanes import any_lane, where
@@ -223,23 +224,28 @@ def contact_force(
 
 
 @per_lane
-def film_force(contact: OneRecord, poses: Records) -> tuple[float, float]:
-    """Force (x, y) of the oil on the bearing, and the torque-free arm is its centre; it fades where the walls touch."""
+def film_force(contact: OneRecord, poses: Records, films: Floats) -> tuple[float, float, float]:
+    """Force (x, y) [N] of the oil on the bearing in the journal's centre, and its drag [N m] on it about that point; all of it fades where
+    the walls touch.  films as in `System`."""
     dx, dy, vx, vy, _, _, _, _ = relative_motion(poses, contact)
     distance, clearance = np.hypot(dx, dy), contact.clearance
     excess = (distance - clearance) / contact.roughness
     if excess >= 1.0:
-        return 0.0, 0.0
+        return 0.0, 0.0, 0.0
     weight = 1.0 if excess <= 0.0 else 1.0 - excess * excess * (3.0 - 2.0 * excess)
     most = clearance - max(contact.roughness, THINNEST * clearance)
     scale = most / distance if distance > most else 1.0
     spin = poses[contact.i].w + poses[contact.j].w
-    ex, ey, radius = -dx * scale, -dy * scale, contact.bearing_radius
+    ex, ey, radius, viscosity, length = -dx * scale, -dy * scale, contact.bearing_radius, contact.viscosity, contact.length
     if contact.film == LONG_FILM:
-        fx, fy = long_bearing(ex, ey, -vx, -vy, spin, contact.viscosity, contact.length, radius, clearance)
+        fx, fy = long_bearing(ex, ey, -vx, -vy, spin, viscosity, length, radius, clearance)
+    elif contact.film == SHORT_FILM:
+        fx, fy = short_bearing(ex, ey, -vx, -vy, spin, viscosity, length, radius, clearance)
     else:
-        fx, fy = short_bearing(ex, ey, -vx, -vy, spin, contact.viscosity, contact.length, radius, clearance)
-    return -weight * fx, -weight * fy
+        fx, fy = tabulated_bearing(ex, ey, -vx, -vy, spin, viscosity, length, radius, clearance, films[contact.film_table])
+    slip = poses[contact.j].w - poses[contact.i].w
+    drag = journal_friction(ex, ey, fx, fy, slip, viscosity, length, radius, clearance)
+    return -weight * fx, -weight * fy, weight * drag
 
 
 @inner
@@ -267,7 +273,8 @@ def apply_pin_contact(system: System, n: int, work: Work, y: Floats, dy: Floats)
             apply_force(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
             apply_force(two, qx, qy, -fx, -fy)
     if contact.film != NO_FILM:
-        fx, fy = film_force(contact, work.poses)
+        fx, fy, drag = film_force(contact, work.poses, system.films)
+        apply_torque_pair(work.poses, contact, drag)
         qx, qy = rotated(two, contact.bx, contact.by)
         apply_force(one, qx + two.x - one.x, qy + two.y - one.y, fx, fy)
         apply_force(two, qx, qy, -fx, -fy)
