@@ -143,11 +143,10 @@ def joint_rate(work: Work, friction: OneRecord, unit: tuple[float, float, float,
 
 
 @inner
-def sliding_coefficient(friction: OneRecord, rate: float) -> float:
+def sliding_coefficient(friction: OneRecord, rate: Any) -> Any:
     """Coefficient at a rate, viscous part included, above 0."""
     speed = abs(rate)
-    dry: Any = stribeck(speed, friction.friction, friction.static_friction, friction.stribeck_speed)
-    return dry + friction.viscous * speed
+    return stribeck(speed, friction.friction, friction.static_friction, friction.stribeck_speed) + friction.viscous * speed
 
 
 @inner
