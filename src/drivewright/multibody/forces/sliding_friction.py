@@ -156,7 +156,7 @@ def sticking_share(friction: OneRecord, rate: float, y: Floats) -> float:
 
 
 @per_lane
-def event_value(friction: OneRecord, work: Work, y: Floats) -> float:
+def event_value(friction: OneRecord, work: Work, y: Floats) -> Any:
     """`friction_event_value` of one joint."""
     rate = joint_rate(work, friction, unit_force(work, friction))
     if y[friction.sliding] == 0.0:
