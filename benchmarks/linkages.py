@@ -214,7 +214,7 @@ def bifurcation(clearances=200, turns=300):
 
 
 def friction():
-    """What friction in every ideal joint costs: a slider-crank with a dry wrist at constant speed, and one of ideal joints under a motor."""
+    """What friction in every ideal joint costs: a slider-crank with a dry wrist at constant speed, one without play under a motor."""
     import dataclasses
 
     from timing import best
@@ -235,6 +235,6 @@ def friction():
         for title, joints in (("ideal", model.joints), ("with friction", tuple(rubbing))):
             assembly = mb.assemble(dataclasses.replace(model, joints=joints))
             run = mb.simulate(assembly, duration)
-            seconds.append(best(lambda assembly=assembly: mb.simulate(assembly, duration)))
+            seconds.append(best(lambda assembly=assembly, duration=duration: mb.simulate(assembly, duration)))
             more = "" if len(seconds) == 1 else f"; {seconds[1][0] / seconds[0][0]:.2f} times as long"
             yield f"{name}: {title}", seconds[-1], f"{run.steps} steps, {1e6 * seconds[-1][0] / run.steps:.1f} us each{more}"
