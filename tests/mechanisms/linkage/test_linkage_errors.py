@@ -170,7 +170,9 @@ def test_speed_and_motor_together_or_on_a_slide_are_refused(tmp_path):
     key, message = complaint(("joints.O2.kind", "prismatic"))
     assert key == "drive.speed" and "give a profile of its travel" in message
     key, message = complaint(("joints.O2.kind", "pin-slot"))
-    assert key == "drive.joint" and "is a pin-slot joint" in message
+    assert key == "drive.speed" and "is a pin in a slot: give a profile" in message
+    key, message = complaint(("joints.O2.kind", "rolling"), ("joints.O2.radius", "30 mm"))
+    assert key == "drive.joint" and "is a rolling joint" in message
 
 
 def test_the_ramp_of_ambrosio_must_rise():

@@ -7,6 +7,7 @@ import drivewright as dw
 from drivewright.errors import InputError, SpecError
 from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.spec import LinkageSpec
+from drivewright.oracles.linkage import independent_check
 from drivewright.spec.base import validate_tables
 
 pytestmark = pytest.mark.analytical
@@ -305,3 +306,18 @@ def test_the_pin_of_a_slot_is_driven_along_it(tmp_path):
     cosine = (0.08**2 + 0.12**2 - 0.06**2) / (2 * 0.08 * 0.12)
     assert value(result, "bodies.arm.angle") == pytest.approx(np.arccos(cosine), rel=1e-9)
     assert result.values["drives.slot.peak_force"].unit == "N"
+
+
+# -- second routes -------------------------------------------------------------------------------------------------------------------
+
+
+def test_verify_finds_the_friction_by_the_bodies_equations(tmp_path):
+    """Of a drawer: slide and slot; of a wheel: its resistance."""
+    rubbing = drawer(0.3, tmp_path=tmp_path).replace({"joints.slot.friction": 0.1})
+    for spec, count in ((rubbing, 2), (wheel(friction=0.4, rolling_resistance="1 mm"), 1)):
+        model = build(spec)
+        rows = [row for row in independent_check.verify(model, None) if row[0].startswith("friction in")]
+        assert len(rows) == count
+        for _, ours, other, _, allowed, _ in rows:
+            assert ours == pytest.approx(other, abs=allowed)
+            assert other > 0

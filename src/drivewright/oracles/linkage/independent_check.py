@@ -10,9 +10,9 @@ import numpy as np
 from drivewright.errors import MissingExtra
 from drivewright.mechanisms.linkage.build import LinkageModel
 from drivewright.multibody.analyses.simulation_model import ideal_record, run_of
-from drivewright.multibody.model import GROUND, Dry, Ideal, PinSlot, Prismatic, Revolute
+from drivewright.multibody.model import GROUND, Dry, Ideal, PinSlot, Prismatic, Revolute, Rolling
 from drivewright.multibody.observe import FIELDS, PIN_FIELDS, observe
-from drivewright.multibody.reactions import reactions
+from drivewright.multibody.reactions import observed_bodies, reactions
 from drivewright.multibody.simulate import Settings, simulate, states_outside_folds
 from drivewright.oracles.linkage.four_bar import closed_form
 from drivewright.registry import LeftOut, Row
@@ -33,7 +33,8 @@ TIMES = 5  # a halved step shows the error of the second order and less of that 
 def verify(model: LinkageModel, result: object) -> tuple[Row | LeftOut, ...]:
     """All rows; of a linkage that Exudyn does not know, or without Exudyn, what is left out."""
     states = list(_observed_states(model))
-    return (*_closed_joints(model, states), *_newton_euler(model, states), *_differences(model), *closed_form(model), *_exudyn_rows(model))
+    mechanics = (*_closed_joints(model, states), *_newton_euler(model, states), *_friction(model, states))
+    return (*mechanics, *_differences(model), *closed_form(model), *_exudyn_rows(model))
 
 
 # -- joints and equations ------------------------------------------------------------------------------------------------------
@@ -101,6 +102,34 @@ def _newton_euler(model, states):
         yield name, float(ours[worst, k]), float(other[worst, k]), unit, 1e-8 * size + 1e-12, ABSOLUTE
 
 
+def _friction(model, states):
+    """Friction at the coefficient 1 of every ideal joint that rubs, from the forces by the equations of the bodies."""
+    rubbing = [joint for joint in model.assembly.expanded.joints if joint.friction_force]
+    solved = [(observed, reactions(model.assembly, system, observed)) for system, observed in states if rubbing]
+    for k, joint in enumerate(rubbing):
+        parts = [(one.friction(k, "load"), _load_by_reaction(model, joint, one, found.joints[joint.name])) for one, found in solved]
+        ours, other = (np.concatenate(part) for part in zip(*parts, strict=True))
+        worst, size = np.argmax(np.abs(ours - other)), float(np.max(np.abs(other)))
+        unit = "N m" if isinstance(joint, (Revolute, Rolling)) else "N"
+        name = f"friction in {joint.name!r} over its coefficient, where it is farthest"
+        yield name, float(ours[worst]), float(other[worst]), unit, 1e-7 * size + 1e-12, ABSOLUTE
+
+
+def _load_by_reaction(model, joint, observed, reaction):
+    rub = joint.friction
+    if isinstance(joint, Revolute):
+        return rub.arm * np.hypot(*reaction.force.T)
+    places = observed_bodies(model.assembly, observed)
+    if isinstance(joint, Rolling):
+        across = places.point(joint.first) - places.point(joint.second)
+        if not joint.track_radius:
+            across = places.rotated(joint.second.body, (-joint.axis[1], joint.axis[0]))
+        return rub.arm * np.abs(np.sum(reaction.force * across, axis=1)) / np.hypot(*across.T)
+    across = places.rotated(joint.second.body, np.array([-joint.axis[1], joint.axis[0]]) / np.hypot(*joint.axis))
+    normal = np.abs(np.sum(reaction.force * across, axis=1))
+    return np.maximum(normal, 2 * np.abs(reaction.moment) / rub.guide) if isinstance(joint, Prismatic) and rub.guide else normal
+
+
 def _differences(model):
     """Without freedom: the outputs' accelerations by differences over a turn."""
     if model.assembly.freedom:
@@ -143,10 +172,12 @@ def _missing_in_exudyn(model):
     joints = all(isinstance(joint, (Revolute, Prismatic, PinSlot)) for joint in wide.joints)
     tables = any(item.file for item in (*spec.torques, *spec.forces))
     steady = all(drive.speed is not None for drive in spec.all_drives.values())
+    smooth_joints = model.assembly.freedom == 0 or not any(joint.friction_force for joint in wide.joints)
     massive = all(body.mass > 0 and body.inertia > 0 for body in wide.bodies)
     known = {
         "the law of a joint with play": smooth,
         "a kind of joint": joints,
+        "friction in ideal joints": smooth_joints,
         "loads from a table": not tables,
         "a drive of variable speed": steady,
         "bodies without mass or inertia": massive,
