@@ -131,6 +131,8 @@ class Seen:
             "ny": -np.sin(world),
             "fx": force,
             "fy": zeros,
+            "drag": zeros,
+            "spin": zeros,
         }
         self.pins = np.stack([columns[name] for name in PIN_FIELDS], axis=1)[:, None]
 
