@@ -13,12 +13,14 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.chains.closure import States
 from drivewright.chains.explicit.assembly import start
+from drivewright.chains.explicit.signals import tensioners
 from drivewright.chains.explicit.simulate import Settings, simulate, tooth_time
 from drivewright.chains.explicit.stability import largest_step
 from drivewright.chains.implicit import simulate as implicit
 from drivewright.chains.implicit.equilibrium import compliance_of, stiffened
 from drivewright.chains.link import Link, seat_support
 from drivewright.chains.model import Slide, with_sprocket
+from drivewright.chains.path.route import short_name
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
 from drivewright.oracles.silent_chain import exudyn_rows
@@ -263,6 +265,10 @@ def _running(model):
     if system.sprockets[1].slide:
         a, b = (motion.body(1, "q") for motion in (ours, other))
         yield f"slide {after}", float(a[-1]), float(b[-1]), "m", 1e-3 * float(np.ptp(a)), ALPHA
+    for number in tensioners(system):
+        a, b = (motion.body(number, "q") for motion in (ours, other))
+        name = f"travel of tensioner {short_name(system, number)} {after}"
+        yield name, float(a[-1]), float(b[-1]), "m", 1e-2 * float(np.ptp(a)), ALPHA
     a, b = (motion.transmission_error(1) for motion in (ours, other))
     yield f"transmission error {after}", float(a[-1]), float(b[-1]), "rad", 1e-2 * float(np.ptp(a)), ALPHA
     a, b = (motion.tension[-1, 0] for motion in (ours, other))
