@@ -16,6 +16,7 @@ drive_scene      a drive on screen and as solids: sprockets, plates, the rigid c
 interference     gaps between plates and teeth
 masses           masses, stiffness and damping that nobody has measured: discs for sprockets, joints in line
 touching         where flank, roller and guide touch: the geometry that explicit and implicit runs share
+path             the taut path around sprockets and guides in any order, tensioners in balance
 closure          the rigid chain around two sprockets: centre distance and transmission error over a tooth
 explicit         simulation with short explicit steps, ensembles, batches over speed and scatter
 implicit         equilibrium and simulation with implicit steps
