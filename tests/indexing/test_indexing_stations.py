@@ -147,12 +147,26 @@ def test_flanks_of_several_starts_touch_rollers_and_none_enters(cam):
         assert np.max(find_turret_play(flanks, direction)) < 1e-9
 
 
+def test_rollers_on_the_far_side_of_the_turret_belong_to_no_flank():
+    """Steps of half a turn carry every roller round the turret; what is cut away is counted on the cam's side alone.
+
+    Thin rollers on a wide cam, so that nothing is cut away.
+    """
+    cam = hourglass(12, 2, roller_radius=4e-3, centre_distance=0.4, cam_length=0.045)
+    flanks = compute_flanks(cam, np.linspace(0, TURN, 61))
+    assert np.abs(flanks.contact.psi).max() > np.pi / 2
+    assert flanks.undercut == 0.0
+    assert np.abs(flanks.contact.psi[flanks.on_cam]).max() < 0.5
+
+
 @pytest.mark.parametrize("cam", [hourglass(), drum()])
 def test_each_start_has_a_groove_and_all_rollers_are_on_the_turret(cam):
     solid = cam_part(cam).solids[0]
     assert len(solid.grooves) == cam.starts == 2
     walls = [groove_walls(cam, start) for start in range(2)]
     for wall in walls:
+        ends = np.abs(wall[:, [0, -1], :, 1])  # a groove runs from one end of the cam to the other
+        assert ends.min() > cam.cam_length / 2
         distance = least_gap(cam, wall[:, 3:-3:7, 2:-2].reshape(-1, 3))
         assert distance.min() > -1e-6
     assert not np.allclose(walls[0][0, 5], walls[1][0, 5], atol=1e-3)

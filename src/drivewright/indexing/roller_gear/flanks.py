@@ -9,7 +9,7 @@ from drivewright._typing import ArrayLike, Bools, Floats
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.roller_gear.design import RollerGear, roller_travel
 from drivewright.indexing.roller_gear.envelope import FlankContact, flank_contact
-from drivewright.indexing.roller_gear.trimming import TrimmingTest
+from drivewright.indexing.roller_gear.trimming import TrimmingTest, in_front_of_blank
 
 FLANKS = np.array([1.0, -1.0])  # pushes the turret forward, backward
 
@@ -46,7 +46,7 @@ class CamFlanks:
     @property
     def undercut(self) -> float:
         """Part [-] of the contact lines within the blank that is lost to local undercut or to a roller passing at another angle."""
-        inside = self.cam.in_blank(self.contact.point) >= -1e-12
+        inside = in_front_of_blank(self.cam, self.contact)
         return 1.0 - np.count_nonzero(self.on_cam) / max(np.count_nonzero(inside), 1)
 
     @property

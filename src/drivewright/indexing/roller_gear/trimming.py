@@ -154,6 +154,11 @@ def minimum_gaps(points: Floats, ends: Floats, cells: Floats, parameters: Floats
     return result
 
 
+def in_front_of_blank(cam: RollerGear, contact: FlankContact) -> Bools:
+    """Where contacts lie within the blank, of rollers on the cam's side of the turret: long steps bring them round to the other."""
+    return (cam.in_blank(contact.point) >= -1e-12) & (np.abs(contact.psi) < FRONT)
+
+
 class TrimmingTest:
     """Which points of one cam, in its own frame, lie on the finished cam."""
 
@@ -168,7 +173,7 @@ class TrimmingTest:
 
     def on_cam(self, contact: FlankContact) -> Bools:
         """True where a Contact lies inside the blank, is no undercut and is covered by no roller."""
-        on_cam = (self.cam.in_blank(contact.point) >= -1e-12) & (contact.opening > 0) & (np.abs(contact.psi) < FRONT)
+        on_cam = in_front_of_blank(self.cam, contact) & (contact.opening > 0)
         on_cam[on_cam] = self.minimum_gaps(contact.point[on_cam]) >= -TOUCH * self.cam.roller_radius
         return on_cam
 
