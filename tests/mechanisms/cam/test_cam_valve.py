@@ -238,7 +238,8 @@ def test_a_lift_along_the_arm_with_every_closure(closure):
     tables = {"closure": closure, "drive": {"speed": "60 rad/s"}, "load": {"mass": "0.1 kg"}, **second}
     by_length = dw.run(spec({"lift_at": "arm"}, **tables))
     by_angle = dw.run(spec(programme=segments(f"{LIFT / ARM!r} rad"), **tables))
-    assert by_length.values.keys() == by_angle.values.keys() and by_length.outcome == "complete"
+    extra = {name for name in by_length.values if name.startswith("arm_end.")}
+    assert by_length.values.keys() - extra == by_angle.values.keys() and by_length.outcome == "complete"
     for name, value in by_angle.values.items():
         assert by_length[name] == pytest.approx(value.value, rel=1e-6, abs=1e-9 * max(1.0, abs(value.value))), name
 
@@ -250,3 +251,19 @@ def test_wipe_is_counted_from_zero_lift():
     swing = swing_by_root(RISE)
     place = int(np.argmax(table["lift"].data))
     assert table["wipe"].data[place] == pytest.approx(TIP * (np.cos(START + swing) - np.cos(START)), rel=1e-9)
+
+
+@pytest.mark.analytical
+@pytest.mark.parametrize("place", ["arm", "tip"])
+def test_values_and_columns_of_an_arms_end(place):
+    """A lift stated along an arc is in the result as it is stated: the law's published peaks."""
+    valve = {"valve": VALVE} if place == "tip" else {}
+    result = dw.run(spec({"lift_at": place}, drive={"speed": f"{SPEED} rad/s"}, **valve), only=("motion",))
+    assert result["arm_end.lift"] == pytest.approx(LIFT, rel=1e-12)
+    assert result["arm_end.max_velocity"] == pytest.approx(2.1875 * LIFT / RISE * SPEED, rel=1e-12)
+    assert result["arm_end.max_acceleration"] == pytest.approx(7.5132 * LIFT / (RISE / SPEED) ** 2, rel=1e-5)
+    table = result.tables["arm_end"]
+    row = int(np.argmin(np.abs(table["angle"].data - 0.3 * RISE)))
+    for order, name in enumerate(("lift", "velocity", "acceleration", "jerk")):
+        assert table[name].data[row] == pytest.approx(typed_lift(table["angle"].data[row])[order] * SPEED**order, rel=1e-9), name
+    assert ("valve.lift" in result.values) == (place == "tip")

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from drivewright import cams, curves
+from drivewright.mechanisms.cam.arm_ends import end_measures, end_tables
 from drivewright.mechanisms.cam.build import CamModel
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.motion import TableLaw
@@ -22,7 +23,7 @@ def motion(model: CamModel, done: Answers) -> Answer:
     meanings = ("lift of the follower", *(f"{n} derivative of the lift" for n in ("first", "second", "third")))
     units = (unit, f"{unit}/rad", f"{unit}/rad^2", f"{unit}/rad^3")
     columns = (Column("angle", "rad", "cam angle", angle), *map(Column, names, units, meanings, lift))
-    tables = (Table("motion", "Motion of the follower", columns), *_kinematics(model, angle, lift), *_valve_table(model))
+    tables = (Table("motion", "Motion of the follower", columns), *_kinematics(model, angle, lift), *end_tables(model))
     return merge_answers((*(measure(model) for measure in motion_measures(model)), Answer(tables=tables, findings=_infinite(peaks))))
 
 
@@ -32,8 +33,7 @@ def motion_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
     yield _smoothing
     if model.turns:
         yield _peaks
-    if model.arm:
-        yield _valve
+    yield from end_measures(model)
     yield _continuity
 
 
@@ -92,61 +92,6 @@ def _kinematics(model, angle, lift):
             for order, name, unit, kind in _rates(model)
         ]
         yield Table("kinematics", "Velocity, acceleration and jerk", (Column("angle", "rad", "cam angle", angle), *rates))
-
-
-def _valve(model):
-    """Lift of the valve, the rocker's ratio, and with a speed the valve's velocity and acceleration."""
-    lift, ratio, across = model.arm.lift, model.path.ratio, model.arm.across
-    moved, wiped = (_range(model, quantity) for quantity in (lift, across))
-    least, greatest = (extreme(lambda _, swing: ratio(swing)).value for extreme in (model.cycle.minimum, model.cycle.maximum))
-    values = {
-        "valve.lift": Value(moved, "m", "lift of the valve"),
-        "valve.min_rocker_ratio": Value(least, "-", "least rocker ratio: travel of the valve per travel at the cam's arm"),
-        "valve.max_rocker_ratio": Value(greatest, "-", "greatest rocker ratio: travel of the valve per travel at the cam's arm"),
-        "valve.wipe": Value(wiped, "m", "wipe of the pad, travel of its contact across the end of the valve's stem"),
-    }
-    return Answer(values | (_valve_peaks(model) if model.turns else {}))
-
-
-def _range(model, quantity):
-    high, low = (extreme(lambda _, swing: quantity(swing)).value for extreme in (model.cycle.maximum, model.cycle.minimum))
-    return high - low
-
-
-def _valve_peaks(model):
-    """Largest velocity and jerk of the valve, largest acceleration of opening and of closing against the spring."""
-    function, speed = model.valve_motion, model.speed
-    peaks = function.peaks()
-    acceleration = [speed**2 * end for end in function.extremes(lambda k, x: function.on_piece(k, x)[2:4])]
-    meaning = "largest acceleration of the valve"
-    values = {
-        "valve.max_velocity": (peaks.Vm * speed, "m/s", "largest velocity of the valve, magnitude"),
-        "valve.max_acceleration": (acceleration[1], "m/s^2", f"{meaning}, away from its seat"),
-        "valve.min_acceleration": (acceleration[0], "m/s^2", "least acceleration of the valve, negative where the spring brings it back"),
-        "valve.max_jerk": (peaks.Jm * speed**3, "m/s^3", "largest jerk of the valve, magnitude"),
-    }
-    finite = {"valve.max_acceleration": peaks.Am, "valve.min_acceleration": peaks.Am, "valve.max_jerk": peaks.Jm}
-    return {name: Value(*value) for name, value in values.items() if np.isfinite(finite.get(name, 0.0))}
-
-
-def _valve_table(model):
-    """Motion of the valve over the turn, and with a speed its velocity, acceleration and jerk."""
-    if not model.arm:
-        return
-    piece, angle = model.cycle.samples()
-    swing, motion = model.cycle.sampled()[1], model.valve_motion.on_piece(piece, angle)
-    columns = [
-        Column("angle", "rad", "cam angle", angle),
-        Column("lift", "m", "lift of the valve", motion.s),
-        Column("rocker_ratio", "-", "rocker ratio, travel of the valve per travel at the cam's arm", model.path.ratio(swing).d0),
-    ]
-    columns.append(Column("wipe", "m", "place of the pad on the stem, from that at zero lift", model.arm.across(swing).d0))
-    if model.turns:
-        columns += [
-            Column(name, f"m/s^{order}".removesuffix("^1"), f"{name} of the valve", motion[order] * model.speed**order)
-            for order, name in enumerate(("velocity", "acceleration", "jerk"), start=1)
-        ]
-    yield Table("valve", "Motion of the valve", tuple(columns))
 
 
 def _continuity(model):

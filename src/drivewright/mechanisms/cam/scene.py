@@ -20,6 +20,7 @@ PLOTS = (
     Plot("motion", "Lift and its derivatives by the cam angle", "motion", "angle", ("lift", "slope", "bend", "third")),
     Plot("kinematics", "Velocity, acceleration and jerk of the follower", "kinematics", "angle", ("velocity", "acceleration", "jerk")),
     Plot("valve", "Motion of the valve", "valve", "angle", ("lift", "velocity", "acceleration")),
+    Plot("arm_end", "Motion of the arm's end", "arm_end", "angle", ("lift", "velocity", "acceleration")),
     *(
         plot
         for suffix, words in SURFACES
