@@ -7,7 +7,6 @@ import subprocess
 import sys
 import time
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import openpyxl
@@ -179,7 +178,7 @@ def test_the_tiles_are_the_yield_and_what_has_a_plot():
 
 def test_a_study_cut_short_is_never_good():
     whole = study_of(spec(**GRID))
-    part = replace(whole, table=whole.table.slice(0, 20))
+    part = replace(whole, rows=whole.table.slice(0, 20))
     assert verdict(whole) == {"state": "good", "text": "all 27 cases complete"}
     assert verdict(part) == {"state": "warn", "text": "20 of 27 cases complete"}
     assert cases(part)[-1] == {"name": "not computed yet", "count": "7", "state": "none", "share": 7} and len(cases(whole)) == 3
@@ -191,7 +190,7 @@ def test_reasons_that_differ_in_numbers_only_are_one_and_the_commonest_comes_fir
     messages = ["no oil", "gap 1.5 mm at -3e-2", "gap 2 mm at 7", "gap 3 mm at 1e+5", None]
     place = study.table.column_names.index("message")
     table = study.table.set_column(place, study.table.schema.field(place), pa.array(messages + [""] * 22))
-    assert [(row["count"], row["text"]) for row in reasons(replace(study, table=table))] == [
+    assert [(row["count"], row["text"]) for row in reasons(replace(study, rows=table))] == [
         (3, "gap 1.5 … 3 mm at -3e-2 … 1e+5 (the first: gap 1.5 mm at -3e-2)"),
         (1, "no oil"),
         (1, "no reason given"),
@@ -247,7 +246,7 @@ def test_other_formats_and_what_no_sheet_holds_are_refused(tmp_path, monkeypatch
         write_study_table(study, tmp_path / "t.ods")
     with pytest.raises(InputError, match="as a file without a suffix"):
         write_study_table(study, tmp_path / "t")
-    long = SimpleNamespace(table=pa.table({"case": pa.array(np.arange(1_048_576))}))
+    long = replace(study, rows=pa.table({"case": pa.array(np.arange(1_048_576))}))
     with pytest.raises(InputError, match="1048576 cases are more than the 1048575 that an Excel sheet holds; take parquet or csv"):
         write_study_table(long, tmp_path / "t.xlsx")
     monkeypatch.setattr(tabular, "SHEET_COLUMNS", 3)
@@ -268,7 +267,7 @@ def test_a_long_table_takes_seconds_and_no_matplotlib(tmp_path):
     n = 100_000
     numbers = np.random.default_rng(1).normal(size=n)
     fields = [pa.field(f"v{k}", pa.float64(), metadata={"unit": "m"}) for k in range(6)]
-    study = SimpleNamespace(table=pa.Table.from_arrays([pa.array(numbers)] * 6, schema=pa.schema(fields)))
+    study = replace(study_of(spec(**GRID)), rows=pa.Table.from_arrays([pa.array(numbers)] * 6, schema=pa.schema(fields)))
     started = time.perf_counter()
     path = write_study_table(study, tmp_path / "t.csv")
     assert time.perf_counter() - started < 10.0

@@ -229,7 +229,7 @@ def test_least_and_greatest_are_in_one_unit(capsys):
         field = pa.field(name, pa.float64(), metadata=about)
         place = table.column_names.index(name) if name in table.column_names else None
         table = table.append_column(field, data) if place is None else table.set_column(place, field, data)
-    show.study(replace(study, table=table))
+    show.study(replace(study, rows=table))
     (row,) = [line for line in capsys.readouterr().out.splitlines() if line.strip().startswith("area ")]
     assert re.split(r"\s{2,}", row.strip())[1:3] == ["0.50 (0.25 to 0.75) h", "10000 (5000 to 15000) h"]
 

@@ -134,7 +134,7 @@ def test_several_objectives_too(counted):
 def test_the_folder_holds_every_evaluation_with_units_and_reasons(tmp_path, undisturbed):
     found = dw.optimise(cam(), out=tmp_path / "o", on="serial")
     assert same(found, undisturbed) and found.folder == (tmp_path / "o").resolve()
-    table = joined(read_study(found.folder).tables)
+    table = read_study(found.folder).rows
     assert table.equals(found.table) and table.num_rows == found.evaluations
     units = {field.name: field.metadata[b"unit"].decode() for field in table.schema}
     assert units == {
@@ -215,7 +215,7 @@ def test_kill_9_costs_no_evaluation_that_was_acknowledged(tmp_path, undisturbed,
     finally:
         process.kill()
         process.wait()
-    acknowledged = sum(table.num_rows for table in read_study(tmp_path / "o").tables)
+    acknowledged = read_study(tmp_path / "o").rows.num_rows
     assert 0 < acknowledged < undisturbed.evaluations
     assert same(dw.optimise(spec, out=tmp_path / "o", on="serial"), undisturbed)
     assert counted == list(range(counted[0], undisturbed.evaluations))

@@ -352,7 +352,9 @@ def test_a_file_with_all_combinations_is_a_grid_in_whatever_order_its_lines_stan
     found = analyse_study(study)
     consistent(found)
     result, plots = found
-    assert set(result.tables) == {"range", "response.1", "response.2", "response.3"} and {plot.style for plot in plots} == {"map", "line"}
+    assert set(result.tables) == {"range", "response.1", "response.2", "response.3", "extremes", "extremes.y"} and {
+        plot.style for plot in plots
+    } == {"map", "line"}
     assert not any("sample" in text for text in result.findings)
     assert not any(name.startswith(("mean.", "sigma.", "yield")) for name in result.values)
     told = f"all combinations of the levels of material, {ROLLER}, {PRIME}; these decide manufacture.bore, {FORCE}, so they are answered"

@@ -17,7 +17,7 @@ def test_moments_and_intervals_are_the_textbook_ones():
     assert found.mean == pytest.approx((mean, *stats.t.interval(0.95, n - 1, mean, sigma / np.sqrt(n))), rel=1e-12)
     chi2 = stats.chi2.ppf([0.975, 0.025], n - 1)
     assert found.sigma == pytest.approx((sigma, *(sigma * np.sqrt((n - 1) / chi2))), rel=1e-12)
-    assert found.skewness == pytest.approx(stats.skew(SAMPLE), rel=1e-12)
+    assert found.skewness.value == pytest.approx(stats.skew(SAMPLE), rel=1e-12)
     assert (found.least, found.greatest, found.cases, found.absent) == (-0.4, 7.7, 7, 0)
     assert found.percentiles[PERCENTS.index(50.0)].value == 2.9
 
@@ -37,7 +37,7 @@ def test_another_unit_scales_and_another_zero_shifts():
     assert numbers(shifted)[[0, 1, 2]] == pytest.approx(numbers(one)[[0, 1, 2]] + 20.0, rel=1e-12)
     assert shifted.sigma == pytest.approx(one.sigma, rel=1e-9) and shifted.skewness == pytest.approx(one.skewness, rel=1e-9)
     assert scaled.sigma == pytest.approx(tuple(1e3 * x for x in one.sigma), rel=1e-12)
-    assert scaled.skewness == pytest.approx(-one.skewness, rel=1e-9)
+    assert scaled.skewness.value == pytest.approx(-one.skewness.value, rel=1e-9)
     mirrored = [tuple(-1e3 * x for x in (each.value, each.high, each.low)) for each in reversed(one.percentiles)]
     assert [tuple(each) for each in scaled.percentiles] == [pytest.approx(each, rel=1e-9, nan_ok=True) for each in mirrored]
 
@@ -50,8 +50,8 @@ def test_missing_numbers_are_left_out_and_counted():
 def test_samples_that_say_little_say_so():
     nothing, one, equal = summary([np.nan]), summary([4.0]), summary([0.1] * 10)
     assert nothing.cases == 0 and nothing.absent == 1 and np.isnan(nothing.mean.value)
-    assert one.mean.value == 4.0 and np.all(np.isnan([one.mean.low, *one.sigma, one.skewness]))
-    assert equal.mean == (0.1, 0.1, 0.1) and equal.sigma == (0.0, 0.0, 0.0) and np.isnan(equal.skewness)
+    assert one.mean.value == 4.0 and np.all(np.isnan([one.mean.low, *one.sigma, *one.skewness]))
+    assert equal.mean == (0.1, 0.1, 0.1) and equal.sigma == (0.0, 0.0, 0.0) and np.isnan(equal.skewness.value)
 
 
 def test_rounding_is_no_variation():
@@ -104,10 +104,23 @@ def test_clopper_and_pearson():
 
 
 def test_capability_is_the_mean_margin_over_three_sigma():
-    assert capability(SAMPLE) == pytest.approx(SAMPLE.mean() / (3 * SAMPLE.std(ddof=1)), rel=1e-12)
-    assert capability(-SAMPLE) == pytest.approx(-capability(SAMPLE), rel=1e-12)
-    assert np.isnan(capability([2.0, 2.0])) and np.isnan(capability([np.nan]))
+    assert capability(summary(SAMPLE)).value == pytest.approx(SAMPLE.mean() / (3 * SAMPLE.std(ddof=1)), rel=1e-12)
+    assert capability(summary(-SAMPLE)).value == pytest.approx(-capability(summary(SAMPLE)).value, rel=1e-12)
+    assert np.isnan(capability(summary([2.0, 2.0])).value) and np.isnan(capability(summary([np.nan])).value)
 
 
 def test_finite_is_sorted():
     assert finite([[3.0, np.nan], [1.0, np.inf]]).tolist() == [1.0, 3.0]
+
+
+@pytest.mark.parametrize("n", [10, 60, 400])
+def test_intervals_of_skewness_and_capability_cover_as_often_as_they_say(n):
+    """Normally distributed margins with a mean of four standard deviations: no skewness, Cpk 4/3."""
+    found = [summary(sample) for sample in np.random.default_rng(n).normal(4.0, 1.0, (1500, n))]
+    for estimates, truth in (([each.skewness for each in found], 0.0), ([capability(each) for each in found], 4 / 3)):
+        assert 0.92 < np.mean([each.low <= truth <= each.high for each in estimates]) < 0.98
+
+
+def test_two_cases_have_no_interval_of_their_skewness():
+    assert summary([1.0, 2.0]).skewness == (pytest.approx(0.0), pytest.approx(np.nan, nan_ok=True), pytest.approx(np.nan, nan_ok=True))
+    assert np.isnan(capability(summary([2.0, 2.0])).low)

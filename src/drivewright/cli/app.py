@@ -37,6 +37,7 @@ VARY_HELP = (
     "TOLERANCE as 5 %; KEY+KEY=... for keys with the same value, KEY + -KEY=... with the negative one; "
     "KEY=-2 * OTHER + 3 mm for one that follows another; instead of what the spec's [study] varies"
 )
+RETRY_HELP = "failed: compute the failed cases of the study in --out once more; incomplete: the partial ones too; all other rows stay"
 METHOD_HELP = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
 StrictOption = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
 
@@ -180,7 +181,7 @@ def export(
 
 @app.command()
 def sweep(
-    spec: SpecFile,
+    spec: Annotated[Path, typer.Argument(help="spec file (TOML), or the folder of a study")],
     vary: Annotated[list[str] | None, typer.Option("--vary", help=VARY_HELP)] = None,
     sample: Annotated[int | None, typer.Option("--sample", help="size of the sample of what has a distribution")] = None,
     method: Annotated[str | None, typer.Option("--method", help=METHOD_HELP)] = None,
@@ -195,15 +196,20 @@ def sweep(
     workers: Annotated[int | None, typer.Option("--workers", help="processes on this machine; default: one per core")] = None,
     on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
     yes: Annotated[bool, typer.Option("--yes", help="also a very large number of cases")] = False,
+    retry: Annotated[str | None, typer.Option("--retry", help=RETRY_HELP)] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="write the report with its figures")] = True,
 ) -> None:
-    """Compute many cases of a spec; the same command again goes on where it stopped."""
+    """Compute many cases of a spec; the same command again, or with the folder of the study, goes on where it stopped."""
     from drivewright.report.study import write_answers
     from drivewright.studies.answers import analyse_study
+    from drivewright.studies.study_reading import SPEC, is_study
+    from drivewright.studies.sweeps import rerun_cases
     from drivewright.studies.sweeps import sweep as compute
     from drivewright.studies.variation import with_options
 
     _refuse_both(only, all_)
+    if is_study(spec):
+        spec, out = spec / SPEC, out or spec
     with show.located(spec):
         loaded = with_options(
             _load(spec, set_, units),
@@ -218,13 +224,13 @@ def sweep(
         )
     with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-study"
-        study = compute(loaded, out=folder, workers=workers, on=on, confirmed=yes, progress=step)
+        study = compute(loaded, out=folder, workers=workers, on=on, confirmed=yes, progress=step, retry=retry)
         for notice in study.notices:
             show.note(f"note: {notice}")
         show.note(f"{study.folder}: {len(study)} of {len(study.plan)} cases")
         if study.interrupted:
             raise KeyboardInterrupt
-        summary = analyse_study(study) if figures else None
+        summary = analyse_study(study, rerun=rerun_cases(study)) if figures else None
         if summary:
             show.note(f"wrote {write_answers(study, summary, study.folder or folder)}")
     show.study(study, summary)

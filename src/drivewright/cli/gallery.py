@@ -55,13 +55,13 @@ def run_study(path: Path, out: Path) -> None:
     """Run a worked study and write its folder with the report."""
     from drivewright.report.study import write_answers
     from drivewright.studies.answers import analyse_study
-    from drivewright.studies.sweeps import sweep
+    from drivewright.studies.sweeps import rerun_cases, sweep
 
     with show.progress(path.stem) as step:
         study = sweep(load(path), out=out, progress=step)
     if study.interrupted:
         raise KeyboardInterrupt
-    summary = analyse_study(study)
+    summary = analyse_study(study, rerun=rerun_cases(study))
     show.note(f"wrote {write_answers(study, summary, study.folder or out)}")
     show.study(study, summary)
 

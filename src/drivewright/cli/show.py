@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 
 from drivewright import atomic, digits, registry, units
 from drivewright.errors import InputError, MissingExtra, SpecError, UnknownName
-from drivewright.execution.case_reasons import reason_groups
 
 if TYPE_CHECKING:
     from rich.console import JustifyMethod
 
     from drivewright.result import Check, Result, Value
     from drivewright.runner import Progress
+    from drivewright.studies.answers.extremes import End
     from drivewright.studies.answers.whole import Answers
     from drivewright.studies.optimisation import Optimised
     from drivewright.studies.study import Study
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     Header: TypeAlias = Iterable[tuple[str, JustifyMethod]]
 
 MAX_STUDY_ROWS = 12  # of a study's values
+MOST_ENDS = 3  # values whose inputs are told at both ends
 MOST_REASONS = 3  # why its cases are not complete
 LONGEST_REASON = 300  # characters
 ROUNDING = 1e-9  # of a limit: a margin that is none
@@ -294,39 +295,49 @@ def optimised(search: "Optimised") -> None:
 
 def study(study: "Study", answers: "Answers | None" = None) -> None:
     """How the cases of a study ended, between which ends its headline values lie, and the yield where the answers have one."""
-    import numpy as np
+    from drivewright.studies.answers.extremes import ends_of_columns
 
-    names = [name for name in _headline_columns(study) if np.any(np.isfinite(study[name]))]
-    rows = [(name, *_ends(study, name), study.meaning(name)) for name in names[:MAX_STUDY_ROWS]]
+    ends = ends_of_columns(study, _headline_columns(study))
+    names = list(ends)
+    rows = [(name, *_ends(study, name, ends[name]), study.meaning(name)) for name in names[:MAX_STUDY_ROWS]]
     title = ", ".join(f"{count} {status}" for status, count in study.counts.items())
     table(title, (("value", "left"), ("least", "right"), ("greatest", "right"), ("meaning", "left")), rows)
+    for name, *_ in rows[:MOST_ENDS] if answers else ():
+        print(_inputs_of_ends(study, name, ends[name]))
     if answers and "yield" in answers.result.values:
         share, low, high = (answers.result.values[name].value for name in ("yield", "yield.low", "yield.high"))
         print(f"yield: {share:.1%} of the random cases pass every check ({low:.1%} to {high:.1%} with 95% confidence)")
     if len(names) > len(rows):
         note(f"{len(names) - len(rows)} more values in the report and in the study's table")
-    for group in reason_groups(study["status"], study["message"])[:MOST_REASONS]:
+    for group in study.reasons()[:MOST_REASONS]:
         note(f"note: {group.cases} x {group.text(LONGEST_REASON)}")
     for remark in (*study.plan.remarks, *study.remarks):
         note(f"note: {remark}")
 
 
-def _ends(study: "Study", name: str) -> list[str]:
-    """Least and greatest of a column in one unit, each with the interval that it has in its case."""
-    import numpy as np
+def _inputs_of_ends(study: "Study", name: str, ends: "tuple[End, End]") -> str:
+    """Two lines, "area least: 64 mm^2 with size 8 mm (case 0)" and that of the greatest."""
+    from drivewright.studies.answers.extremes import inputs_text
 
-    column, bounds = study[name], study.bounds(name)
-    rows = np.nanargmin(column), np.nanargmax(column)
-    shown = units.scale(study.unit(name), system=study.spec.units, size=max(abs(column[row]) for row in rows))
-    return [_on_scale(column[row], bounds and (bounds[0][row], bounds[1][row]), shown) for row in rows]
+    return "\n".join(
+        f"{name} {word}: {_ends(study, name, (end,))[0]} with {inputs_text(study, end.case)} (case {end.case})"
+        for word, end in zip(("least", "greatest"), ends, strict=True)
+    )
+
+
+def _ends(study: "Study", name: str, ends: "Sequence[End]") -> list[str]:
+    """Least and greatest of a column in one unit, each with the interval that it has in its case."""
+    shown = units.scale(study.unit(name), system=study.spec.units, size=max(abs(end.number) for end in ends))
+    return [_on_scale(end.number, end.bounds, shown) for end in ends]
 
 
 def _headline_columns(study: "Study") -> list[str]:
     """Names of the requested values, or of the headline; those that vary come first."""
     requested = study.spec.study.values if study.spec.study else ()
     names = requested or registry.headlines(registry.mechanism(study.spec.mechanism), dict.fromkeys(study.value_names))
-    known = [name for name in names if name in study.table.column_names]
-    return sorted(known, key=lambda name: len(set(study[name][:1000].tolist())) == 1)
+    known = [name for name in names if name in study.column_names]
+    first = next(study.batches(known), None)
+    return sorted(known, key=lambda name: first is not None and len(first[name].slice(0, 1000).unique()) == 1)
 
 
 def comparison(rows: "Iterable[Comparison]", system: units.System = "mm") -> None:

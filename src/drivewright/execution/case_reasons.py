@@ -1,7 +1,7 @@
 """Why cases are not complete: their messages in groups that differ in numbers only."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from typing import NamedTuple
 
 UNKNOWN = "no reason given"
@@ -27,16 +27,38 @@ class ReasonGroup(NamedTuple):
 
 
 def reason_groups(statuses: Iterable[str], messages: Iterable[str | None]) -> list[ReasonGroup]:
-    """The groups of all cases (one status and one message each, in the order of the cases) that are not complete, the largest first."""
-    groups: dict[tuple[str, str], list[tuple[int, str]]] = {}
+    """The groups of all cases (one status and one message each, in the order of the cases) that are not complete, the largest first.
+
+    Of a group its first message and the ends of its numbers are kept, so that the cases may be any number.
+    """
+    groups: dict[tuple[str, str], _Group] = {}
     for row, (status, message) in enumerate(zip(statuses, messages, strict=True)):
         if status != "complete":
-            groups.setdefault((status, _form(message or UNKNOWN)), []).append((row, message or UNKNOWN))
-    found = [
-        ReasonGroup(status, len(members), members[0][0], members[0][1], _summary([text for _, text in members]))
-        for (status, _), members in groups.items()
-    ]
+            text = message or UNKNOWN
+            group = groups.setdefault((status, _form(text)), _Group(row, text))
+            group.add(text)
+    found = [ReasonGroup(status, each.cases, each.row, each.first, each.summary()) for (status, _), each in groups.items()]
     return sorted(found, key=lambda group: -group.cases)
+
+
+class _Group:
+    """Messages of one form: the first, and between which ends each of their numbers lies."""
+
+    def __init__(self, row: int, first: str) -> None:
+        self.cases, self.row, self.first = 0, row, first
+        self._ends = [(number, number) for number in _numbers(first)]
+
+    def add(self, message: str) -> None:
+        self.cases += 1
+        if message != self.first:
+            pairs = zip(self._ends, _numbers(message), strict=True)
+            self._ends = [(min(low, number, key=float), max(high, number, key=float)) for (low, high), number in pairs]
+
+    def summary(self) -> str:
+        """The first message, "2 ... 7" in place of each number that differs."""
+        numbers = zip(self._ends, _numbers(self.first), strict=True)
+        inside = iter([first if float(low) == float(high) else f"{low} … {high}" for (low, high), first in numbers])
+        return WORD_OR_NUMBER.sub(lambda match: match[0] if _is_name(match[0]) else next(inside), self.first)
 
 
 def _form(message: str) -> str:
@@ -50,19 +72,6 @@ def _is_name(text: str) -> bool:
 
 def _numbers(message: str) -> list[str]:
     return [text for text in WORD_OR_NUMBER.findall(message) if not _is_name(text)]
-
-
-def _summary(messages: Sequence[str]) -> str:
-    """A message of several with the same form, "2 ... 7" in place of each number that differs."""
-    columns = zip(*(_numbers(message) for message in dict.fromkeys(messages)), strict=True)
-    ranges = [_range(column) for column in columns]
-    inside = iter(ranges)
-    return WORD_OR_NUMBER.sub(lambda match: match[0] if _is_name(match[0]) else next(inside), messages[0])
-
-
-def _range(numbers: Sequence[str]) -> str:
-    low, high = min(numbers, key=float), max(numbers, key=float)
-    return numbers[0] if float(low) == float(high) else f"{low} … {high}"
 
 
 def _cut(text: str, longest: int | None) -> str:

@@ -265,6 +265,20 @@ def _displace(system, marks, shift, dx, dy):
 # ------------------------------------------------------------------------------------------------------------ linear theory
 
 
+def worst_moves(sources: Sequence[Source], slope: Floats) -> Floats:
+    """Displacements (2, sources, 2) [m] that make a reading greatest and least by linear theory, from its gradient (sources, 2): along a
+    circle in the direction of the gradient, along a fixed direction to the end that the sign of g . d says."""
+    moves = np.zeros((len(sources), 2))
+    for number, source in enumerate(sources):
+        direction = np.asarray(source.direction)
+        steep = np.hypot(*slope[number])
+        if source.law == CIRCLE:
+            moves[number] = source.reach * slope[number] / steep if steep > 0 else 0.0
+        else:
+            moves[number] = source.reach * np.sign(slope[number] @ direction) * direction
+    return np.stack([moves, -moves])
+
+
 class Shares(NamedTuple):
     """Linear theory: what each source does to each reading, arrays (marks, READINGS, sources): largest deviation and standard deviation."""
 

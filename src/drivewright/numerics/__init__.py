@@ -8,6 +8,7 @@
 `small`          factors of small matrices in kernels.
 `linear`         null spaces and pivots of small matrices.
 `least_squares`  fits with the covariance of their parameters.
+`samples`        a random sample: estimates with their confidence intervals.
 `splines`        splines through points, as piecewise polynomials.
 `smoothing`      the smoothest curve within a band about points.
 `jets`           a value with its first three derivatives.

@@ -1,12 +1,13 @@
 """What a report wants of a study and of a search; `studies` has them, and stands above the reports."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from numpy.typing import NDArray
 
 from drivewright._typing import Floats
+from drivewright.execution.case_reasons import ReasonGroup
 from drivewright.execution.keys import KeyKind
 from drivewright.execution.outputs import OutputInfo
 from drivewright.result import Plot, Result, Table
@@ -134,8 +135,16 @@ class StudyRecord(Protocol):
         ...
 
     @property
-    def table(self) -> "pyarrow.Table":
-        """A row per case, with unit, label and meaning in the metadata of every field."""
+    def schema(self) -> "pyarrow.Schema":
+        """The columns, with unit, label and meaning in the metadata of each."""
+        ...
+
+    def batches(self) -> "Iterator[pyarrow.Table]":
+        """A row per case, in pieces that need little memory."""
+        ...
+
+    def reasons(self) -> Sequence[ReasonGroup]:
+        """Why cases are not complete, the commonest reason first."""
         ...
 
     @property

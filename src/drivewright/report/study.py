@@ -6,8 +6,6 @@ from typing import Any
 import numpy as np
 
 from drivewright.atomic import replacing, write_text
-from drivewright.execution.case_reasons import reason_groups
-from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.folder import file_name, record_text
 from drivewright.report.html import embedded, page
@@ -104,8 +102,7 @@ def cases(study: StudyRecord) -> list[dict[str, Any]]:
 
 def reasons(study: StudyRecord) -> list[dict[str, Any]]:
     """The commonest reasons {status, count, text} of what is not complete: those that differ in their numbers only are one."""
-    groups = reason_groups(study.table[STATUS].to_pylist(), study.table[MESSAGE].to_pylist())
-    return [{"status": group.status, "count": group.cases, "text": group.text()} for group in groups[:MOST_REASONS]]
+    return [{"status": group.status, "count": group.cases, "text": group.text()} for group in study.reasons()[:MOST_REASONS]]
 
 
 def _headlines(answers):

@@ -65,28 +65,28 @@ def write_study_table(study: StudyRecord, path: str | Path, system: System = "mm
     write = WRITERS.get(path.suffix.lower())
     if write is None:
         raise InputError(f"{path}: cannot be written as {path.suffix or 'a file without a suffix'}; take {', '.join(WRITERS)}")
-    _refuse_what_no_sheet_holds(study.table, path)
+    _refuse_what_no_sheet_holds(study, path)
     with replacing(path) as temporary:
-        write(study.table, temporary, system)
+        write(study, temporary, system)
     return path
 
 
-def _refuse_what_no_sheet_holds(table, path):
+def _refuse_what_no_sheet_holds(study, path):
     if path.suffix.lower() != ".xlsx":
         return
-    for what, count, most in (("cases", table.num_rows, SHEET_ROWS - 1), ("columns", table.num_columns, SHEET_COLUMNS)):
+    for what, count, most in (("cases", len(study), SHEET_ROWS - 1), ("columns", len(study.schema), SHEET_COLUMNS)):
         if count > most:
             raise InputError(f"{path}: {count} {what} are more than the {most} that an Excel sheet holds; take parquet or csv")
 
 
-def _study_csv(table, path, system):
+def _study_csv(study, path, system):
     """The header by hand, for the units; the rows by pyarrow, a hundred times as fast as Python."""
     from pyarrow import csv as arrow_csv
 
     look = arrow_csv.WriteOptions(include_header=False, quoting_style="needed")
     with path.open("wb") as file:
-        file.write(csv_line(map(text_cell, _headings(table, system))).encode())
-        for part in _slices(table, system):
+        file.write(csv_line(map(text_cell, _headings(study, system))).encode())
+        for part in _slices(study, system):
             arrow_csv.write_csv(_with_text_cells(part), file, look)
 
 
@@ -104,30 +104,30 @@ def _with_text_cells(table):
     return pa.Table.from_arrays(columns, names=table.column_names)
 
 
-def _study_sheet(table, path, system):
+def _study_sheet(study, path, system):
     """One sheet with a header that stays in sight; texts are never taken for formulas."""
     import xlsxwriter
     from xlsxwriter.exceptions import FileCreateError
 
     try:
         with xlsxwriter.Workbook(path, {"constant_memory": True}) as book:
-            _fill_sheet(book, table, system)
+            _fill_sheet(book, study, system)
     except FileCreateError as error:  # what the system said is in it
         raise next((cause for cause in error.args if isinstance(cause, OSError)), OSError(str(error))) from None
 
 
-def _fill_sheet(book, table, system):
+def _fill_sheet(book, study, system):
     """The cells, the header first."""
     sheet = book.add_worksheet("cases")
     head = book.add_format({"bold": True, "bottom": 1, "valign": "top", "text_wrap": True})
-    for column, name in enumerate(_headings(table, system)):
+    for column, name in enumerate(_headings(study, system)):
         sheet.set_column(column, column, min(max(len(name) + 2, 10), 28))
         sheet.write_string(0, column, name, head)
     sheet.freeze_panes(1, 1)
-    sheet.autofilter(0, 0, table.num_rows, max(table.num_columns - 1, 0))
-    writers = [_cell_writer(sheet, field.type) for field in table.schema]
+    sheet.autofilter(0, 0, len(study), max(len(study.schema) - 1, 0))
+    writers = [_cell_writer(sheet, field.type) for field in study.schema]
     row = 0
-    for part in _slices(table, system):
+    for part in _slices(study, system):
         for cells in zip(*(column.to_pylist() for column in part.columns), strict=True):
             row += 1
             for column, (write, cell) in enumerate(zip(writers, cells, strict=True)):
@@ -146,29 +146,32 @@ def _cell_writer(sheet, kind):
     return lambda row, column, text: sheet.write_string(row, column, text[:SHEET_LETTERS])
 
 
-def _study_parquet(table, path, system):
+def _study_parquet(study, path, system):
     from pyarrow import parquet
 
-    parquet.write_table(table, path)
+    with parquet.ParquetWriter(path, study.schema) as writer:
+        for part in study.batches():
+            writer.write_table(part)
 
 
-def _headings(table: "pyarrow.Table", system: System) -> list[str]:
-    return [titled(field.name, _unit(field), system) for field in table.schema]
+def _headings(study: StudyRecord, system: System) -> list[str]:
+    return [titled(field.name, _unit(field), system) for field in study.schema]
 
 
 def _unit(field: "pyarrow.Field") -> str:
     return (field.metadata or {}).get(b"unit", b"").decode()
 
 
-def _slices(table: "pyarrow.Table", system: System) -> "Iterator[pyarrow.Table]":
-    """The table in slices, numbers in the units people read, what is not finite as null."""
+def _slices(study: StudyRecord, system: System) -> "Iterator[pyarrow.Table]":
+    """The rows in slices, numbers in the units people read, what is not finite as null."""
     import pyarrow as pa
 
-    scales = [scale(_unit(field), system=system) for field in table.schema]
-    for start in range(0, table.num_rows, SLICE):
-        part = table.slice(start, SLICE)
-        columns = [_as_shown(column, shown) for column, shown in zip(part.columns, scales, strict=True)]
-        yield pa.Table.from_arrays(columns, names=table.column_names)
+    scales = [scale(_unit(field), system=system) for field in study.schema]
+    for table in study.batches():
+        for start in range(0, table.num_rows, SLICE):
+            part = table.slice(start, SLICE)
+            columns = [_as_shown(column, shown) for column, shown in zip(part.columns, scales, strict=True)]
+            yield pa.Table.from_arrays(columns, names=table.column_names)
 
 
 def _as_shown(column, shown: Scale):

@@ -13,12 +13,16 @@ parts             the parts of a study: Parquet files that prove what they are
 pareto            designs that no other design beats in every objective
 plan              the plan of a study: every case, known before the first one runs
 points            cases from a file
+random_points     points of the random keys, many of them made where they are read
 relations         a key that follows another one: its text, read by hand
+retry             cases without a whole answer, computed once more
 search            a search for the best design
 sensitivity       which of the varying keys causes how much of a number's spread
 spec_differences  what makes a study another one than that in a folder, key by key
+streaming         statistics of numbers that are too many to be held
 statistics        what a random sample says about a number
 store             what keeps the parts of a study, or of a search, as they are done
+stored_rows       the rows of a study in its folder, read part by part where they are many
 study             a study that has been run, whole or in part
 study_folder      the folder in which a study lives, for who writes it
 study_reading     the same as a reader finds it

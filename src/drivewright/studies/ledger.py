@@ -22,6 +22,8 @@ TABLES = {
         "seconds": "real not null",
         "size": "integer",
         "sha256": "text",
+        "next_size": "integer",
+        "next_sha256": "text",
     },
     "remarks": {"text": "text primary key"},
 }
@@ -36,7 +38,7 @@ ELSEWHERE = {  # reasons of SQLite that lie outside the file: a disk that is ful
     sqlite3.SQLITE_FULL,
     sqlite3.SQLITE_CANTOPEN,
 }
-LATER = ("size", "sha256")  # columns of `parts` that older versions did not have
+LATER = ("size", "sha256", "next_size", "next_sha256")  # columns of `parts` that older versions did not have
 
 
 class LedgerDamaged(Exception):

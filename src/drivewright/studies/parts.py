@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,13 +30,18 @@ CHANGED = "its bytes are not those that were written"
 
 @dataclass(frozen=True)
 class Part:
-    """A part as the ledger has it; `size` [bytes] and `sha256` of the file, None where an older version wrote it."""
+    """A part as the ledger has it; `size` [bytes] and `sha256` of the file, None where an older version wrote it.
+
+    `next_size` and `next_sha256` are those of the file that is about to take its place, with the same cases computed once more.
+    """
 
     first: int
     count: int
     name: str
     size: int | None = None
     sha256: str | None = None
+    next_size: int | None = None
+    next_sha256: str | None = None
 
     @property
     def cases(self) -> str:
@@ -68,6 +73,13 @@ def study_digest(identity: Mapping[str, str]) -> str:
 
 def write_part(folder: Path, first: int, table: pa.Table, study: str) -> Part:
     """Write cases from `first` on into `folder`, whole or not at all; the part as the ledger wants it."""
+    part, content = packed(first, table, study)
+    write_content(folder, part, content)
+    return part
+
+
+def packed(first: int, table: pa.Table, study: str) -> tuple[Part, Any]:
+    """(part as the ledger wants it, the bytes of its file) of the cases from `first` on."""
     import pyarrow as pa
     from pyarrow import parquet
 
@@ -76,29 +88,50 @@ def write_part(folder: Path, first: int, table: pa.Table, study: str) -> Part:
     sink = pa.BufferOutputStream()
     parquet.write_table(marked, sink, write_page_checksum=True)
     content = sink.getvalue()
-    part = Part(first, table.num_rows, part_name(first, table.num_rows), content.size, hashlib.sha256(content).hexdigest())
+    return Part(first, table.num_rows, part_name(first, table.num_rows), content.size, hashlib.sha256(content).hexdigest()), content
+
+
+def write_content(folder: Path, part: Part, content: Any) -> None:
+    """Write the file of a part, whole or not at all."""
     with replacing(folder / part.name, clear=False) as temporary:  # the folder of a study is cleared at its start
         temporary.write_bytes(content)
-    return part
 
 
 def checked_part(folder: Path, part: Part) -> Part:
     """The part with size and checksum of its file; Damaged where the file is not what the ledger says."""
     content = _content(folder / part.name)
-    found = replace(part, size=len(content), sha256=hashlib.sha256(content).hexdigest())
+    found = replace(part, size=len(content), sha256=hashlib.sha256(content).hexdigest(), next_size=None, next_sha256=None)
     if part.sha256 is None:
         _verified(content, part)
-    elif found != part:
+    elif not _is_expected(found, part):
         raise Damaged(CHANGED)
     return found
 
 
-def read_part(folder: Path, part: Part) -> pa.Table:
-    """The cases of a part; Damaged with the reason where the file is not what the ledger says."""
+def _is_expected(found: Part, part: Part) -> bool:
+    """Whether a file is that of the part, or the one that was to take its place."""
+    return (found.size, found.sha256) in ((part.size, part.sha256), (part.next_size, part.next_sha256))
+
+
+def read_part(folder: Path, part: Part, names: Sequence[str] | None = None) -> pa.Table:
+    """The cases of a part, all columns or those of some names that it has; Damaged where the file is not what the ledger says."""
     content = _content(folder / part.name)
-    if part.sha256 is not None and (len(content), hashlib.sha256(content).hexdigest()) != (part.size, part.sha256):
+    if part.sha256 is not None and not _is_expected(
+        Part(part.first, part.count, part.name, len(content), hashlib.sha256(content).hexdigest()), part
+    ):
         raise Damaged(CHANGED)
-    return _verified(content, part)
+    return _verified(content, part, names)
+
+
+def columns_of(folder: Path, part: Part) -> pa.Schema:
+    """The columns of a part."""
+    import pyarrow as pa
+    from pyarrow import parquet
+
+    try:
+        return parquet.read_schema(folder / part.name).remove_metadata()
+    except (OSError, ValueError, pa.ArrowException) as error:
+        raise Damaged(str(error).partition("\n")[0]) from None
 
 
 def adopt_part(folder: Path, name: str, study: str) -> Part:
@@ -193,22 +226,23 @@ def _content(path: Path) -> bytes:
         raise Damaged(error.strerror or str(error)) from None
 
 
-def _table(content: bytes) -> tuple[pa.Table, dict[str, Any]]:
-    """(cases, marks) of the bytes of a file, every page checked."""
+def _table(content: bytes, names: Sequence[str] | None = None) -> tuple[pa.Table, dict[str, Any]]:
+    """(cases, marks) of the bytes of a file, every page that is read checked; `names` as of `read_part`, and the numbers of the cases."""
     import pyarrow as pa
     from pyarrow import parquet
 
     try:
-        table = parquet.ParquetFile(pa.BufferReader(content), page_checksum_verification=True).read()
+        file = parquet.ParquetFile(pa.BufferReader(content), page_checksum_verification=True)
+        table = file.read(None if names is None else [name for name in file.schema_arrow.names if name in (CASE, *names)])
         mark = json.loads((table.schema.metadata or {}).get(MARK, b"{}"))
     except (OSError, ValueError, pa.ArrowException) as error:
         raise Damaged(str(error).partition("\n")[0]) from None
     return table.replace_schema_metadata(None), mark if isinstance(mark, dict) else {}
 
 
-def _verified(content: bytes, part: Part) -> pa.Table:
+def _verified(content: bytes, part: Part, names: Sequence[str] | None = None) -> pa.Table:
     """The cases of a file; Damaged where they are not those of the part."""
-    table, mark = _table(content)
+    table, mark = _table(content, names)
     if not _holds(table, part.first, part.count) or (mark and (mark.get("first"), mark.get("count")) != (part.first, part.count)):
         raise Damaged("its cases are not those that the ledger says")
     return table

@@ -14,12 +14,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drivewright._typing import Floats
+from drivewright._typing import Ints
 from drivewright.errors import SpecError
 from drivewright.spec import MechanismSpec
 from drivewright.spec.keys import key_by_name
 from drivewright.studies.links import contradictions, with_links
 from drivewright.studies.points import read_points
+from drivewright.studies.random_points import Fixed, Independent, Mapped, Mixed, Points, Rows, Sobol, latin_hypercube, points_of
 from drivewright.studies.relations import Link
 from drivewright.studies.variables import Variable, readings_of, variable
 
@@ -43,7 +44,7 @@ class Plan:
 
     grid: tuple[Variable, ...]
     random: tuple[Variable, ...]
-    points: Floats
+    points: Rows
     blocks: tuple[Block, ...]
     listed: dict[Variable, NDArray[Any]]  # columns of a file of points, by variable
     seed: int = 0
@@ -84,11 +85,15 @@ class Plan:
 
     def cases(self, first: int, stop: int) -> dict[str, NDArray[Any]]:
         """{key: values} of the cases from `first` up to `stop`, SI."""
-        outer, inner = np.divmod(np.arange(first, stop), self.inner)
+        return self.at(np.arange(first, stop))
+
+    def at(self, numbers: Ints) -> dict[str, NDArray[Any]]:
+        """{key: values} of the cases of some numbers, SI."""
+        outer, inner = np.divmod(numbers, self.inner)
         places = np.unravel_index(outer, self.shape) if self.grid else ()
         columns = [column[inner] for column in self.listed.values()]
         columns += [each.grid_levels[place] for each, place in zip(self.grid, places, strict=True)]
-        columns += [self.points[inner, n] for n in range(len(self.random))]
+        columns += list(self.points[inner].T) if self.random else []
         pairs = zip(self.variables, columns, strict=True)
         return {key: values for each, column in pairs for key, values in each.columns(column).items()}
 
@@ -105,7 +110,8 @@ class Plan:
     def _digest(self) -> str:
         digest = hashlib.sha256(repr((self.keys, self.shape, self.blocks)).encode())
         digest.update("".join(repr((link.key, link.factor, link.offset)) for link in self.relations).encode())
-        for column in (*self.listed.values(), *(each.grid_levels for each in self.grid), self.points):
+        points = self.points.ends() if isinstance(self.points, Points) else [np.asarray(self.points)]
+        for column in (*self.listed.values(), *(each.grid_levels for each in self.grid), *points):
             digest.update(repr(column.tolist()).encode() if column.dtype == object else np.ascontiguousarray(column).tobytes())
         return digest.hexdigest()
 
@@ -177,7 +183,7 @@ def _points(study, random):
     parts = METHODS[study.method](study, random)
     ends = np.cumsum([0, *(len(part) for _, part in parts)]).tolist()
     blocks = tuple(Block(name, start, stop) for (name, _), start, stop in zip(parts, ends, ends[1:], strict=False))
-    return np.concatenate([part for _, part in parts]), blocks, tuple(_remarks(study))
+    return points_of([part for _, part in parts], len(random)), blocks, tuple(_remarks(study))
 
 
 def _remarks(study):
@@ -186,39 +192,16 @@ def _remarks(study):
         yield f"{study.samples} points of a Sobol sequence are less even than a power of two: {near} would be better spent"
 
 
-def _mapped(unit, random):
-    """Points of the unit cube through the inverse distributions."""
-    return np.stack([each.at(u) for each, u in zip(random, unit.T, strict=True)], axis=1)
-
-
 def _latin(study, random):
-    from scipy.stats import qmc
-
-    return [("sample", _mapped(qmc.LatinHypercube(len(random), rng=study.seed).random(study.samples), random))]
-
-
-def _sobol_cube(study, dimensions):
-    """Scrambled Sobol points; without the even number of a power of two they are less even, which a remark says."""
-    import warnings
-
-    from scipy.stats import qmc
-
-    if dimensions > qmc.Sobol.MAXDIM:
-        raise SpecError(f"{dimensions} dimensions are beyond a Sobol sequence; take latin-hypercube", "study.method")
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", UserWarning)
-        cube = qmc.Sobol(dimensions, rng=study.seed).random(study.samples)
-    return np.clip(cube, 0.5**33, 1 - 0.5**33)
+    return [("sample", Mapped(latin_hypercube(study.samples, len(random), study.seed), random))]
 
 
 def _sobol(study, random):
-    return [("sample", _mapped(_sobol_cube(study, len(random)), random))]
+    return [("sample", Mapped(Sobol(study.samples, len(random), study.seed), random))]
 
 
 def _independent(study, random):
-    """Independent points: a case's point depends on seed and number alone, so that a longer sample continues a shorter one."""
-    cube = np.random.Generator(np.random.Philox(study.seed)).random((study.samples, len(random)))
-    return [("sample", _mapped(cube, random))]
+    return [("sample", Mapped(Independent(study.samples, len(random), study.seed), random))]
 
 
 def _corners(study, random):
@@ -226,7 +209,7 @@ def _corners(study, random):
         raise SpecError(
             f"{len(random)} keys have {2.0 ** len(random):.2g} corners; {MOST_CORNERS} keys at most, or take one-at-a-time", "study.method"
         )
-    return [("corners", np.array(list(product(*(each.ends for each in random)))))]
+    return [("corners", Fixed(np.array(list(product(*(each.ends for each in random))))))]
 
 
 def _steps(study, random):
@@ -235,7 +218,7 @@ def _steps(study, random):
     steps = np.repeat(means[None], 2 * len(random), axis=0)
     for k, sigma in enumerate(sigmas):
         steps[2 * k : 2 * k + 2, k] += [-sigma, sigma]
-    return [("nominal", means[None]), ("steps", steps)]
+    return [("nominal", Fixed(means[None])), ("steps", Fixed(steps))]
 
 
 def _tolerance(study, random):
@@ -245,13 +228,9 @@ def _tolerance(study, random):
 
 def _saltelli(study, random):
     """A, B, and for each key k the points of A with the column k of B, one after another (Saltelli et al. 2010, recalled)."""
-    d = len(random)
-    cube = _sobol_cube(study, 2 * d)
-    a, b = _mapped(cube[:, :d], random), _mapped(cube[:, d:], random)
-    mixed = np.repeat(a[None], d, axis=0)
-    for k in range(d):
-        mixed[k, :, k] = b[:, k]
-    return [("a", a), ("b", b), ("mixed", mixed.reshape(-1, d))]
+    cube = Sobol(study.samples, 2 * len(random), study.seed)
+    a, b = Mapped(cube, random), Mapped(cube, random, len(random))
+    return [("a", a), ("b", b), ("mixed", Mixed(a, b, len(random)))]
 
 
 METHODS = {

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats, Ints, Numbers
-from drivewright.studies.statistics import LEVEL, varies
+from drivewright.studies.statistics import LEVEL, NORMAL, Sampled, varies
 
 ROUNDS = 500  # of the bootstrap
 GROUPS = 4096  # rows, or groups of rows, that are drawn in each
@@ -57,10 +57,28 @@ def linear(nominal: float, steps: Floats, sigmas: Floats, deviations: Floats, no
 
 
 class Regression(NamedTuple):
-    """Standardised regression coefficients b sigma_x / sigma_y (d,), and the share R2 of the variance that the fit explains."""
+    """Standardised regression coefficients b sigma_x / sigma_y (d,), and the share R2 of the variance that the fit explains; `error` is
+    the standard error of a coefficient, that of independent keys, `cases` how many there are."""
 
     coefficients: Floats
     determination: float
+    error: float = np.nan
+    cases: int = 0
+
+    @property
+    def shares(self) -> Floats:
+        """Shares of the variance by squares of the coefficients, and the ends of their intervals (3, d): (|b| -+ 1.96 s)^2."""
+        size, reach = np.abs(self.coefficients), NORMAL * self.error
+        return np.stack([size**2, np.maximum(size - reach, 0.0) ** 2, (size + reach) ** 2])
+
+    @property
+    def determined(self) -> Sampled:
+        """R2 with its interval, -+ 1.96 s within 0 and 1, s^2 = 4 R2 (1 - R2)^2 (n - d - 1)^2 / ((n^2 - 1) (n + 3)) (Olkin & Finn 1995,
+        recalled)."""
+        fit, n = self.determination, self.cases
+        free = n - len(self.coefficients) - 1
+        reach = NORMAL * 2 * np.sqrt(max(fit, 0.0)) * (1 - fit) * free / np.sqrt((n**2 - 1) * (n + 3)) if n else np.nan
+        return Sampled(fit, float(max(fit - reach, 0.0)), float(min(fit + reach, 1.0)))
 
 
 def regression(x: Floats, y: Floats) -> Regression:
@@ -74,7 +92,8 @@ def regression(x: Floats, y: Floats) -> Regression:
         return Regression(np.full(x.shape[1], np.nan), np.nan)
     design, target = np.stack([_standardised(column) for column in x.T], axis=1), _standardised(y)
     coefficients = np.asarray(np.linalg.lstsq(design, target, rcond=None)[0], float)
-    return Regression(coefficients, float(1 - np.sum((target - design @ coefficients) ** 2) / np.sum(target**2)))
+    fit = float(1 - np.sum((target - design @ coefficients) ** 2) / np.sum(target**2))
+    return Regression(coefficients, fit, float(np.sqrt(max(1 - fit, 0.0) / (len(y) - x.shape[1] - 1))), len(y))
 
 
 def share_by_keys(y: Floats, noise: Floats) -> float:
@@ -117,6 +136,13 @@ def by_ranks(order: Ints, y: Floats) -> Floats:
     z = np.zeros(len(y))
     z[present] = _standardised(y[present])
     return np.array([_neighbours(z[column[present[column]]]) for column in order.T])
+
+
+def ranked_shares(order: Ints, y: Floats) -> Floats:
+    """The same with the ends of their intervals (3, d): -+ 1.96 / sqrt(n), as far as indices of keys without a share scatter."""
+    found = by_ranks(order, y)
+    reach = NORMAL / np.sqrt(max(np.isfinite(y).sum(), 1))
+    return np.stack([found, found - reach, found + reach])
 
 
 def _neighbours(z):

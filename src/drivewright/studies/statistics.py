@@ -5,31 +5,18 @@ true number with probability `LEVEL`, for cases drawn independently of each othe
 number to be normally distributed.  Formulas: Hahn & Meeker, Statistical Intervals (recalled), held by simulation in the tests.
 """
 
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._typing import ArrayLike, Floats
-from drivewright.numerics.student import student_quantile
-from drivewright.result import Value
+from drivewright._typing import ArrayLike, Floats, Ints
+from drivewright.numerics.samples import LEVEL, NORMAL, Sampled, mean_of, sigma_of
+from drivewright.numerics.samples import share_of as share
 
-LEVEL = 0.95
-NORMAL = 1.959963984540054  # quantile of the normal distribution that leaves (1 - LEVEL)/2 above it
 PERCENTS = (0.135, 1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0, 99.865)  # the outer ones are 3 sigma of a normal distribution
 NOISE = 1e-12  # a column whose range is a smaller part of its size is rounding about one number
-
-
-class Sampled(NamedTuple):
-    """A number estimated from a sample and its confidence interval; nan where the sample is too small for one."""
-
-    value: float
-    low: float = np.nan
-    high: float = np.nan
-
-    def named(self, unit: str, meaning: str) -> Value:
-        """As a `Value` of a result."""
-        return Value(self.value, unit, meaning, self.low, self.high, "sample").plain()
 
 
 class Summary(NamedTuple):
@@ -39,7 +26,7 @@ class Summary(NamedTuple):
     absent: int
     mean: Sampled
     sigma: Sampled
-    skewness: float
+    skewness: Sampled
     least: float
     greatest: float
     percentiles: tuple[Sampled, ...]
@@ -51,14 +38,14 @@ def summary(sample: Floats) -> Summary:
     absent = np.size(sample) - len(ordered)
     if not len(ordered):
         none = Sampled(np.nan)
-        return Summary(0, absent, none, none, np.nan, np.nan, np.nan, (none,) * len(PERCENTS))
+        return Summary(0, absent, none, none, none, np.nan, np.nan, (none,) * len(PERCENTS))
     mean, sigma, skewness = moments(ordered)
     return Summary(
         len(ordered),
         absent,
-        _mean(mean, sigma, len(ordered)),
-        _sigma(sigma, len(ordered)),
-        skewness,
+        mean_of(mean, sigma, len(ordered)),
+        sigma_of(sigma, len(ordered)),
+        skewness_of(skewness, len(ordered)),
         float(ordered[0]),
         float(ordered[-1]),
         percentiles(ordered),
@@ -92,22 +79,12 @@ def moments(ordered: Floats) -> tuple[float, float, float]:
     return float(ordered[0] + width * middle), float(width * np.sqrt(second * n / (n - 1))), float(third / second**1.5)
 
 
-def _mean(mean, sigma, n):
-    """mean -+ t s / sqrt(n), t being Student's quantile of n - 1 degrees of freedom."""
-    if n < 2:
-        return Sampled(mean)
-    reach = float(student_quantile(n - 1, (1 + LEVEL) / 2) * sigma / np.sqrt(n))
-    return Sampled(mean, mean - reach, mean + reach)
-
-
-def _sigma(sigma, n):
-    """s sqrt((n - 1) / chi2), chi2 being both quantiles of n - 1 degrees of freedom."""
-    from scipy.special import chdtri
-
-    if n < 2:
-        return Sampled(sigma)
-    low, high = (sigma * np.sqrt((n - 1) / chdtri(n - 1, tail)) for tail in ((1 - LEVEL) / 2, (1 + LEVEL) / 2))
-    return Sampled(sigma, float(low), float(high))
+def skewness_of(skewness: float, n: int) -> Sampled:
+    """`Sampled` skewness of n cases: g -+ 1.96 sqrt(6 n (n - 1) / ((n - 2) (n + 1) (n + 3))), of normally distributed ones (recalled)."""
+    if n < 3 or not np.isfinite(skewness):
+        return Sampled(skewness)
+    reach = NORMAL * np.sqrt(6 * n * (n - 1) / ((n - 2) * (n + 1) * (n + 3)))
+    return Sampled(skewness, float(skewness - reach), float(skewness + reach))
 
 
 def percentiles(ordered: Floats) -> tuple[Sampled, ...]:
@@ -116,11 +93,26 @@ def percentiles(ordered: Floats) -> tuple[Sampled, ...]:
     The number of cases below the true percentile is binomial, whatever the distribution; so the r-th and s-th smallest case hold it.
     Where the sample is too small to reach beyond it on a side, there is no bound on that side (nan).
     """
-    n, between = len(ordered), np.percentile(ordered, PERCENTS)
-    return tuple(
-        Sampled(float(value), float(ordered[low - 1]) if low else np.nan, float(ordered[high - 1]) if high <= n else np.nan)
-        for value, (low, high) in zip(between, _ranks(n), strict=True)
-    )
+    n = len(ordered)
+    return percentiles_at(n, {rank: float(ordered[rank]) for rank in np.unique(percentile_ranks(n)).tolist() if rank >= 0})
+
+
+def percentiles_at(n: int, of_rank: Mapping[int, float]) -> tuple[Sampled, ...]:
+    """The same of n cases of which those of some ranks are known, {rank from 0: number}; the ranks are those of `percentile_ranks`."""
+    found = []
+    for percent, (lower, upper, low, high) in zip(PERCENTS, percentile_ranks(n).tolist(), strict=True):
+        share = percent / 100 * (n - 1) - lower
+        value = of_rank[lower] + share * (of_rank[upper] - of_rank[lower])
+        found.append(Sampled(float(value), of_rank.get(low, np.nan), of_rank.get(high, np.nan)))
+    return tuple(found)
+
+
+def percentile_ranks(n: int) -> Ints:
+    """Ranks from 0 (percents, 4) that the percentiles of n cases need: neighbours, and ends of the interval (-1 where it has none)."""
+    places = np.array(PERCENTS) / 100 * (n - 1)
+    lower = np.floor(places).astype(int)
+    ends = np.array(_ranks(n)) - 1
+    return np.column_stack([lower, np.minimum(lower + 1, n - 1), ends[:, 0], np.where(ends[:, 1] < n, ends[:, 1], -1)])
 
 
 @lru_cache(maxsize=256)
@@ -135,25 +127,19 @@ def _ranks(n):
     return tuple(zip(low.tolist(), (high + 1).tolist(), strict=True))
 
 
-def share(passes: int, count: int) -> Sampled:
-    """`Sampled` of a probability from `passes` of `count` cases, with the interval of Clopper and Pearson; nan of no cases."""
-    from scipy.special import betaincinv
-
-    if not count:
-        return Sampled(np.nan)
-    tail = (1 - LEVEL) / 2
-    low = float(betaincinv(passes, count - passes + 1, tail)) if passes else 0.0
-    high = float(betaincinv(passes + 1, count - passes, 1 - tail)) if passes < count else 1.0
-    return Sampled(passes / count, low, high)
-
-
 def share_between(surely: int, passes: int, possibly: int, count: int) -> Sampled:
     """The same where some cases are undecided: from the lower end for those that surely pass to the upper one for those that may."""
     return Sampled(share(passes, count).value, share(surely, count).low, share(possibly, count).high)
 
 
-def capability(margins: Floats) -> float:
-    """Capability index of a one-sided limit from the margins to it: Cpk = mean / (3 sigma); nan without spread."""
-    ordered = finite(margins)
-    mean, sigma, _ = moments(ordered) if varies(ordered) else (np.nan, np.nan, np.nan)
-    return mean / (3 * sigma)
+def capability(margins: Summary) -> Sampled:
+    """Capability index of a one-sided limit from the margins to it: Cpk = mean / (3 sigma); nan without spread.
+
+    Its interval is Cpk -+ 1.96 sqrt(1/(9 n) + Cpk^2 / (2 (n - 1))), of normally distributed margins (Bissell 1990, recalled).
+    """
+    n, spread = margins.cases, margins.greatest - margins.least > NOISE * max(abs(margins.least), abs(margins.greatest))
+    if n < 2 or not spread:
+        return Sampled(np.nan)
+    index = margins.mean.value / (3 * margins.sigma.value)
+    reach = NORMAL * np.sqrt(1 / (9 * n) + index**2 / (2 * (n - 1)))
+    return Sampled(index, float(index - reach), float(index + reach))

@@ -11,6 +11,8 @@ from drivewright.execution.case_table import case_fields
 if TYPE_CHECKING:
     import pyarrow as pa
 
+    from drivewright.studies.stored_rows import StoredRows
+
 
 class Store(Protocol):
     """Where the parts of a study, or of a search, go as they are done."""
@@ -43,6 +45,10 @@ class Store(Protocol):
 
     def tables(self) -> list[pa.Table]:
         """All parts in the order of their cases."""
+        ...
+
+    def rows(self) -> pa.Table | StoredRows:
+        """All rows in the order of their cases; not in memory where they are many and in a folder."""
         ...
 
     @property
@@ -86,6 +92,10 @@ class Memory:
     def tables(self) -> list[pa.Table]:
         """All parts in the order of their cases."""
         return [table for _, table in sorted(self._parts.items())]
+
+    def rows(self) -> pa.Table:
+        """All rows in the order of their cases."""
+        return joined(self.tables())
 
     def close(self) -> None:
         """Nothing to let go."""

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from html import escape
+from itertools import tee
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +16,7 @@ from numpy.typing import NDArray
 
 from drivewright._typing import Floats
 from drivewright.errors import UnknownName
+from drivewright.execution.case_reasons import ReasonGroup, reason_groups
 from drivewright.execution.case_table import CASE, MESSAGE, STATUS
 from drivewright.execution.outputs import CHECK
 from drivewright.labels import label_of
@@ -19,6 +24,7 @@ from drivewright.result import ERROR, HIGH, LOW
 from drivewright.spec import MechanismSpec
 from drivewright.studies.plan import Plan
 from drivewright.studies.statistics import NORMAL
+from drivewright.studies.stored_rows import StoredRows, batches_of
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -28,11 +34,11 @@ BOUNDS = b"bounds"  # in the metadata of a column that is an end of an interval,
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """The rows of a study, sorted by case; `table` is a pyarrow.Table with unit, label and meaning in the metadata of every field."""
+    """The rows of a study, sorted by case, with unit, label and meaning in the metadata of every field; many of them stay on the disk."""
 
     spec: MechanismSpec
     plan: Plan
-    table: pa.Table
+    rows: pa.Table | StoredRows
     folder: Path | None = None
     seconds: float = 0.0  # that the workers spent on it
     remarks: tuple[str, ...] = ()  # on how the cases were computed
@@ -44,15 +50,34 @@ class Study:
         """A column as an array: numbers as floats with nan where a case has none, texts as objects."""
         import pyarrow as pa
 
-        if name not in self.table.column_names:
-            raise UnknownName("column of the study", name, self.table.column_names)
-        column = self.table[name]
+        if name not in self.column_names:
+            raise UnknownName("column of the study", name, self.column_names)
+        column = self.rows.column(name)
         if pa.types.is_floating(column.type) or pa.types.is_null(column.type):
             return column.to_numpy().astype(float)
         return column.to_numpy()
 
     def __len__(self) -> int:
-        return self.table.num_rows
+        return self.rows.num_rows
+
+    @property
+    def table(self) -> pa.Table:
+        """All rows in memory, as a pyarrow.Table."""
+        return self.rows.whole() if isinstance(self.rows, StoredRows) else self.rows
+
+    @property
+    def schema(self) -> pa.Schema:
+        """The columns, with unit, label and meaning in the metadata of each."""
+        return self.rows.schema
+
+    @property
+    def column_names(self) -> list[str]:
+        """Names of the columns."""
+        return self.rows.schema.names
+
+    def batches(self, names: Sequence[str] | None = None, first: int = 0, stop: int | None = None) -> Iterator[pa.Table]:
+        """The rows of the cases from `first` up to `stop` in pieces that need little memory, all columns or some."""
+        return batches_of(self.rows, names, first, stop)
 
     def __repr__(self) -> str:
         """One line: how many cases are there, and what became of them."""
@@ -76,13 +101,32 @@ class Study:
     @property
     def counts(self) -> dict[str, int]:
         """{status: number of cases}."""
-        names, counts = np.unique(self[STATUS].astype(str), return_counts=True) if len(self) else (np.array([]), np.array([]))
-        return dict(zip(names.tolist(), counts.tolist(), strict=True))
+        return self._counts
+
+    @cached_property
+    def _counts(self) -> dict[str, int]:
+        counts: Counter[str] = Counter()
+        for table in self.batches([STATUS]):
+            for each in table[STATUS].value_counts().to_pylist():
+                counts[each["values"]] += each["counts"]
+        return dict(sorted(counts.items()))
+
+    def reasons(self) -> list[ReasonGroup]:
+        """Why cases are not complete, the commonest reason first."""
+        import pyarrow.compute as pc
+
+        def incomplete():
+            for table in self.batches([STATUS, MESSAGE]):
+                chosen = table.filter(pc.call_function("not_equal", [table[STATUS], "complete"]))
+                yield from zip(chosen[STATUS].to_pylist(), chosen[MESSAGE].to_pylist(), strict=True)
+
+        rows, again = tee(incomplete())
+        return reason_groups((status for status, _ in rows), (message for _, message in again))
 
     @property
     def answered(self) -> bool:
         """Whether any case has an answer."""
-        return len(self) > 0 and bool(np.any(self[STATUS] != "failed"))
+        return any(status != "failed" for status in self.counts)
 
     @property
     def complete(self) -> bool:
@@ -103,12 +147,12 @@ class Study:
     @property
     def _outputs(self) -> list[str]:
         """Names of the columns that belong to no other one."""
-        return [field.name for field in self.table.schema if BOUNDS not in (field.metadata or {})]
+        return [field.name for field in self.schema if BOUNDS not in (field.metadata or {})]
 
     def bounds(self, name: str) -> tuple[Floats, Floats] | None:
         """(low, high): the ends of the 95 % intervals of a column (rows,), nan where a case has none; None where no case has one."""
         low, high = f"{name}{LOW}", f"{name}{HIGH}"
-        if any(end not in self.table.column_names or self._about(end, BOUNDS) != name for end in (low, high)):
+        if any(end not in self.column_names or self._about(end, BOUNDS) != name for end in (low, high)):
             return None
         return np.asarray(self[low], float), np.asarray(self[high], float)
 
@@ -118,7 +162,7 @@ class Study:
         if bounds is None:
             return None
         half = (bounds[1] - bounds[0]) / (2 * NORMAL)
-        known = own in self.table.column_names and self._about(own, BOUNDS) == name
+        known = own in self.column_names and self._about(own, BOUNDS) == name
         return np.where(np.isfinite(self[own]), self[own], half) if known else half
 
     def at_worst(self, name: str, sign: float) -> Floats:
@@ -140,6 +184,6 @@ class Study:
         return label_of(self.meaning(name), self._about(name, b"label"))
 
     def _about(self, name: str, what: bytes) -> str:
-        if name not in self.table.column_names:
-            raise UnknownName("column of the study", name, self.table.column_names)
-        return (self.table.schema.field(name).metadata or {}).get(what, b"").decode()
+        if name not in self.column_names:
+            raise UnknownName("column of the study", name, self.column_names)
+        return (self.schema.field(name).metadata or {}).get(what, b"").decode()

@@ -29,14 +29,18 @@ from drivewright.studies.parts import (
     cases_of,
     checked_part,
     damage_text,
+    packed,
     part_names,
+    read_part,
     read_parts,
     reasons_of,
     study_digest,
     study_of,
+    write_content,
     write_part,
 )
 from drivewright.studies.spec_differences import describe_differences, differing_keys
+from drivewright.studies.stored_rows import StoredRows, rows_of_parts
 from drivewright.studies.study_reading import PARTS, SPEC, is_study
 
 if TYPE_CHECKING:
@@ -44,6 +48,8 @@ if TYPE_CHECKING:
 
 LOCK, DATA = ".lock", "data"
 OURS = re.compile(rf"{re.escape(SPEC)}(\.tmp)?|\.{re.escape(SPEC)}\.{TOKEN}\.tmp\.toml|{re.escape(LEDGER)}.*|{PARTS}|\.lock|{DATA}")
+PENDING = "update parts set next_size = ?, next_sha256 = ? where name = ?"
+SETTLED = "update parts set size = ?, sha256 = ?, next_size = null, next_sha256 = null, seconds = seconds + ? where name = ?"
 UNFINISHED = re.compile(rf"\.(\d{{12}}-\d{{12}}\.parquet\.tmp|.*\.{TOKEN}\.tmp(\..*)?)")
 
 
@@ -144,25 +150,25 @@ class Folder:
                 file.unlink()
 
     def _check_parts(self):
-        """Forget the parts that are gone or damaged, so that their cases are computed again; older ones get their checksum."""
-        lost, older = {}, []
-        for part in parts_of(self._ledger):
+        """Forget the parts that are gone or damaged, so that their cases are computed again; older ones get their checksum, and those that
+        were being written anew when the command ended are what their file is."""
+        before = parts_of(self._ledger)
+        lost, settled = {}, []
+        for part in before:
             try:
                 whole = checked_part(self._parts, part)
             except Damaged as damage:
                 lost[part] = str(damage)
             else:
-                older += [whole] if whole != part else []
+                settled += [whole] if whole != part else []
         with self._ledger:
             self._ledger.executemany("delete from parts where name = ?", [(part.name,) for part in lost])
-            self._ledger.executemany(
-                "update parts set size = ?, sha256 = ? where name = ?", [(part.size, part.sha256, part.name) for part in older]
-            )
+            self._ledger.executemany(SETTLED, [(part.size, part.sha256, 0.0, part.name) for part in settled])
         for part in lost:
             _away(self._parts / part.name, is_kept=False)
         if lost:
             self.notices.append(f"{cases_of(lost)} are computed again: {reasons_of(lost)}")
-        if older:
+        if older := [part for part in before if part.sha256 is None and part not in lost]:
             self.notices.append(f"{cases_of(older)} were kept without a checksum by an older version; they have one now, as they were read")
 
     @property
@@ -178,6 +184,27 @@ class Folder:
         """Keep a part for good: InputError where the disk does not take it; nothing that was there is lost."""
         with self._to_disk():
             self._enter([write_part(self._parts, first, table, self._study)], seconds)
+
+    def parts(self) -> list[Part]:
+        """The parts in the order of their cases."""
+        return parts_of(self._ledger)
+
+    def part_rows(self, part: Part) -> pa.Table:
+        """The cases of a part; InputError where it is damaged meanwhile."""
+        try:
+            return read_part(self._parts, part)
+        except Damaged as damage:
+            raise InputError(damage_text(self.folder, {part: str(damage)})) from None
+
+    def rewrite(self, part: Part, table: pa.Table, seconds: float) -> None:
+        """Put other rows of the same cases in the place of a part: whenever this ends, the old rows are there, or the new ones."""
+        new, content = packed(part.first, table, self._study)
+        with self._to_disk():
+            with self._ledger:
+                self._ledger.execute(PENDING, (new.size, new.sha256, part.name))
+            write_content(self._parts, new, content)
+            with self._ledger:
+                self._ledger.execute(SETTLED, (new.size, new.sha256, seconds, part.name))
 
     def _enter(self, parts: Sequence[Part], seconds: float = 0.0) -> None:
         """Name parts in the ledger."""
@@ -200,6 +227,13 @@ class Folder:
         if damaged:
             raise InputError(damage_text(self.folder, damaged))
         return tables
+
+    def rows(self) -> pa.Table | StoredRows:
+        """All rows in the order of their cases, in memory where they are few; InputError where a part is damaged meanwhile."""
+        rows, damaged = rows_of_parts(self._parts, parts_of(self._ledger))
+        if damaged:
+            raise InputError(damage_text(self.folder, damaged))
+        return rows
 
     def close(self) -> None:
         """Let go of ledger and lock."""

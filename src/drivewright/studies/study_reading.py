@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from drivewright.errors import InputError
 from drivewright.spec import MechanismSpec, load
 from drivewright.studies.ledger import LEDGER, LedgerDamaged, identity_of, parts_of, read_ledger, remarks_of
-from drivewright.studies.parts import Part, part_names, read_parts
+from drivewright.studies.parts import Part, part_names
+from drivewright.studies.stored_rows import StoredRows, rows_of_parts
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -22,7 +23,7 @@ class KeptStudy(NamedTuple):
     """What a study's folder holds: `damaged` are the parts that cannot be read, with the reason."""
 
     spec: MechanismSpec
-    tables: list[pa.Table]
+    rows: pa.Table | StoredRows
     seconds: float
     remarks: tuple[str, ...]
     identity: dict[str, str]
@@ -56,8 +57,8 @@ def read_study(folder: str | Path) -> KeptStudy:
 def _kept(folder: Path, ledger: sqlite3.Connection) -> KeptStudy:
     seconds = ledger.execute("select coalesce(sum(seconds), 0) from parts").fetchone()[0]
     known, parts = identity_of(ledger), parts_of(ledger)
-    tables, damaged = read_parts(folder / PARTS, parts)
+    rows, damaged = rows_of_parts(folder / PARTS, parts)
     while damaged and (now := parts_of(ledger)) != parts:  # a sweep has just begun, and replaced them
         parts = now
-        tables, damaged = read_parts(folder / PARTS, parts)
-    return KeptStudy(load(folder / SPEC), tables, seconds, remarks_of(ledger), known, damaged)
+        rows, damaged = rows_of_parts(folder / PARTS, parts)
+    return KeptStudy(load(folder / SPEC), rows, seconds, remarks_of(ledger), known, damaged)

@@ -1,25 +1,32 @@
 """A study from its plan to its rows: `sweep(spec)` computes what is not there yet and keeps it."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Generator, Mapping
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from drivewright.errors import InputError
 from drivewright.execution.batches import WORTH_HELP, Batch, BatchResult, BatchScheduler, run_batches
 from drivewright.execution.case_table import STATUS, Columns
-from drivewright.execution.evaluation import CaseTask, case_task, evaluate, failed_rows, refuse_unknown, with_batch
+from drivewright.execution.evaluation import Cases, CaseTask, case_task, evaluate, failed_rows, refuse_unknown, with_batch
 from drivewright.execution.executors import Executor, InProcessExecutor, check_location, make_executors
 from drivewright.runner import versions
 from drivewright.spec import MechanismSpec
 from drivewright.spec.serialisation import canonical_text
 from drivewright.studies.parts import damage_text
 from drivewright.studies.plan import Plan, make_plan
-from drivewright.studies.store import Memory, Store, joined
+from drivewright.studies.retry import Retry, statuses_to_retry
+from drivewright.studies.store import Memory, Store
 from drivewright.studies.study import Study
 from drivewright.studies.study_folder import Folder
-from drivewright.studies.study_reading import read_study
+from drivewright.studies.study_reading import is_study, read_study
 from drivewright.studies.variation import with_variation
+
+if TYPE_CHECKING:
+    import pyarrow as pa
 
 Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what became of them)
 MANY = 200_000  # cases that want a confirmation
@@ -34,6 +41,7 @@ def sweep(
     on: str | None = None,
     confirmed: bool = True,
     progress: Progress | None = None,
+    retry: str | None = None,
 ) -> Study:
     """`Study` of a spec: one row for every case of its [study], or of `vary` {key: levels or distribution}, see `variation`.
 
@@ -41,16 +49,35 @@ def sweep(
     None keeps it in memory.  `workers` processes (None: one per core); `on` names another place to compute, see `execution.executors`.
     Neither changes a bit of any row.  `progress(done, total, what)` is called after each batch.  Ctrl-C, also from `progress`, returns
     what is there, `interrupted`.
+
+    `retry` "failed" computes the cases of a study in `out` once more that have failed, "incomplete" the partial ones too, and then what is
+    not there yet; all other rows stay.  A notice says what became of them.
     """
     spec = spec if vary is None else with_variation(spec, vary)
     check_location(workers, on)
+    statuses = statuses_to_retry(retry)
+    if statuses:
+        _refuse_nothing(out)
     plan = make_plan(spec)
     if len(plan) > MANY and not confirmed:
         raise InputError(f"{len(plan)} cases are more than {MANY}; say --yes if you mean it, or take fewer levels or samples")
     task = case_task(spec, plan.keys)
     kept = Folder(out, spec, study_identity(spec, plan)) if out is not None else Memory()
     with closing(kept):
-        return compute_study(kept, spec, plan, task, workers, on, progress)
+        if not statuses or not isinstance(kept, Folder):
+            return compute_study(kept, spec, plan, task, workers, on, progress)
+        again = Retry(kept, plan, statuses)
+        if _compute_again(kept, task, plan, again, workers, on, progress or _no_progress):
+            study = _study(kept, spec, plan, interrupted=True)
+        else:
+            study = compute_study(kept, spec, plan, task, workers, on, progress)
+        return replace(study, notices=(*study.notices, again.outcome()))
+
+
+def _refuse_nothing(folder: str | Path | None) -> None:
+    """InputError where there is no study whose cases could be computed once more."""
+    if folder is None or not is_study(folder):
+        raise InputError(f"{folder or 'a study in memory'}: holds no study yet, so it has no case to retry; leave --retry out to begin it")
 
 
 def compute_study(
@@ -63,8 +90,12 @@ def compute_study(
     progress: Progress | None = None,
 ) -> Study:
     """`Study` of the cases of a plan, whoever made it; they go to the store `kept` as they are done.  The rest as of `sweep`."""
-    interrupted = _fill(kept, task, plan, workers, on, progress or (lambda done, total, what: None))
-    return Study(spec, plan, joined(kept.tables()), kept.folder, kept.seconds, kept.remarks(), interrupted, tuple(kept.notices))
+    return _study(kept, spec, plan, _fill(kept, task, plan, workers, on, progress or _no_progress))
+
+
+def _study(kept: Store, spec: MechanismSpec, plan: Plan, interrupted: bool) -> Study:
+    """What is there."""
+    return Study(spec, plan, kept.rows(), kept.folder, kept.seconds, kept.remarks(), interrupted, tuple(kept.notices))
 
 
 def open_study(folder: str | Path, *, skip_damaged: bool = False) -> Study:
@@ -83,8 +114,13 @@ def open_study(folder: str | Path, *, skip_damaged: bool = False) -> Study:
     if kept.damaged and not skip_damaged:
         raise InputError(damage_text(Path(folder), kept.damaged))
     notices = (damage_text(Path(folder), kept.damaged),) if kept.damaged else ()
-    rows = joined(kept.tables)
-    return Study(kept.spec, plan, rows, Path(folder).resolve(), kept.seconds, kept.remarks, notices=notices, damaged=len(kept.damaged))
+    return Study(kept.spec, plan, kept.rows, Path(folder).resolve(), kept.seconds, kept.remarks, notices=notices, damaged=len(kept.damaged))
+
+
+def rerun_cases(study: Study) -> Callable[[Columns], Study]:
+    """What computes further cases of a study in this process, {key: values in SI} -> a `Study` of their rows."""
+    task = case_task(study.spec, study.plan.keys)
+    return lambda columns: replace(study, rows=evaluate(task, 0, columns)[0])
 
 
 def study_identity(spec: MechanismSpec, plan: Plan) -> dict[str, str]:
@@ -93,21 +129,49 @@ def study_identity(spec: MechanismSpec, plan: Plan) -> dict[str, str]:
     return {"spec": drive.digest(), "study": canonical_text(spec.study), "plan": plan.digest, "drivewright": versions()["drivewright"]}
 
 
+def _no_progress(done: int, total: int, what: str) -> None:
+    """Nobody wants to know."""
+
+
 def _fill(kept: Store, task: CaseTask, plan: Plan, workers: int | None, on: str | None, progress: Progress) -> bool:
     """Compute what is missing; whether it was interrupted."""
-    total, done, trouble = len(plan), sum(count for _, count in kept.ranges()), 0
+    total, done = len(plan), sum(count for _, count in kept.ranges())
     if done == total and not kept.notices:  # a new ledger has no remarks any more
         return False
+    return _compute(kept, task, plan, plan, BatchScheduler(kept.ranges(), total, 1), kept.add, (done, total), workers, on, progress)
+
+
+def _compute_again(kept: Folder, task: CaseTask, plan: Plan, again: Retry, workers: int | None, on: str | None, progress: Progress) -> bool:
+    """Compute chosen cases once more; whether it was interrupted."""
+    chosen = len(again.cases)
+    counts = sum(count for _, count in kept.ranges()) - chosen, len(plan)
+    scheduler = BatchScheduler([], chosen, 1)
+    return bool(chosen) and _compute(kept, task, plan, again.cases, scheduler, again.add, counts, workers, on, progress)
+
+
+def _compute(
+    kept: Store,
+    task: CaseTask,
+    plan: Plan,
+    cases: Cases,
+    scheduler: BatchScheduler,
+    add: Callable[[int, pa.Table, float], object],
+    counts: tuple[int, int],
+    workers: int | None,
+    on: str | None,
+    progress: Progress,
+) -> bool:
+    """Compute the cases of a scheduler and hand their rows to `add`; whether it was interrupted.  `counts`: (rows there, rows wanted)."""
+    (done, total), trouble = counts, 0
     refuse_unknown(task, plan)
-    scheduler = BatchScheduler(kept.ranges(), total, 1)
     try:
         progress(done, total, "")
         task, remarks = with_batch(task, plan)
         kept.remark(remarks)
-        with closing(_computed(task, plan, scheduler, workers, on)) as each:
+        with closing(_computed(task, cases, scheduler, workers, on)) as each:
             for batch, table, seconds, reason in each:
-                table = failed_rows(task, batch.first, plan.cases(batch.first, batch.stop), reason) if table is None else table
-                kept.add(batch.first, table, seconds)
+                table = failed_rows(task, batch.first, cases.cases(batch.first, batch.stop), reason) if table is None else table
+                add(batch.first, table, seconds)
                 done, trouble = done + table.num_rows, trouble + _incomplete(table)
                 progress(done, total, f"{trouble} not complete" if trouble else "")
     except KeyboardInterrupt:
@@ -116,18 +180,18 @@ def _fill(kept: Store, task: CaseTask, plan: Plan, workers: int | None, on: str 
 
 
 def _computed(
-    task: CaseTask, plan: Plan, scheduler: BatchScheduler, workers: int | None, on: str | None
+    task: CaseTask, cases: Cases, scheduler: BatchScheduler, workers: int | None, on: str | None
 ) -> Generator[BatchResult, None, None]:
     """A `BatchResult` for every batch.  Where nobody says who is to compute, this process begins, and has help when it would take long
     alone."""
 
     def arguments(batch: Batch) -> tuple[CaseTask, int, Columns]:
-        return task, batch.first, plan.cases(batch.first, batch.stop)
+        return task, batch.first, cases.cases(batch.first, batch.stop)
 
     if workers is None and on is None:
         yield from _by((InProcessExecutor(),), arguments, scheduler, lambda: (scheduler.expected or 0.0) > WORTH_HELP)
     if scheduler:
-        yield from _by(make_executors(workers, on, len(plan)), arguments, scheduler)
+        yield from _by(make_executors(workers, on, len(cases)), arguments, scheduler)
 
 
 def _by(
@@ -144,5 +208,5 @@ def _by(
             executor.close()
 
 
-def _incomplete(table: Any) -> int:
-    return sum(status != "complete" for status in table[STATUS].to_pylist())
+def _incomplete(table: pa.Table) -> int:
+    return table.num_rows - table[STATUS].to_pylist().count("complete")

@@ -12,7 +12,7 @@ from drivewright.mechanisms.linkage import analyses
 from drivewright.multibody.analyses import tolerances
 from drivewright.multibody.assembly import assemble
 from drivewright.multibody.model import GROUND, Body, JointDrive, Marker, MultibodyModel, PinSlot, Prismatic, Revolute, Rolling, line
-from drivewright.multibody.tolerance import CHUNK, Source, deviations, draw_deviations, gradient, play, posture, sample, shares
+from drivewright.multibody.tolerance import CHUNK, Source, deviations, draw_deviations, gradient, play, posture, sample, shares, worst_moves
 
 pytestmark = pytest.mark.analytical
 
@@ -202,3 +202,44 @@ def test_the_tables_add_up():
     assert np.sum(bars["share"].data) == pytest.approx(1.0)
     for name, cut in (("share", 0.01), ("linear_share", 0.03)):  # the bars end at three standard deviations of the normal distribution
         assert np.sqrt(np.sum(bars[name].data * bars["deviation"].data ** 2)) == pytest.approx(1.668e-4, rel=cut)
+
+
+LINES = [Source(f"{name} {end}", 4e-5, "uniform", ((name, end),), way) for name, end, way in (("A", 0, (0.6, 0.8)), ("B", 0, (1.0, 0.0)))]
+
+
+@pytest.mark.parametrize("reading", [0, 1, 2])
+def test_the_worst_combination_by_linear_theory_is_the_worst_of_all(reading):
+    """Of all ends of two points and 200 directions of a journal none gives more; and it is linear theory's sum, as far as that is right."""
+    sources = [play("O4", 5e-5), *LINES]
+    held = held_folder(sources)
+    slopes = gradient(held, 3)[0, reading]
+    corner = deviations(held, worst_moves(sources, slopes))[:, 0, reading]
+    angle = np.linspace(0, 2 * np.pi, 200, endpoint=False)
+    circle = 5e-5 * np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    ends = [4e-5 * np.outer(signs, (1, 1)) * [line_.direction for line_ in LINES] for signs in ((1, 1), (1, -1), (-1, 1), (-1, -1))]
+    moves = np.array([[point, *end] for point in circle for end in ends])
+    others = deviations(held, moves)[:, 0, reading]
+    size = np.sum(shares(sources, gradient(held, 3)).worst[0, reading])
+    if size < 1e-12:  # the knife's own origin
+        return
+    assert corner[0] == pytest.approx(size, rel=2e-3) and corner[1] == pytest.approx(-size, rel=2e-3)
+    assert np.max(others) <= corner[0] * (1 + 1e-9) + 1e-6 * size and np.min(others) >= corner[1] * (1 + 1e-9) - 1e-6 * size
+    assert np.max(others) > 0.999 * corner[0]
+
+
+def test_a_source_that_does_nothing_stays_where_it_is():
+    moves = worst_moves([play("A", 1e-3), LINES[0]], np.zeros((2, 2)))
+    assert moves.shape == (2, 2, 2) and not moves.any()
+
+
+def test_values_of_a_reading_carry_intervals_and_the_worst_combination():
+    rng = np.random.default_rng(2)
+    data = rng.normal(1e-4, 2e-4, 400)
+    values = tolerances._values("tip.x", "m", data, (np.array([3e-4, 1e-4]), np.array([1e-4, 1e-4])), 4.1e-4)
+    mean, sigma = values["tolerances.tip.x.mean"], values["tolerances.tip.x.sigma"]
+    assert mean.low < 1e-4 < mean.high and mean.interval == sigma.interval == "sample" and sigma.low < 2e-4 < sigma.high
+    assert (mean.value, sigma.value) == pytest.approx((np.mean(data), np.std(data, ddof=1)))
+    assert values["tolerances.tip.x.corner"].value == 4.1e-4 and values["tolerances.tip.x.linear_worst"].value == pytest.approx(4e-4)
+    assert "tolerances.tip.x.corner" not in tolerances._values("tip.x", "m", data, (np.ones(1), np.ones(1)), np.nan)
+    (told,) = tolerances._bent(["tip.x"])
+    assert told.endswith("is more than 5% off what linear theory says of it: tip.x") and not list(tolerances._bent([]))

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from drivewright.multibody.analyses.simulation_model import SimulationModel
-from drivewright.multibody.tolerance import CIRCLE, READINGS, Source, gradient, posture, sample, shares
+from drivewright.multibody.tolerance import CIRCLE, READINGS, Source, deviations, gradient, posture, sample, shares, worst_moves
+from drivewright.numerics.samples import mean_of, share_of, sigma_of
 from drivewright.result import Answer, Column, Table, Value
 
 BARS = 60  # of a histogram
+STRAIGHT = 0.05  # part by which linear theory may be off at its worst combination without a word
 
 
 def tolerances(model: SimulationModel, sources: Sequence[Source], angle: float, samples: int) -> Answer:
@@ -22,18 +24,22 @@ def tolerances(model: SimulationModel, sources: Sequence[Source], angle: float, 
     slopes = gradient(nominal, len(sources))
     parts = shares(sources, slopes)
     closed = np.isfinite(mechanisms.deviations).all(axis=(1, 2))
-    values, tables = {"tolerances.unclosed": Value(float(np.mean(~closed)), "-", "share of the random mechanisms that do not close")}, []
+    unclosed = share_of(int(np.sum(~closed)), len(closed))
+    values, tables = {"tolerances.unclosed": unclosed.named("-", "share of the random mechanisms that do not close")}, []
+    bent = []
     for number, output in enumerate(model.outputs):
         for reading in ("x", "y") if output.point else ("angle",):
             k = READINGS.index(reading)
             name = f"{output.name}.{reading}" if output.point else output.name
             data, share = mechanisms.deviations[closed, number, k], (parts.worst[number, k], parts.sigma[number, k])
-            values |= _values(name, _unit(output), data, share)
+            corner = _at_corner(nominal, worst_moves(sources, slopes[number, k]), number, k)
+            values |= _values(name, _unit(output), data, share, corner)
+            bent += [name] if abs(corner - np.sum(share[0])) > STRAIGHT * np.sum(share[0]) else []
             tables += [_histogram(name, _unit(output), data, share), _tornado(name, _unit(output), sources, share)]
     return Answer(
         values,
         tuple(tables),
-        findings=tuple(_findings(sources, closed, samples)),
+        findings=(*_findings(sources, closed, samples), *_bent(bent)),
         outcome="partial" if mechanisms.interrupted or not closed.all() else "complete",
     )
 
@@ -42,17 +48,27 @@ def _unit(output):
     return "m" if output.point else "rad"
 
 
-def _values(name, unit, data, share):
+def _at_corner(nominal, moves, number, reading):
+    """Largest deviation of a reading, either way, with all displacements at the ends that linear theory calls worst; nan where the
+    mechanism does not close there."""
+    return float(np.max(np.abs(deviations(nominal, moves)[:, number, reading])))
+
+
+def _values(name, unit, data, share, corner):
     """Numbers of one reading; nan, and so left out, where no mechanism closes."""
     worst, sigma = share
+    mean, spread = (float(np.mean(data)) if data.size else np.nan, float(np.std(data, ddof=1)) if data.size > 1 else np.nan)
+    estimates = {
+        "mean": mean_of(mean, spread, data.size).named(unit, f"mean deviation of {name!r}"),
+        "sigma": sigma_of(spread, data.size).named(unit, f"standard deviation of {name!r}"),
+    }
     numbers = {
-        "mean": (np.mean(data) if data.size else np.nan, "mean deviation"),
-        "sigma": (np.std(data, ddof=1) if data.size > 1 else np.nan, "standard deviation"),
         "worst": (np.max(np.abs(data), initial=0.0) if data.size else np.nan, "largest deviation among the samples, either way"),
         "linear_sigma": (np.sqrt(np.sum(sigma**2)), "standard deviation by linear theory"),
         "linear_worst": (np.sum(worst), "worst case by linear theory (normal dimensions at three standard deviations)"),
+        "corner": (corner, "worst combination by linear theory, closed exactly: largest deviation"),
     }
-    return {
+    return {f"tolerances.{name}.{key}": value for key, value in estimates.items() if np.isfinite(value.value)} | {
         f"tolerances.{name}.{key}": Value(float(value), unit, f"{words} of {name!r}")
         for key, (value, words) in numbers.items()
         if np.isfinite(value)
@@ -101,6 +117,14 @@ def _label(source):
     if source.law == CIRCLE:
         return f"play {source.name}"
     return f"{source.name} [{source.direction[0]:.3g}, {source.direction[1]:.3g}]"
+
+
+def _bent(names):
+    if names:
+        yield (
+            f"tolerances: the worst combination by linear theory, closed exactly, is more than {STRAIGHT:.0%} off what linear theory says "
+            f"of it: {', '.join(names)}"
+        )
 
 
 def _findings(sources, closed, samples):

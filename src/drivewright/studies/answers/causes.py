@@ -4,12 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies import sensitivity
 from drivewright.studies.answers.maps import Response
 from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, table_of_rows, together
 from drivewright.studies.answers.within import variances
-from drivewright.studies.statistics import varies
+from drivewright.studies.statistics import Sampled, varies
 
 LINEAR, REGRESSION, RANKS = "linear", "regression", "ranks"
 METHODS = {LINEAR: "linear theory from steps", REGRESSION: "squared regression coefficients", RANKS: "first-order Sobol indices by ranks"}
@@ -17,7 +18,7 @@ CONTRIBUTIONS = (
     ("value", "", "value of the result"),
     ("key", "", "key that varies"),
     ("method", "", "how it is found"),
-    ("share", "-", "share of the variance that the key causes"),
+    *(("share" + end, "-", "share of the variance that the key causes" + told) for end, told in BOUNDS),
 )
 THEORY = (
     ("value", "", "value of the result"),
@@ -78,8 +79,13 @@ def _keys(arranged):
 # -- linear theory -------------------------------------------------------------------------------------------------------------
 
 
+def theories(arranged: Arranged, name: str) -> list[sensitivity.Linear]:
+    """`sensitivity.Linear` of a value in each combination; none without steps."""
+    return _theories(arranged, arranged.of(name), _noise(arranged, name))
+
+
 def _theories(arranged, samples, noise):
-    """`sensitivity.Linear` of each combination; none without steps."""
+    """The same of a value by combination and point, and its variance within each case."""
     nominal, steps = arranged.block("nominal"), arranged.block("steps")
     if steps is None:
         return []
@@ -128,24 +134,35 @@ class _Sample:
     def __init__(self, arranged):
         plan, self.rows = arranged.plan, arranged.sample
         made = plan.block("mixed") is not None or not len(self.rows)
-        columns = {} if made else _numbers(plan.listed) if plan.listed else dict(zip(_keys(arranged), plan.points.T, strict=True))
+        columns = {} if made else _numbers(plan.listed) if plan.listed else dict(zip(_keys(arranged), plan.points[:].T, strict=True))
         self.keys = tuple(columns)
         self.x = np.array([column[self.rows] for column in columns.values()]).T
         ranked = columns and not plan.listed and arranged.study.spec.study.method != "sobol"
         self.order = sensitivity.orders(self.x) if ranked else None
 
     def shares(self, y, noise):
-        """({method: shares of the keys}, determination of the regression) of a value at all points, whose variance within each case,
-        `noise`, no key causes: the shares are those of what is left."""
+        """({method: shares of the keys with the ends of their intervals (3, keys)}, `Sampled` determination of the regression) of a value
+        at all points, whose variance within each case, `noise`, no key causes: the shares are those of what is left."""
         if not self.keys:
-            return {}, np.nan
+            return {}, Sampled(np.nan)
         y = y[self.rows]
         more = 1 / sensitivity.share_by_keys(y, noise[self.rows])
-        coefficients, determination = sensitivity.regression(self.x, y)
-        by_method = {REGRESSION: more * coefficients**2}
+        regression = sensitivity.regression(self.x, y)
+        by_method = {REGRESSION: more * regression.shares}
         if self.order is not None:
-            by_method[RANKS] = more * sensitivity.by_ranks(self.order, y)
-        return {method: shares for method, shares in by_method.items() if np.any(np.isfinite(shares))}, more * determination
+            by_method[RANKS] = more * sensitivity.ranked_shares(self.order, y)
+        determined = Sampled(*(more * each for each in regression.determined))
+        return {method: shares for method, shares in by_method.items() if np.any(np.isfinite(shares[0]))}, determined
+
+
+def exactly(shares: Floats) -> Floats:
+    """Shares without an interval (3, keys)."""
+    return np.stack([shares, *np.full((2, len(shares)), np.nan)])
+
+
+def _with_ends(column, low, high):
+    """A column, with the ends of its intervals where it has some."""
+    return (column, *column.bounds(low, high)) if np.any(np.isfinite(low)) else (column,)
 
 
 def _numbers(listed):
@@ -161,23 +178,23 @@ def _contributions(arranged):
         for number, y in enumerate(samples):
             shares, determination = sample.shares(y, noise[number])
             if theories and np.any(np.isfinite(theories[number].share)):
-                shares = {LINEAR: theories[number].share} | shares
+                shares = {LINEAR: exactly(theories[number].share)} | shares
             wide[name, number], fits[name] = shares, determination
             rows += [
-                (number, name, key, method, part)
+                (number, name, key, method, *part)
                 for method, parts in shares.items()
-                for key, part in zip(sample.keys or _keys(arranged), parts, strict=True)
+                for key, part in zip(sample.keys or _keys(arranged), parts.T, strict=True)
             ]
     if not rows:
         return Part()
     table = table_of_rows("contributions", "Contributions to the variance", CONTRIBUTIONS, rows, arranged)
     plots = _ranked(arranged, sample.keys or _keys(arranged), wide) if arranged.combinations == 1 else Part()
     values = {
-        f"determination.{name}": Value(
-            fit, "-", f"{arranged.study.meaning(name) or name}: share of the variance that a linear fit explains, R2"
+        f"determination.{name}": fit.named(
+            "-", f"{arranged.study.meaning(name) or name}: share of the variance that a linear fit explains, R2"
         )
         for name, fit in fits.items()
-        if arranged.combinations == 1 and np.isfinite(fit)
+        if arranged.combinations == 1 and np.isfinite(fit.value)
     }
     return together([Part(values, (table,), findings=tuple(_remarks(rows, len(sample.rows)))), plots])
 
@@ -200,7 +217,11 @@ def _ranked(arranged, keys, wide):
                 f"Contributions to the variance of {name}",
                 (
                     Column("key", "", "key that varies", np.array(keys)),
-                    *(Column(method, "-", METHODS[method], part) for method, part in shares.items()),
+                    *(
+                        column
+                        for method, parts in shares.items()
+                        for column in _with_ends(Column(method, "-", METHODS[method], parts[0]), *parts[1:])
+                    ),
                 ),
             )
             tables.append(table)
@@ -216,7 +237,7 @@ def responses(arranged: Arranged) -> Iterator[Response]:
         theories = _theories(arranged, samples, noise)
         keys = _keys(arranged) if theories else sample.keys
         shares = [theory.share for theory in theories] or [
-            sample.shares(*row)[0].get(REGRESSION, np.full(len(keys), np.nan)) for row in zip(samples, noise, strict=True)
+            sample.shares(*row)[0].get(REGRESSION, np.full((3, len(keys)), np.nan))[0] for row in zip(samples, noise, strict=True)
         ]
         columns = tuple(
             Column(f"share.{name}.{key}", "-", f"share of {key}", part)

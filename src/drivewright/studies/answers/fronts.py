@@ -1,32 +1,56 @@
 """The trade-off between objectives: the Pareto front of the cases of a study."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from drivewright import units
 from drivewright.errors import InputError
+from drivewright.execution.case_table import CASE
 from drivewright.execution.outputs import CHECK
 from drivewright.result import Column, Plot, Table, Value
-from drivewright.studies.answers.parts import Part, join_names, passing, plain
+from drivewright.studies.answers.cases import passing
+from drivewright.studies.answers.parts import Part, join_names, plain
 from drivewright.studies.pareto import ABSENT, DOMINATED, FAILS, FRONT, classify_designs
 from drivewright.studies.study import Study
 
 DRAWN = (FRONT, DOMINATED, FAILS)  # from the top down
 
 
-def fronts(study: Study, values: Sequence[str] = ()) -> Part:
+def fronts(study: Study, values: Sequence[str] = (), whole: Study | None = None) -> Part:
     """`Part` of a study with two objectives or more: tables `pareto` and `front`, and the points of the former.
+
+    `whole`: the study of which `study` holds some cases; the front is that of all of them.
 
     Objectives and requirements are those of the spec's [optimise]; without, two values named are made small.
     """
     goals, remarks = _goals(study, values)
     if not goals:
         return Part(findings=remarks)
+    if whole is not None:
+        study = _with_front(study, whole, goals)
+    sets, columns, ignored = _sets(study, goals)
+    return _front_part(study, goals, columns, sets, (*remarks, *ignored))
+
+
+def _sets(study, goals):
+    """(set of each row, the objectives, findings)."""
     met, ignored = _requirements(study)
     columns = [np.asarray(study[name], dtype=float) for name in goals]
-    sets = classify_designs(columns, goals.values(), passing(study) & met)
-    return _front_part(study, goals, columns, sets, (*remarks, *ignored))
+    return classify_designs(columns, goals.values(), passing(study) & met), columns, ignored
+
+
+def _with_front(study, whole, goals):
+    """Some cases of a study and those of its Pareto front, which is found piece by piece: what a piece beats is on no front."""
+    import pyarrow as pa
+
+    front = study.schema.empty_table()
+    for table in whole.batches():
+        joint = replace(whole, rows=pa.concat_tables([front, table]))
+        front = joint.table.filter(_sets(joint, goals)[0] == FRONT)
+    others = study.table.filter(~np.isin(study[CASE], front[CASE].to_numpy()))
+    return replace(study, rows=pa.concat_tables([others, front]))
 
 
 def _goals(study, values):

@@ -9,7 +9,8 @@ import numpy as np
 from drivewright.execution.case_table import CASE
 from drivewright.execution.outputs import CHECK
 from drivewright.result import HIGH, LOW, Column, Plot, Table, Value
-from drivewright.studies.answers.parts import STATUSES, Arranged, Part, level_text, status_codes, table_of_rows, together
+from drivewright.studies.answers.cases import STATUSES, status_codes
+from drivewright.studies.answers.parts import Arranged, Part, level_text, table_of_rows, together
 from drivewright.studies.statistics import finite
 
 MOST_PANELS = 4  # combinations of further keys that get plots of their own
@@ -138,6 +139,8 @@ def ranges(arranged: Arranged) -> Part:
 
 
 def _range(arranged, name, cases):
+    if arranged.everything:
+        return _range_of_all(arranged.everything, name)
     column = arranged.of(name)[:, 0]
     count = len(finite(column))
     if not count:
@@ -146,6 +149,16 @@ def _range(arranged, name, cases):
     bounds = [part[:, 0] for part in arranged.bounds(name) or ()] or [np.full(len(column), np.nan)] * 2
     places = (part for end in ends for part in (float(column[end]), int(cases[end])))
     return count, *places, *(float(bound[end]) for end in ends for bound in bounds)
+
+
+def _range_of_all(everything, name):
+    """The same of all cases, also where only some are held."""
+    ends = everything.ends[name]
+    if not ends.count:
+        return 0, np.nan, -1, np.nan, -1, *[np.nan] * 4
+    rows = [everything.row(case) for case in (ends.least_at, ends.greatest_at)]
+    bounds = [float(bound[0]) for row in rows for bound in row.bounds(name) or [np.array([np.nan])] * 2]
+    return ends.count, ends.least, ends.least_at, ends.greatest, ends.greatest_at, *bounds
 
 
 def _range_values(arranged, rows):

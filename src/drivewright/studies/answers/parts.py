@@ -8,19 +8,20 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drivewright._typing import Bools, Floats, Ints
-from drivewright.execution.case_table import CASE, STATUS
+from drivewright._typing import Floats, Ints
+from drivewright.execution.case_table import CASE
 from drivewright.execution.outputs import CHECK
 from drivewright.result import Column, Plot, Table, Value
+from drivewright.studies.answers.all_cases import AllCases
+from drivewright.studies.answers.cases import Tally, passing, sample_ranges, status_codes, tally
 from drivewright.studies.answers.factorial import crossed
 from drivewright.studies.plan import Plan
-from drivewright.studies.statistics import LEVEL
+from drivewright.studies.statistics import LEVEL, Summary, summary
 from drivewright.studies.study import Study
 from drivewright.studies.variables import Variable
 from drivewright.units import System
 from drivewright.view.text import quantity
 
-STATUSES = ("complete", "partial", "failed")
 BOUNDS = (("", ""), (".low", f", at least, with {LEVEL:.0%} confidence"), (".high", f", at most, with {LEVEL:.0%} confidence"))
 
 
@@ -43,10 +44,15 @@ def together(parts: Iterable[Part]) -> Part:
 
 @dataclass(frozen=True, eq=False)
 class Arranged:
-    """A study as arrays (combinations of levels, points that come with each), nan where a case is not there; `shown` get plots."""
+    """A study as arrays (combinations of levels, points that come with each), nan where a case is not there; `plotted` get plots.
+
+    Of a study that is too large, `study` holds some of the cases, those of `numbers`, and `everything` says what there is of all.
+    """
 
     study: Study
     plotted: tuple[str, ...]
+    numbers: Ints | None = None
+    everything: AllCases | None = None
 
     @cached_property
     def _crossed(self) -> tuple[Plan, Ints]:
@@ -57,6 +63,16 @@ class Arranged:
         """The plan of the study; a file of points that is a full factorial as the levels that it combines."""
         return self._crossed[0]
 
+    @property
+    def whole_plan(self) -> Plan:
+        """The plan of all cases of the study, also where only some are held."""
+        return self.everything.plan if self.everything else self.study.plan
+
+    @property
+    def known_names(self) -> tuple[str, ...]:
+        """Columns of the values, and of the margins of the checks."""
+        return (*self.study.value_names, *(CHECK + name for name in self.study.check_names))
+
     @cached_property
     def combinations(self) -> int:
         """How many combinations of levels there are."""
@@ -65,10 +81,13 @@ class Arranged:
     @cached_property
     def sample(self) -> Ints:
         """Rows of the points that are a random sample, or come from a file; none where there is only a grid, steps or corners."""
-        if self.plan.listed:
-            return np.arange(self.plan.inner)
-        blocks = [np.arange(block.start, block.stop) for block in self.plan.blocks if block.name in ("sample", "a", "b")]
-        return np.concatenate([np.zeros(0, dtype=int), *blocks])
+        return np.concatenate([np.zeros(0, dtype=int), *(np.arange(*ends) for ends in sample_ranges(self.plan))])
+
+    def summaries(self, name: str) -> list[Summary]:
+        """`Summary` of a column in the sample of each combination; of all cases, also where only some are held."""
+        if self.everything and self.everything.samples:
+            return [each.summaries[name] for each in self.everything.samples]
+        return [summary(sample) for sample in self.of(name)[:, self.sample]]
 
     def block(self, name: str) -> slice | None:
         """Slice of the points of a block, or None."""
@@ -95,9 +114,21 @@ class Arranged:
 
     def arrange(self, column: Floats) -> Floats:
         """Numbers of the rows of the table by combination and point."""
-        arranged = np.full(len(self.plan), np.nan)
-        arranged[self._crossed[1][np.asarray(self.study[CASE], dtype=int)]] = column
+        arranged, cases = np.full(len(self.plan), np.nan), np.asarray(self.study[CASE], dtype=int)
+        places = cases if self.numbers is None else np.searchsorted(self.numbers, cases)
+        arranged[self._crossed[1][places]] = column
         return arranged.reshape(self.combinations, self.plan.inner)
+
+    def tallies(self, check: str | None = None) -> list[Tally]:
+        """`Tally` of a check, or of all together, in the sample of each combination; of all cases, also where only some are held."""
+        if self.everything and self.everything.samples:
+            return [each.checks[check] if check else each.together for each in self.everything.samples]
+        if check:
+            margin, *ends = (self.of(CHECK + check), *(self.at_worst(CHECK + check, sign) for sign in (-1, 1)))
+            rows = [margin >= 0, *(end >= 0 for end in ends), np.isfinite(margin) | (self.status == 2)]
+        else:
+            rows = [self.passing == 1, *(end == 1 for end in self.passing_ends), np.isfinite(self.passing)]
+        return [tally(*case) for case in zip(*(row[:, self.sample] for row in rows), strict=True)]
 
     @cached_property
     def status(self) -> Floats:
@@ -136,21 +167,6 @@ def plain(column: NDArray[Any]) -> NDArray[Any]:
     if column.dtype.kind == "b":
         return np.where(column, "true", "false")
     return column if column.dtype.kind in "iuf" else column.astype(str)
-
-
-def status_codes(study: Study) -> Ints:
-    """Number of each row's status in STATUSES."""
-    status = np.asarray(study[STATUS], dtype=str)
-    return np.select([status == name for name in STATUSES], range(len(STATUSES)), len(STATUSES) - 1)
-
-
-def passing(study: Study, sign: int = 0) -> Bools:
-    """(rows,) whether a case is complete and none of the checks that it has fails; by the value, or surely (-1), or possibly (+1)."""
-    passes = status_codes(study) == 0
-    for name in study.check_names:
-        margin = study.at_worst(CHECK + name, sign) if sign else np.asarray(study[CHECK + name], dtype=float)
-        passes &= ~(margin < 0)
-    return passes
 
 
 def estimate_values(

@@ -9,16 +9,15 @@ from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.maps import Response
 from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, estimate_values, table_of_rows, together
 from drivewright.studies.answers.within import within_cases
-from drivewright.studies.statistics import PERCENTS, Sampled, capability, finite, share_between, summary
+from drivewright.studies.statistics import PERCENTS, Sampled, capability, finite
 
 ALL = "all checks"
 VALUE = (("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"))
 SHORT = (1.0, 50.0, 99.0)  # percentiles that are told at a glance
 TOLERANCE = (
     *VALUE,
-    ("mean", "", "mean"),
-    ("sigma", "", "standard deviation"),
-    *((f"percentile.{percent:g}", "", f"{percent:g} % of all cases are below") for percent in SHORT),
+    *((name + end, "", meaning + told) for name, meaning in (("mean", "mean"), ("sigma", "standard deviation")) for end, told in BOUNDS),
+    *((f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + told) for percent in SHORT for end, told in BOUNDS),
     ("least", "", "least of the sample"),
     ("greatest", "", "greatest of the sample"),
     ("absent", "-", "cases that do not have the value"),
@@ -27,7 +26,7 @@ CONFIDENCE = (
     *VALUE,
     ("cases", "-", "cases that have the value"),
     *((name + end, "", meaning + told) for name, meaning in (("mean", "mean"), ("sigma", "standard deviation")) for end, told in BOUNDS),
-    ("skewness", "-", "skewness"),
+    *(("skewness" + end, "-", "skewness" + told) for end, told in BOUNDS),
     *((f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + told) for percent in PERCENTS for end, told in BOUNDS),
 )
 YIELD = (
@@ -35,7 +34,7 @@ YIELD = (
     ("passes", "-", "cases that pass"),
     ("cases", "-", "cases that have the check, or failed"),
     *(("yield" + end, "-", "share of the cases that pass" + told) for end, told in BOUNDS),
-    ("capability", "-", "capability index Cpk: mean margin over three standard deviations"),
+    *(("capability" + end, "-", "capability index Cpk: mean margin over three standard deviations" + told) for end, told in BOUNDS),
     ("undecided", "-", "cases whose limit lies within the interval of their value"),
 )
 WORST = (
@@ -55,9 +54,9 @@ def spread(arranged: Arranged) -> Part:
         return Part()
     names = arranged.study.value_names
     rows = [
-        (number, name, arranged.study.unit(name), summary(sample))
+        (number, name, arranged.study.unit(name), statistics)
         for name in names
-        for number, sample in enumerate(arranged.of(name)[:, arranged.sample])
+        for number, statistics in enumerate(arranged.summaries(name))
     ]
     parts = [_yields(arranged), within_cases(arranged)]
     if rows:
@@ -71,24 +70,14 @@ def spread(arranged: Arranged) -> Part:
 
 def _tolerance_row(number, name, unit, statistics):
     """Row of the table `tolerance`."""
-    middle = (statistics.percentiles[PERCENTS.index(percent)].value for percent in SHORT)
-    return (
-        number,
-        name,
-        unit,
-        statistics.mean.value,
-        statistics.sigma.value,
-        *middle,
-        statistics.least,
-        statistics.greatest,
-        statistics.absent,
-    )
+    middle = (each for percent in SHORT for each in statistics.percentiles[PERCENTS.index(percent)])
+    return (number, name, unit, *statistics.mean, *statistics.sigma, *middle, statistics.least, statistics.greatest, statistics.absent)
 
 
 def _sure(number, name, unit, statistics):
     """Row of the table `confidence`."""
     spread_ = (each for percent in statistics.percentiles for each in percent)
-    return (number, name, unit, statistics.cases, *statistics.mean, *statistics.sigma, statistics.skewness, *spread_)
+    return (number, name, unit, statistics.cases, *statistics.mean, *statistics.sigma, *statistics.skewness, *spread_)
 
 
 def _histograms(arranged):
@@ -128,33 +117,21 @@ def _yields(arranged):
     """
     if not arranged.study.check_names:
         return Part()
-    status = arranged.status[:, arranged.sample]
-    rows = [row for name in arranged.study.check_names for row in _of_check(arranged, name, status)]
-    together_ = _all(arranged)
+    rows = [row for name in arranged.study.check_names for row in _of_check(arranged, name)]
+    together_ = [(number, ALL, *_shares(each), *Sampled(np.nan), each.undecided) for number, each in enumerate(arranged.tallies())]
     table = table_of_rows("yield", "Share of the cases that pass", YIELD, rows + together_, arranged)
     return Part(dict(_yield_values(together_[0])) if arranged.combinations == 1 else {}, (table,))
 
 
-def _of_check(arranged, name, status):
-    column = CHECK + name
-    margins = (arranged.of(column), arranged.at_worst(column, -1), arranged.at_worst(column, 1))
-    for number, (margin, *ends, code) in enumerate(zip(*(each[:, arranged.sample] for each in margins), status, strict=True)):
-        count = int(np.sum(np.isfinite(margin) | (code == 2)))
-        if count:
-            passes, surely, possibly = (int(np.sum(each >= 0)) for each in (margin, *ends))
-            yield number, name, passes, count, *share_between(surely, passes, possibly, count), capability(margin), possibly - surely
+def _of_check(arranged, name):
+    """Row of each combination that has the check."""
+    for number, (each, margins) in enumerate(zip(arranged.tallies(name), arranged.summaries(CHECK + name), strict=True)):
+        if each.counted:
+            yield number, name, *_shares(each), *capability(margins), each.undecided
 
 
-def _all(arranged):
-    """Row of all checks together of each combination."""
-    rows = (each[:, arranged.sample] for each in (arranged.passing, *arranged.passing_ends))
-    return [_together(number, *case) for number, case in enumerate(zip(*rows, strict=True))]
-
-
-def _together(number, *cases):
-    count = int(np.sum(np.isfinite(cases[0])))
-    passes, surely, possibly = (int(np.sum(each == 1)) for each in cases)
-    return number, ALL, passes, count, *share_between(surely, passes, possibly, count), np.nan, possibly - surely
+def _shares(each):
+    return each.passes, each.counted, *each.share
 
 
 def _yield_values(row):
@@ -169,7 +146,7 @@ def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s over the grid: mean and mean -+ sigma of each shown value, its sigma, and the yield, with their intervals."""
     for name in arranged.plotted:
         unit, what = arranged.study.unit(name), arranged.study.meaning(name) or name
-        summaries = [summary(sample) for sample in arranged.of(name)[:, arranged.sample]]
+        summaries = arranged.summaries(name)
         (mean, *mean_ends), (sigma, *sigma_ends) = (np.array([getattr(each, part) for each in summaries]).T for part in ("mean", "sigma"))
         lines = (
             (f"mean.{name}", "mean", mean),
@@ -181,7 +158,7 @@ def responses(arranged: Arranged) -> Iterator[Response]:
         alone = Column(f"sigma.{name}", unit, f"{what}, standard deviation", sigma)
         yield Response(alone.name, f"{name}: standard deviation", (alone,), ends=alone.bounds(*sigma_ends))
     if arranged.study.check_names:
-        shares, *ends = np.array([row[4:7] for row in _all(arranged)]).T
+        shares, *ends = np.array([each.share for each in arranged.tallies()]).T
         column = Column("yield", "-", "share of the cases that pass every check", shares)
         yield Response("yield", "Yield", (column,), ends=column.bounds(*ends))
 

@@ -1,19 +1,22 @@
 """What a study says: a `Result` with values, tables and findings, and how to look at it.  What can be said depends on the plan."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright import registry
-from drivewright.execution.case_reasons import reason_groups
-from drivewright.execution.case_table import MESSAGE, STATUS
 from drivewright.execution.outputs import CHECK
 from drivewright.result import Plot, Result, Value
 from drivewright.runner import versions
-from drivewright.studies.answers import causes, maps, spread
+from drivewright.studies.answers import causes, extremes, maps, spread
+from drivewright.studies.answers.all_cases import AllCases
+from drivewright.studies.answers.cases import STATUSES
+from drivewright.studies.answers.extremes import Rerun
 from drivewright.studies.answers.fronts import fronts
-from drivewright.studies.answers.parts import STATUSES, Arranged, Part, join_names, together
+from drivewright.studies.answers.parts import Arranged, Part, join_names, together
+from drivewright.studies.answers.thinned import is_large, thinned
 from drivewright.studies.statistics import LEVEL, finite, varies
 from drivewright.studies.study import Study
 
@@ -30,22 +33,27 @@ class Answers(NamedTuple):
     plots: tuple[Plot, ...]
 
 
-def analyse_study(study: Study, values: Sequence[str] = ()) -> Answers:
+def analyse_study(study: Study, values: Sequence[str] = (), rerun: Rerun | None = None) -> Answers:
     """`Answers` of a study.  `values` (check.NAME for the margin of a check) get plots; UnknownName where the study has no such column.
 
     Unless given they are those of the spec's [study] or else of the mechanism's headline, `MOST` at most.  Tables hold all values.
+    `rerun` computes further cases, `sweeps.rerun_cases`: the worst corners of linear theory where the study has no corners.
     """
     for name in values:
-        study[name]
-    shown, remarks = _shown(study, values)
-    arranged = Arranged(study, shown)
+        study.meaning(name)
+    few = thinned(study) if is_large(study) else None
+    held = few.study if few else replace(study, rows=study.table)
+    shown, remarks = _shown(held, values)
+    arranged = Arranged(held, shown, few.numbers, AllCases(study, few.combinations.tolist())) if few else Arranged(held, shown)
     named = values or (study.spec.study.values if study.spec.study else ())
-    parts = [_cases(study), Part(findings=remarks), *_parts(arranged), fronts(study, named)]
+    front = fronts(held, named, study if few else None)
+    said = Part(findings=(*([few.remark] if few else ()), *remarks))
+    parts = [_cases(study), said, *_parts(arranged, rerun), front]
     parts_joined = together(parts)
     return Answers(_result(study, parts_joined), parts_joined.plots)
 
 
-def _parts(arranged):
+def _parts(arranged, rerun):
     """What the plan allows to say."""
     if not len(arranged.study):
         return
@@ -53,9 +61,11 @@ def _parts(arranged):
         yield Part(findings=tuple(_read_as_levels(arranged)))
         yield maps.ranges(arranged)
         yield maps.surveyed(arranged, maps.responses(arranged))
+        yield extremes.extremes(arranged)
         return
     yield spread.spread(arranged)
     yield spread.worst_case(arranged)
+    yield extremes.worst_inputs(arranged, rerun)
     yield causes.causes(arranged)
     yield Part(findings=tuple(_assumptions(arranged)))
     if arranged.combinations > 1:
@@ -148,7 +158,7 @@ def _cases(study):
 
 def _reasons(study, counts):
     """A finding for the failed and one for the partial cases, with the commonest reasons."""
-    groups = reason_groups(study[STATUS], study[MESSAGE])
+    groups = study.reasons()
     for name in ("failed", "partial"):
         if counts[name]:
             yield f"{counts[name]} of {len(study)} cases are {name}; {_commonest([group for group in groups if group.status == name])}"

@@ -149,9 +149,9 @@ def _plan(keys, steps):
 def _target(design, study, name, about, keys, steps):
     """One number with its bars."""
     kind, text, unit, value = about
-    column = study[name] if name in study.table.column_names else np.full(len(study), np.nan)
+    column = study[name] if name in study.column_names else np.full(len(study), np.nan)
     relative = kind == "value" and value != 0
-    errors = study.errors(name) if name in study.table.column_names else None
+    errors = study.errors(name) if name in study.column_names else None
     bars, still, unclear, failed = [], [], [], []
     for k, (key, (of, at)) in enumerate(keys.items()):
         effect = _effect(column[0], column[1 + 2 * k], column[2 + 2 * k], at, steps[key])

@@ -22,7 +22,7 @@ from drivewright.studies.statistics import varies
 from drivewright.studies.store import Memory, joined
 from drivewright.studies.study import Study
 from drivewright.studies.study_folder import Folder
-from drivewright.studies.sweeps import compute_study, study_identity
+from drivewright.studies.sweeps import compute_study, rerun_cases, study_identity
 from drivewright.studies.variation import with_options
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.design_keys import input_text, label, numeric, plain
@@ -183,7 +183,7 @@ def _loads(study, chosen):
 
 
 def _study_summary(design, study, theme):
-    answers = analyse_study(study)
+    answers = analyse_study(study, rerun=rerun_cases(study))
     fronts = _fronts(study, answers.result)
     rows = _rows(design, study, MOST_ROWS, [row for front in fronts for row in front["rows"]])
     place = {case: row for row, case in enumerate(rows["cases"])}
