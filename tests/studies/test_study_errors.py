@@ -334,7 +334,7 @@ def test_csv_files_of_points_that_are_some(tmp_path):
 
 def test_a_file_of_points_that_cannot_be_read(tmp_path):
     (tmp_path / "latin.csv").write_bytes(b"colour\nr\xf6t\n")
-    refused({}, "latin.csv: cannot be read: 'utf-8' codec", points=str(tmp_path / "latin.csv"))
+    refused({}, "latin.csv: cannot be read: line 2 has the byte 0xf6, which is no UTF-8", points=str(tmp_path / "latin.csv"))
     (tmp_path / "p.parquet").write_text("size [mm]\n8\n")
     refused({}, "p.parquet: is no Parquet file that can be read", points=str(tmp_path / "p.parquet"))
     refused({}, "there is no file", points=str(tmp_path / "none.csv"))
