@@ -24,7 +24,7 @@ def tolerances(model: SimulationModel, sources: Sequence[Source], angle: float, 
     slopes = gradient(nominal, len(sources))
     parts = shares(sources, slopes)
     closed = np.isfinite(mechanisms.deviations).all(axis=(1, 2))
-    unclosed = share_of(int(np.sum(~closed)), len(closed))
+    unclosed = share_of(int(np.sum(~closed)), np.size(closed))
     values, tables = {"tolerances.unclosed": unclosed.named("-", "share of the random mechanisms that do not close")}, []
     bent = []
     for number, output in enumerate(model.outputs):
