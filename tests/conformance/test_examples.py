@@ -34,7 +34,7 @@ PINNED = {
     },
     "four_bar": {"rocker.max_angular_acceleration": 799.6856085336536, "drive.max_torque": 0.675338618892054},
     "jansen_leg": {"foot.max_acceleration": 9.374857905206746, "drive.max_torque": 0.03531556050871491},
-    "five_bar": {"drives.left.rms_torque": 1.5414117, "drives.right.peak_torque": 3.32627066, "friction.power": 0.0542280717},
+    "five_bar": {"drives.left.rms_torque": 1.5413241, "drives.right.peak_torque": 3.32627066, "friction.power": 0.0542280717},
     "press_worn_pin": {"joints.wrist.max_force": 296367.6, "drives.main.rms_torque": 227.607, "drives.main.reflected_inertia": 0.811620185},
     "knife_folder": {"knife.impact_load_coefficient": 1.6599560257699812, "knife_tip.peak_acceleration_ratio": 1.508782965780165},
     "pressure_roller_shaft": {"stations.m2.deflection": 0.000357575392, "modes.1.frequency": 63.9497231},

@@ -2,7 +2,6 @@
 
 import csv
 import io
-from types import SimpleNamespace
 
 import numpy as np
 import pyarrow as pa
@@ -64,7 +63,21 @@ def test_a_cell_that_somebody_else_wrote_is_left_alone():
 @pytest.fixture
 def study():
     numbers = np.linspace(-1.0, 1.0, len(TEXTS))
-    return SimpleNamespace(table=pa.table({"=name": pa.array(TEXTS), "number": pa.array(numbers), "count": pa.array(range(-9, 9))}))
+    table = pa.table({"=name": pa.array(TEXTS), "number": pa.array(numbers), "count": pa.array(range(-9, 9))})
+    return Stored(table)
+
+
+class Stored:
+    """What writing asks of a study."""
+
+    def __init__(self, table):
+        self.table, self.schema = table, table.schema
+
+    def __len__(self):
+        return len(self.table)
+
+    def batches(self):
+        yield self.table
 
 
 def test_the_csv_table_of_a_study(study, tmp_path):

@@ -121,8 +121,8 @@ class Jump(NamedTuple):
     0 where it does at rest, inf where it never does (then the angle is nan).
     """
 
-    speed: Any
-    angle: Any
+    speed: Numbers
+    angle: Numbers
 
 
 def jump(cycle: Cycle, path: LoadPath, load: FollowerLoad) -> Jump:

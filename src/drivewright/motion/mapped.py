@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Protocol
 
 import numpy as np
 
@@ -115,10 +115,11 @@ class MappedPiecewise(Piecewise):
 class MappedProgramme(Programme):
     """A `Programme` whose segments state one coordinate, and which moves another: called with theta it gives the other one."""
 
-    outer: Any = None  # a CoordinateMap
+    outer: CoordinateMap | None = None
 
     @cached_property
     def _followed(self) -> MappedPiecewise:
+        assert self.outer is not None
         return MappedPiecewise.through(self.stated, self.outer)
 
     @property

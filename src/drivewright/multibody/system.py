@@ -6,7 +6,7 @@ nothing.  Joints that close loops are constraint rows.  Of the coordinates some 
 split into independent and dependent ones; the rows make the dependent ones follow.
 """
 
-from typing import Any, NamedTuple
+from typing import NamedTuple, cast
 
 import numpy as np
 
@@ -106,7 +106,7 @@ class Work(NamedTuple):
     unit_load: Floats  # (independent,): scratch, what a unit force of a contact does
     node_state: Floats  # (stored + independent,): state of a node of the chart
     node_sums: Floats  # (rows, 3 + independent + driven): dependent coordinates, rates, bias and dependency matrix, summed over nodes
-    friction: Any  # NoFrictionWork | FrictionWork
+    friction: FrictionWork  # NoFrictionWork where no ideal joint rubs
 
 
 @by_reference
@@ -158,7 +158,7 @@ def scratch(system: System) -> Work:
 def _friction_work(system, bodies, rows, free):
     n = len(joints_with_friction(system))
     if n == 0:
-        return NoFrictionWork()
+        return cast(FrictionWork, NoFrictionWork())
     return FrictionWork(
         np.zeros((bodies, 3)),
         np.zeros((rows, 7)),

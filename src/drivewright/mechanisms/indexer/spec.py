@@ -185,7 +185,7 @@ class IndexerSpec(MechanismSpec):
         None,
         description="where a pin stands in the dwell, in pitches of the pins (0 to below 1) ahead of the line to the cam's axis, on cranks "
         "of the crank; unless given 0 on cranks, 0.25 in the first level of parallel, 0.5 (a rib in the middle) in barrel and globoidal",
-        examples=[0.25],
+        examples=[0.4],
     )
     pin_circle_radius: Length = Field(gt=0, description="radius on which the pins sit", examples=["120 mm"])
     pin_radius: Length = Field(gt=0, description="radius of a pin", examples=["8 mm"])

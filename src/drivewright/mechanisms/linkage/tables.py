@@ -100,7 +100,7 @@ class LinkageDrive(Spec):
     """What moves the mechanism, at one joint."""
 
     joint: Text = Field(
-        description="name of a revolute joint; with a profile or a motor also of a prismatic one or a pin-slot", examples=["O2"]
+        description="name of a revolute joint; with a profile or a motor also of a prismatic one or a pin-slot", examples=["A"]
     )
     speed: Speed | None = Field(
         None,
