@@ -64,7 +64,7 @@ def interrupted(command, ready, *signals, whole_group=False):
     for each in signals:
         if process.poll() is None:  # it may be faster than the signal
             (os.killpg if whole_group else os.kill)(process.pid, each)
-        time.sleep(0.02)
+        time.sleep(0.1)  # of signals that come together the system delivers any first
     said = process.communicate(timeout=60)[1]
     until(lambda: not any(map(alive, below)), 20)
     return process.returncode, said

@@ -183,8 +183,8 @@ class IndexerSpec(MechanismSpec):
     )
     pin_phase: Number | None = Field(
         None,
-        description="where a pin stands in the dwell, in pitches of the pins (0 to below 1) ahead of the line to the cam's axis, on cranks "
-        "of the crank; unless given 0 on cranks, 0.25 in the first level of parallel, 0.5 (a rib in the middle) in barrel and globoidal",
+        description="place of a pin in the dwell, in pitches ahead of the line to the cam's axis (of the crank), 0 to below 1; by the kind "
+        "unless given",
         examples=[0.4],
     )
     pin_circle_radius: Length = Field(gt=0, description="radius on which the pins sit", examples=["120 mm"])
