@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from typing import cast
 
 import numpy as np
 
@@ -193,14 +194,16 @@ def _needed_stiffness(model):
 def _jump(model):
     """Speed from which on the follower leaves the cam, against the speed of the drive; with surge where the spring has a mass."""
     quiet = cams.jump(model.cycle, model.path, model.load)
-    found = jump_with_surge(model, float(quiet.speed)) if model.surge else quiet
+    found = jump_with_surge(model, cast(float, quiet.speed)) if model.surge else quiet
     speed = cams.nan_unless(np.isfinite(found.speed), found.speed)
     values = {
         "spring.jump_speed": Value(speed, "rad/s", "cam speed at which the follower leaves the cam"),
-        "spring.jump_speed.at": Value(float(found.angle) % (2 * np.pi), "rad", "cam angle of separation, at the jump speed"),
+        "spring.jump_speed.at": Value(cast(float, found.angle) % (2 * np.pi), "rad", "cam angle of separation, at the jump speed"),
     }
     if model.surge and np.isfinite(quiet.speed):
-        values["spring.jump_speed.without_surge"] = Value(float(quiet.speed), "rad/s", "jump speed without surge, a spring without mass")
+        values["spring.jump_speed.without_surge"] = Value(
+            cast(float, quiet.speed), "rad/s", "jump speed without surge, a spring without mass"
+        )
     return Answer(values, (), (_jump_check(model, speed, found.angle),))
 
 
