@@ -46,10 +46,6 @@ class Route(NamedTuple):
         """Where along the path a body comes; None where the chain does not meet it."""
         return next((k for k, station in enumerate(self.stations) if station.body == body), None)
 
-    def arrivals(self) -> Floats:
-        """Heading of the strand that arrives at each station [rad]."""
-        return np.roll(self.headings, 1)
-
 
 def bodies(model: ChainDrive) -> tuple[Sprocket | Guide, ...]:
     """All bodies that the chain may meet, by number."""
