@@ -32,8 +32,8 @@ INVOLUTE = Tooth(12, 9.525e-3 * 12 / (2 * np.pi) * np.cos(A), seat_support(JOINT
 ROLLER = RollerTooth(12, 9.525e-3 / (2 * np.sin(np.pi / 12)), 2.6e-3, np.radians(130), 8e-3, 2.5e-3)
 
 
-def lowered(tooth=INVOLUTE, guides=(), offset=0.7e-3, damping=0.0, joint=JOINT):
-    chain = Chain(joint, 8, 2.5e-3, 6.4e-8, 3e6, centre_offset=offset)
+def lowered(tooth=INVOLUTE, guides=(), offset=0.7e-3, damping=0.0, joint=JOINT, count=8):
+    chain = Chain(joint, count, 2.5e-3, 6.4e-8, 3e6, centre_offset=offset)
     here = Sprocket(tooth, ChainContact(K, damping), (0.02, -0.01), drive=SpeedRamp(1.0, 1.0))
     return compile_model(ChainDrive(chain, (here, Sprocket(tooth, ChainContact(K), (5.0, 0.0), inertia=1.0)), guides))
 
@@ -47,19 +47,19 @@ def put(drive, x, y, angle, psi=0.4, centre=(0.02, -0.01), v=(0.0, 0.0, 0.0), bo
     plain(load_gravity)(drive.chain, p, drive.touches)
 
 
-def flank(drive, seat, dt=1e-6):
-    drive.touches.seat[0], drive.touches.seat_cos[0], drive.touches.seat_sin[0] = seat, np.cos(seat), np.sin(seat)
-    plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
-    plain(flank_damping_work)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
+def flank(drive, seat, dt=1e-6, plates=(0, 1)):
+    drive.touches.seat[:], drive.touches.seat_cos[:], drive.touches.seat_sin[:] = seat, np.cos(seat), np.sin(seat)
+    plain(load_flanks)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, *plates, dt)
+    plain(flank_damping_work)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, *plates, dt)
 
 
-def roller(drive, seat, dt=1e-6):
-    drive.touches.seat[0], drive.touches.seat_cos[0], drive.touches.seat_sin[0] = seat, np.cos(seat), np.sin(seat)
-    plain(load_rollers)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, 0, 1, dt)
+def roller(drive, seat, dt=1e-6, plates=(0, 1)):
+    drive.touches.seat[:], drive.touches.seat_cos[:], drive.touches.seat_sin[:] = seat, np.cos(seat), np.sin(seat)
+    plain(load_rollers)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.teeth, 0, *plates, dt)
 
 
-def guide(drive, seat, dt=1e-6):
-    plain(load_guide)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.arcs, 0, 0, 1, drive.power, dt)
+def guide(drive, seat, dt=1e-6, plates=(0, 1)):
+    plain(load_guide)(drive.chain, drive.plates, drive.touches, drive.bodies, drive.arcs, 0, *plates, drive.power, dt)
 
 
 def at_tooth(dx, dy, turn, psi=0.4, tooth=2, offset=0.7e-3):
@@ -103,6 +103,41 @@ def test_forces_are_the_slope_of_the_energy(name):
         force[5] = 0.0
     assert t.stored[0] > 1e-5
     np.testing.assert_allclose(force, -slope, rtol=1e-5, atol=1e-4 * np.max(np.abs(force[:2])))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_run_of_plates_touches_as_its_plates_one_by_one_and_leaves_all_others(name):
+    """Kernels take runs in whole vectors, here one of eight plates for a run of three, all of them in contact and as they were loaded."""
+    tooth, guides, touch, pose, seat = CASES[name]
+    joint = design_link(9.525e-3, 0.0, A, 2e-4) if tooth is ROLLER else JOINT
+    body, ends = (2 if guides else 0), {}
+    for way, runs in {"together": [(2, 5)], "alone": [(2, 3), (3, 4), (4, 5)]}.items():
+        drive = lowered(tooth, guides, joint=joint, damping=40.0)
+        put(drive, *pose, body=body, v=(0.3, -0.2, 1.0))
+        p, t = drive.plates, drive.touches
+        for row in (p.x, p.y, p.angle, p.c, p.s, p.vx, p.vy, p.w):
+            row[:10] = row[0]  # the eight plates, the copy of the first, and a dead one
+        rows = [getattr(t, n) for n in ("right", "left", "damped_right", "damped_left", "power", "lost", "stored")] + [p.fx, p.fy, p.moment]
+        for number, row in enumerate(rows):
+            row[:10] = 1.0 + number
+        for run in runs:
+            touch(drive, seat, plates=run)
+        ends[way] = np.array([row[:10] for row in rows])
+    before = np.broadcast_to(1.0 + np.arange(len(rows))[:, None], ends["alone"].shape)
+    others = [0, 1, *range(5, 10)]
+    np.testing.assert_array_equal(ends["together"][:, others], before[:, others])
+    assert np.all(np.any(ends["alone"][:, 2:5] != before[:, 2:5], axis=0))
+    np.testing.assert_array_equal(ends["together"], ends["alone"])
+
+
+def test_a_run_may_begin_at_the_last_plate():
+    """Of 15, behind which the vector that begins there needs seven more places."""
+    drive = lowered(count=15)
+    put(drive, *at_tooth(0.0, -1e-6, 0.0)[:3])
+    for row in (drive.plates.x, drive.plates.y, drive.plates.angle, drive.plates.c, drive.plates.s):
+        row[14] = row[0]
+    flank(drive, at_tooth(0, 0, 0)[3], plates=(14, 15))
+    assert drive.touches.right[14] == pytest.approx(K * 1e-6 * np.sin(A), rel=1e-5) and not np.any(drive.touches.right[:14])
 
 
 def test_a_seated_plate_touches_neither_flank_and_a_deeper_one_both_alike():

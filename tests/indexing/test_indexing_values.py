@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from drivewright.indexing.motion import TURN, IndexMotion, index_motion, motion_table
+from drivewright.indexing.pin_pressure import contact_force_table
 from drivewright.indexing.pin_wheel import PinWheel, profile_findings, sleeve_findings, wall_thicknesses
 from drivewright.indexing.stiffness.loading import dwell_angles
 from drivewright.indexing.stiffness.result import CARRIED, FREE, WheelStiffness
@@ -125,3 +126,14 @@ def test_a_segment_is_one_sided_at_its_ends():
     np.testing.assert_allclose(jet.d0, motion.pitch, rtol=1e-14)
     np.testing.assert_allclose(jet.d1, 0, atol=1e-12)
     assert abs(jet.d3[0]) > 1e-3 and jet.d3[1] == 0
+
+
+def test_a_table_of_forces_has_the_columns_that_it_is_given():
+    rows = [(0.1, 2.0, 30.0, 0.05, 4e8), (0.2, 3.0, 40.0, 0.06, np.nan)]
+    columns = ("angle", "pin", "force", "arm", "pressure")
+    table = contact_force_table("forces", "Forces", columns, rows, {"pin": "pin of the wheel"}, missing="a corner")
+    assert [(c.name, c.unit) for c in table.columns] == [("angle", "rad"), ("pin", "-"), ("force", "N"), ("arm", "m"), ("pressure", "Pa")]
+    assert [c.meaning for c in table.columns][:3] == ["input angle", "pin of the wheel", "force on the roller"]
+    np.testing.assert_array_equal([c.data for c in table.columns], np.transpose(rows))
+    assert (table.name, table.title, table.missing) == ("forces", "Forces", "a corner")
+    assert all(len(c.data) == 0 for c in contact_force_table("forces", "Forces", columns, []).columns)

@@ -1,4 +1,6 @@
-"""Hertz pressure of a pin on a profile, and the contact that resists a torque best."""
+"""Hertz pressure of a pin on a profile, the contact that resists a torque best, and tables of forces on pins."""
+
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -7,6 +9,17 @@ from drivewright._typing import Floats
 from drivewright.indexing.contacts import CamContacts
 from drivewright.indexing.plane import PinDrive, contacts_at
 from drivewright.result import Column, Table, Value
+
+FORCE_COLUMNS = {
+    "angle": ("rad", "input angle"),
+    "cam": ("-", "cam"),
+    "pin": ("-", "roller"),
+    "force": ("N", "force on the roller"),
+    "arm": ("m", "lever about the wheel's axis"),
+    "length": ("m", "length of the contact line"),
+    "pressure": ("Pa", "Hertz pressure"),
+}
+"""Unit and label of every column that a table of forces on pins or rollers may have."""
 
 
 def pin_pressure(force: float, curvature: float, pin_radius: float, width: float, modulus: float) -> float:
@@ -43,18 +56,25 @@ def longest_lever_table(drive: PinDrive, angles: Floats, torque: float, width: f
             rows.append(
                 (angle, pin + drive.levels[0].pins * number, force, arm, pin_pressure(force, curvature, level.pin_radius, width, modulus))
             )
-    data = np.array(rows, dtype=float).reshape(-1, 5).T
-    return Table(
-        "pin_forces",
-        "Force on the roller with the longest lever",
-        (
-            Column("angle", "rad", "input angle", data[0]),
-            Column("pin", "-", "roller", data[1]),
-            Column("force", "N", "force on the roller", data[2]),
-            Column("arm", "m", "lever about the wheel's axis", data[3]),
-            Column("pressure", "Pa", "Hertz pressure", data[4]),
-        ),
+    return contact_force_table(
+        "pin_forces", "Force on the roller with the longest lever", ("angle", "pin", "force", "arm", "pressure"), rows
     )
+
+
+def contact_force_table(
+    name: str,
+    title: str,
+    columns: Sequence[str],
+    rows: Sequence[tuple[float, ...]],
+    labels: Mapping[str, str] | None = None,
+    missing: str = "",
+) -> Table:
+    """The table of forces with these columns of `FORCE_COLUMNS`, a row for each contact; `labels` of columns that have another one here."""
+    data = np.array(rows, dtype=float).reshape(-1, len(columns)).T
+    units = {column: FORCE_COLUMNS[column] for column in columns}
+    named = {column: (labels or {}).get(column, label) for column, (_, label) in units.items()}
+    made = (Column(column, units[column][0], named[column], numbers) for column, numbers in zip(columns, data, strict=True))
+    return Table(name, title, tuple(made), missing=missing)
 
 
 def largest_pin_values(forces: Table) -> dict[str, Value]:

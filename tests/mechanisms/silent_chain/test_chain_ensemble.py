@@ -28,6 +28,7 @@ from drivewright.chains.explicit.state import SUMS
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import build
 from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
+from drivewright.numerics.ensemble import estimate
 from drivewright.spec import from_document
 from drivewright.spec.parsing import change_key
 
@@ -190,7 +191,9 @@ def synthetic(system, signal, revolutions=2.0, member=0):
 def test_windows_are_revolutions_and_their_parts(system):
     seen = synthetic(system, lambda x, _: x, 2.6)
     assert [(rows.start, rows.stop) for rows in seen.windows()] == [(0, 82 * 24 + 1), (82 * 24, 2 * 82 * 24 + 1)]
-    assert [rows.start for rows in seen.windows(4)] == [k * 82 * 6 for k in range(8)]
+    assert [(rows.start, rows.stop) for rows in seen.windows(4)] == [  # of 20 whole teeth each, two of the 82 left over
+        (24 * tooth, 24 * (tooth + 20) + 1) for tooth in (0, 20, 40, 60, 82, 102, 122, 142)
+    ]
     short = synthetic(system, lambda x, _: x, 0.5)
     assert (short.revolutions, [(rows.start, rows.stop) for rows in short.windows()]) == (0, [(0, 41 * 24 + 1)])
 
@@ -302,6 +305,52 @@ def test_what_repeats_is_periodic_and_its_interval_is_rounding(system):
     for statistic, spread in ((mean_of(centre_distance), range_of(centre_distance)), (range_of(centre_distance), None)):
         found = runs.estimate(statistic, spread)
         assert found.interval == "periodic" and found.settled and found.high - found.low < 1e-5 * 2e-6
+
+
+def test_two_windows_that_agree_by_chance_are_not_a_narrow_interval(system):
+    """A beat of 1.7 to the revolution, amplitude 1e-6: both revolutions have all but the same mean, their quarters have not."""
+    beat = lambda x, _: 0.2 + 1e-6 * np.sin(2 * np.pi * x / 1.7 + 0.925 * np.pi - 2 * np.pi / 1.7)  # noqa: E731
+    runs = Ensemble((synthetic(system, beat, 2.0),), chaotic=False)
+    chance, found = runs.estimate(MEAN, RIPPLE), runs.estimate_mean(centre_distance, RIPPLE)
+    assert found.value == chance.value and found.interval == "windows"
+    quarters = estimate(runs.windows(MEAN, 4))
+    assert chance.high - chance.low < 0.1 * (quarters.high - quarters.low) and quarters.high - quarters.low > 6e-7
+    np.testing.assert_allclose([found.high - found.value, found.value - found.low], 0.5 * (quarters.high - quarters.low), rtol=1e-6)
+    level = by_revolution(system, [[0.0, 3e-6, -1e-6]], 1e-6)
+    assert level.estimate_mean(centre_distance, RIPPLE).high >= level.estimate(MEAN, RIPPLE).high
+    assert (
+        Ensemble((synthetic(system, lambda x, _: 0.2 + 1e-6 * np.sin(164 * np.pi * x)),)).estimate_mean(centre_distance).interval
+        == "periodic"
+    )
+
+
+@pytest.mark.parametrize("grows, settled", [(1.4, True), (1.6, False), (0.1, True)])
+def test_a_motion_in_which_a_disturbance_grows_has_not_settled(system, grows, settled):
+    """The distance of two runs in the second window over that in the first; from far below what would make them two."""
+    settings = Settings()
+    undisturbed = first_start(system, settings).poses
+
+    def solved(model, duration, settings, begin):
+        other = float(np.any(begin.poses != undisturbed))
+        signal = lambda x, _: 0.2 + 1e-5 * np.sin(164 * np.pi * x) + other * 1e-9 * np.where(x < 1, 1.0, grows)  # noqa: E731
+        return synthetic(system, signal, 2.0)
+
+    found = ensemble(system, 1.0, settings, 4, solve=solved, workers=1)
+    assert not found.chaotic and found.growth == pytest.approx(grows, rel=1e-3) and found.stable == settled
+    assert found.estimate(MEAN, RIPPLE).settled == found.estimate(RIPPLE).settled == settled
+    assert found.estimate(MEAN, RIPPLE).interval == "periodic"
+
+
+def test_a_distance_of_rounding_is_no_growth(system):
+    settings = Settings()
+    undisturbed = first_start(system, settings).poses
+
+    def solved(model, duration, settings, begin):
+        other = float(np.any(begin.poses != undisturbed))
+        return synthetic(system, lambda x, _: 0.2 + 1e-5 * np.sin(164 * np.pi * x) + other * 1e-13 * x**4, 2.0)
+
+    found = ensemble(system, 1.0, settings, 2, solve=solved, workers=1)
+    assert found.growth == 1.0 and found.stable
 
 
 def test_percentiles_are_enclosed_by_order_statistics():

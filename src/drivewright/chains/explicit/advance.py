@@ -17,7 +17,7 @@ from drivewright.chains.explicit.snapshots import Snapshots, take_snapshot
 from drivewright.chains.explicit.state import ChainConstants, ContactCandidates, DriveArrays, Joints, Plates, Teeth, Touches
 from drivewright.chains.explicit.step import (
     accelerate_plates,
-    add_contact_forces,
+    add_reaction,
     close_rates,
     close_ring,
     drift_plates,
@@ -93,7 +93,7 @@ def load(
             load_rollers(chain, p, t, b, teeth, n, first, last, dt)
         else:
             load_flanks(chain, p, t, b, teeth, n, first, last, dt)
-        add_contact_forces(p, t, b, n, first, last)
+        add_reaction(t, b, n, first, last)
     impulse(chain, p, b, gravity, power)
 
 

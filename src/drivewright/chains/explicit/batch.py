@@ -8,7 +8,7 @@ import scipy
 
 from drivewright._typing import ArrayLike, Floats
 from drivewright.cases import Outcomes, run
-from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, ensemble, maximum_of, mean_of, range_of
+from drivewright.chains.explicit.ensemble import Ensemble, amplitude_of, ensemble, maximum_of, range_of
 from drivewright.chains.explicit.signals import Signal
 from drivewright.chains.explicit.simulate import Settings, tooth_time
 from drivewright.chains.model import ChainDrive, at_speed, with_sprocket
@@ -46,7 +46,7 @@ def level(runs: Ensemble, orders: Sequence[float] = ORDERS) -> Level:
     spectrum, reach = mean_of_members(amplitudes)
     found = Level(
         first.model.drive.speed,
-        runs.estimate(mean_of(signal), range_of(signal)),
+        runs.estimate_mean(signal, range_of(signal)),
         runs.estimate(range_of(signal)),
         tuple(runs.estimate(amplitude_of(signal, order)) for order in orders),
         mesh / first.tooth_time,

@@ -20,7 +20,7 @@ from drivewright.chains.explicit.state import (
     Touches,
     law_of,
 )
-from drivewright.chains.explicit.step import total
+from drivewright.chains.explicit.step import total, whole_vectors
 from drivewright.chains.touching.guide import is_on_arc, nearest_on_plate
 from drivewright.chains.touching.roller import roller_contact
 from drivewright.contact.normal import stored_energy
@@ -29,7 +29,7 @@ from drivewright.contact.time_step import mean_force
 
 @elementwise
 def load_rollers(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, n: int, first: int, last: int, dt: float) -> None:
-    """Rollers on the right-hand pins of the plates first .. last-1 in the gaps of sprocket n.
+    """Rollers on the right-hand pins of the plates first .. last-1 in the gaps of sprocket n, and what they do to the plates.
 
     Depths as in `touching.roller`, of the roller's centre seen from that of the seat, mirrored to the right.
     """
@@ -37,7 +37,8 @@ def load_rollers(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth
     ex, ey, hx, hy = teeth.edge_x[n], teeth.edge_y[n], teeth.flank_x[n], teeth.flank_y[n]
     seat_at, seat_gap, flank_gap, low, ux, uy = teeth.seat_at[n], teeth.seat_gap[n], teeth.flank_gap[n], teeth.low[n], b.vx[n], b.vy[n]
     turned_c, turned_s = np.cos(b.psi[n]), np.sin(b.psi[n])
-    for i in range(np.uint64(first), np.uint64(last)):
+    for i in range(np.uint64(first), whole_vectors(first, last)):
+        own = i < np.uint64(last)
         rx, ry = p.half[i] * p.c[i] + chain.offset * p.s[i], p.half[i] * p.s[i] - chain.offset * p.c[i]
         gx, gy = p.x[i] + rx - bx, p.y[i] + ry - by
         c, s = turned_c * t.seat_cos[i] - turned_s * t.seat_sin[i], turned_s * t.seat_cos[i] + turned_c * t.seat_sin[i]
@@ -52,16 +53,19 @@ def load_rollers(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth
         zx, zy = p.vx[i] - p.w[i] * ry - ux + spin * gy, p.vy[i] + p.w[i] * rx - uy - spin * gx
         rate = -(wx * zx + wy * zy)
         elastic, force, touching = mean_force(law, depth, rate, dt)
-        on = touching & (seat_at + out < low)
+        on = own & touching & (seat_at + out < low)
         elastic, force = (elastic if on else 0.0), (force if on else 0.0)
-        t.fx[i], t.fy[i] = force * wx, force * wy
-        t.torque[i] = -force * (gx * wy - gy * wx)
-        power = (force - elastic) * rate
-        t.power[i] = power
+        fx, fy, power = force * wx, force * wy, (force - elastic) * rate
+        right, left, before = t.right[i], t.left[i], t.power[i]
+        t.right[i] = (force if seated else 0.0) if own else right
+        t.left[i] = (0.0 if seated else force) if own else left
+        t.power[i] = power if own else before
         t.lost[i] += dt * power
         t.stored[i] += stored_energy(law, -depth) if on else 0.0
-        t.right[i], t.left[i] = (force, 0.0) if seated else (0.0, force)
-        p.moment[i] += force * (rx * wy - ry * wx)
+        t.fx[i], t.fy[i], t.torque[i] = fx, fy, gy * fx - gx * fy
+        p.fx[i] += fx
+        p.fy[i] += fy
+        p.moment[i] += rx * fy - ry * fx
 
 
 @inner
@@ -91,29 +95,30 @@ def load_plates_on_guide(
     friction, slip2 = arcs.friction[n], arcs.slip[n] ** 2
     bx, by, ux, uy, spin = b.x[body], b.y[body], b.vx[body], b.vy[body], b.w[body]
     py = -side * arcs.distance[n] - chain.offset  # of the line, above the mass centre
-    for i in range(np.uint64(first), np.uint64(last)):
+    for i in range(np.uint64(first), whole_vectors(first, last)):
+        own = i < np.uint64(last)
         c, s, w = p.c[i], p.s[i], p.w[i]
         gx, gy = p.x[i] - bx, p.y[i] - by
         zx, zy = p.vx[i] - ux, p.vy[i] - uy
         ex, ry = c * gx + s * gy, c * gy - s * gx + py
         px, x, far = nearest_on_plate(ex, ry, half)
-        by_far = 1.0 / far
+        by_far = 1.0 / max(far, 1e-15)
         nx, ny = x * by_far, ry * by_far
         vx, vy = c * zx + s * zy - w * py, c * zy - s * zx + w * px
         depth, rate = radius - far, -(nx * vx + ny * vy)
         within = is_on_arc(c, s, nx, ny, 1.0, middle_x, middle_y, opening)
         elastic, force, touching = mean_force(law, depth, rate, dt)
-        on = touching & (side * ry > 0.0) & within
+        on = own & touching & (side * ry > 0.0) & within
         elastic, force = (elastic if on else 0.0), (force if on else 0.0)
         slide = side * (ny * vx - nx * vy + far * spin)
         drag = -friction * force * slide / np.sqrt(slide * slide + slip2)
         fx, fy = nx * force + side * ny * drag, ny * force - side * nx * drag
-        t.fx[i] = c * fx - s * fy
-        t.fy[i] = s * fx + c * fy
-        t.torque[i] = side * far * drag
+        x, y, damped, rubbed = c * fx - s * fy, s * fx + c * fy, (force - elastic) * rate, drag * slide
+        t.fx[i], t.fy[i], t.torque[i] = x, y, side * far * drag
+        t.guide_damped[i], t.guide_rubbed[i] = damped, rubbed
         t.stored[i] += stored_energy(law, -depth) if on else 0.0
-        t.guide_damped[i] = (force - elastic) * rate
-        t.guide_rubbed[i] = drag * slide
+        p.fx[i] += x
+        p.fy[i] += y
         p.moment[i] += px * fy - py * fx
 
 

@@ -27,17 +27,25 @@ LITTLE = 0.1  # of a statistic: a drift between halves that does not matter
 MEMORY = 3  # enough to trust that a larger one is chance: effective samples of each member, of PARTS times its revolutions
 TOGETHER = 1e-2  # of the range of the signal: runs that are nowhere further apart are one
 ROUNDING = 1e-6  # windows that agree to this part of a statistic repeat each other
+GROWTH = 1.5  # of the distance between two runs from the first window to the last: with more, neither stays in the motion that it is in
 
 
 @dataclass(frozen=True)
 class Ensemble:
     """Runs of one drive, the first undisturbed; the first alone where they stay together, and are not chaotic.
 
-    A signal is a function of a run that returns its samples (m,).
+    A signal is a function of a run that returns its samples (m,).  `growth`: by how much two runs that stay together part from the first
+    window to the last.  Where it is above 1 the motion is unstable, and the runs will leave it for another.
     """
 
     members: tuple[Motion, ...]
     chaotic: bool = True
+    growth: float = 1.0
+
+    @property
+    def stable(self) -> bool:
+        """Whether the motion stays as it is: a disturbance does not grow in it."""
+        return self.growth <= GROWTH
 
     @property
     def first(self) -> Motion:
@@ -59,8 +67,20 @@ class Ensemble:
         centre = samples[0, 0] if spread else 0.0
         scale = float(np.max(np.abs(self.windows(spread or statistic))))
         found = estimate(samples - centre, rounding=ROUNDING, scale=scale)
-        settled = found.interval == "periodic" or self.is_settled(statistic, scale)
+        settled = (found.interval == "periodic" and self.stable) or self.is_settled(statistic, scale)
         return replace(found, value=found.value + centre, low=found.low + centre, high=found.high + centre, settled=settled)
+
+    def estimate_mean(self, signal: Callable, spread: Callable | None = None) -> Estimate:
+        """The mean over time of a signal that belongs to no plate or joint; `spread` as in `estimate`.
+
+        The few windows of a run that stands alone may agree by chance, so its interval is no narrower than that by parts of windows.
+        """
+        found = self.estimate(mean_of(signal), spread)
+        if found.interval != "windows":
+            return found
+        parts = estimate(self.windows(mean_of(signal), PARTS))
+        reach = max(found.high - found.value, 0.5 * (parts.high - parts.low))
+        return replace(found, low=found.value - reach, high=found.value + reach)
 
     def extreme(self, statistic: Callable) -> Estimate:
         """The mean of statistic(run, rows) over the whole steady part of each member; it grows with the duration."""
@@ -74,7 +94,7 @@ class Ensemble:
         part over all revolutions is taken off.  A single revolution cannot tell.  Where chance has no part in the motion, windows tell by
         themselves.
         """
-        if self.first.revolutions < 2:
+        if self.first.revolutions < 2 or not self.stable:
             return False
         if not self.chaotic:
             return self._drift(statistic) <= LITTLE * scale
@@ -164,8 +184,10 @@ def ensemble(
         return solve(model, duration, settings, begin=disturbed(begin, (seed, number)) if number else begin)
 
     runs = _runs(member, range(min(members, 2)), workers, progress)
-    if len(runs) < 2 or _same(*runs):
-        return Ensemble(runs[:1], chaotic=len(runs) < 2)
+    if len(runs) < 2:
+        return Ensemble(runs)
+    if _same(*runs):
+        return Ensemble(runs[:1], chaotic=False, growth=_growth(*runs))
     return Ensemble((*runs, *_runs(member, range(2, members), workers, progress)))
 
 
@@ -183,6 +205,14 @@ def _same(one, other):
     signal = signals(one.model)[0]
     a, b = signal.of(one)[one.steady], signal.of(other)[other.steady]
     return bool(np.max(np.abs(a - b)) <= TOGETHER * np.ptp(a))
+
+
+def _growth(one, other):
+    """Distance of two runs in the last window over that in the first, root mean squares; 1 where it is rounding."""
+    signal = signals(one.model)[0]
+    a, b = signal.of(one), signal.of(other)
+    apart = [float(np.sqrt(np.mean((a[rows] - b[rows]) ** 2))) for rows in one.windows()]
+    return apart[-1] / apart[0] if apart[-1] > ROUNDING * np.ptp(a[one.steady]) else 1.0
 
 
 def disturbed(begin: Start, seed: tuple[int, int]) -> Start:

@@ -126,12 +126,12 @@ class Motion:
         return self.teeth // self.model.chain.count
 
     def windows(self, parts: int = 1) -> tuple[slice, ...]:
-        """Rows (slices) of the revolutions of the chain in the steady part, each in so many equal parts.
+        """Rows (slices) of the revolutions of the chain in the steady part, each in so many equal parts of whole teeth.
 
-        A steady part that holds no revolution is one window as a whole.
+        A steady part that holds no revolution is one window as a whole.  Teeth that are left over are in no part.
         """
-        each = (self.model.chain.count if self.revolutions else self.teeth) * self.per_tooth
-        part, count = each // parts, max(1, self.revolutions)
+        teeth, count = (self.model.chain.count if self.revolutions else self.teeth), max(1, self.revolutions)
+        each, part = teeth * self.per_tooth, teeth // parts * self.per_tooth or teeth * self.per_tooth // parts
         starts = [self.steady.start + k * each + n * part for k in range(count) for n in range(parts)]
         return tuple(slice(first, first + part + 1) for first in starts)
 

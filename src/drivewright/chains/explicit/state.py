@@ -1,7 +1,8 @@
 """The drive as arrays: what the kernels read and write.
 
 Plates lie in rows of `lanes`, a whole number of vectors: behind the N plates comes a copy of the first one, so that a joint finds its
-right-hand plate one place further, and dead plates that nothing moves.  What belongs to joint i stands at i + 1, for the same reason.
+right-hand plate one place further, and dead plates that nothing moves, a vector of them more than joints need: runs of plates are read in
+whole vectors from any plate on.  What belongs to joint i stands at i + 1, for the same reason.
 """
 
 from typing import Any, NamedTuple
@@ -331,8 +332,12 @@ def _contacts(model: ChainDrive) -> LinearLaws | ContactLaws:
     return ContactLaws(tuple(contact_law(each.law, ContactParameters(each.stiffness, damping=each.damping)) for each in contacts))
 
 
+def _lanes(chain):
+    return PLATES_PER_VECTOR * (chain.blocks + 1)
+
+
 def _padded_row(chain):
-    return np.zeros(PLATES_PER_VECTOR * chain.blocks + 1)
+    return np.zeros(_lanes(chain) + 1)
 
 
 def _plates(model, chain):
@@ -341,7 +346,7 @@ def _plates(model, chain):
     half, rest = _padded_row(chain), [_padded_row(chain)[:-1] for _ in range(7)]
     half[: chain.count] = 0.5 * model.chain.hole_pitches
     half[chain.count] = half[0]
-    live = np.where(np.arange(PLATES_PER_VECTOR * chain.blocks) < chain.count, 1.0, 0.0)
+    live = np.where(np.arange(_lanes(chain)) < chain.count, 1.0, 0.0)
     constants = (
         live / model.chain.mass,
         live / model.chain.inertia,

@@ -21,7 +21,7 @@ def signal_values(runs: Ensemble) -> dict[str, Value]:
 def _values_of(runs, signal):
     of, words = signal.of, signal.words
     found = {
-        "mean": (runs.estimate(mean_of(of), range_of(of)), f"mean of the {words}"),
+        "mean": (runs.estimate_mean(of, range_of(of)), f"mean of the {words}"),
         "fluctuation": (runs.estimate(range_of(of)), f"peak-to-peak of the {words} in a revolution of the chain"),
         "range": (runs.extreme(range_of(of)), f"peak-to-peak of the {words} in the whole run"),
         "mesh_order_amplitude": (runs.estimate(amplitude_of(of)), f"amplitude of the {words} at the mesh frequency"),
@@ -34,7 +34,7 @@ def tensioner_values(runs: Ensemble) -> dict[str, Value]:
     values, model = {}, runs.first.model
     for number in tensioners(model):
         name = travel(model, number).name.removesuffix(".travel")
-        found = runs.estimate(mean_of(spring_force(model, number)))
+        found = runs.estimate_mean(spring_force(model, number))
         values[f"{name}.force"] = Value.of(found, "N", f"mean force of the spring of {name.replace('.', ' ')}")
     return values
 

@@ -73,7 +73,7 @@ def load_gravity(chain: ChainConstants, p: Plates, t: Touches) -> None:
 
 @elementwise
 def load_flanks(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth: Teeth, n: int, first: int, last: int, dt: float) -> None:
-    """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n.
+    """Both flanks of the plates first .. last-1 on the involute teeth of sprocket n, and what they do to the plates.
 
     Depths as in `touching.flank`, forces by the law of the sprocket.
     """
@@ -81,7 +81,8 @@ def load_flanks(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth:
     law, rb, support = law_of(chain.laws, b[n], n), teeth.base[n], teeth.support[n]
     low, high, deep, top = teeth.low[n], teeth.high[n], chain.deepest, chain.highest
     bx, by, ux, uy, psi, spin = b.x[n], b.y[n], b.vx[n], b.vy[n], b.psi[n], b.w[n]
-    for i in range(np.uint64(first), np.uint64(last)):
+    for i in range(np.uint64(first), whole_vectors(first, last)):
+        own = i < np.uint64(last)
         c, s, w = p.c[i], p.s[i], p.w[i]
         gx, gy = p.x[i] - bx, p.y[i] - by
         ex, ey = c * gx + s * gy, c * gy - s * gx - offset
@@ -93,23 +94,25 @@ def load_flanks(chain: ChainConstants, p: Plates, t: Touches, b: Records, teeth:
         pen_l, left, at_l = flank_contact(ca, sa, wide, rb, support, -1.0, ex, ey, turned)
         rate_r = ca * dx - sa * dy - turning
         rate_l = -ca * dx - sa * dy + turning
-        on_r = is_active(right, low, high, at_r, deep, top)
-        on_l = is_active(left, low, high, at_l, deep, top)
+        on_r = own & is_active(right, low, high, at_r, deep, top)
+        on_l = own & is_active(left, low, high, at_l, deep, top)
         elastic_r, fr, _ = mean_force(law, pen_r, rate_r, dt)
         elastic_l, fl, _ = mean_force(law, pen_l, rate_l, dt)
         elastic_r, elastic_l = (elastic_r if on_r else 0.0), (elastic_l if on_l else 0.0)
         fr, fl = (fr if on_r else 0.0), (fl if on_l else 0.0)
         pen_r, pen_l = (max(pen_r, 0.0) if on_r else 0.0), (max(pen_l, 0.0) if on_l else 0.0)
         fx, fy = ca * (fl - fr), sa * (fl + fr)
-        t.right[i] = fr
-        t.left[i] = fl
-        t.fx[i] = c * fx - s * fy
-        t.fy[i] = s * fx + c * fy
-        t.torque[i] = rb * (fl - fr)
-        t.damped_right[i] = fr - elastic_r
-        t.damped_left[i] = fl - elastic_l
+        x, y, moment = c * fx - s * fy, s * fx + c * fy, fr * at_r - fl * at_l + offset * fx
+        right_before, left_before = t.right[i], t.left[i]
+        damped_right_before, damped_left_before = t.damped_right[i], t.damped_left[i]
+        t.right[i], t.left[i] = (fr if own else right_before), (fl if own else left_before)
+        t.damped_right[i] = fr - elastic_r if own else damped_right_before
+        t.damped_left[i] = fl - elastic_l if own else damped_left_before
+        t.fx[i], t.fy[i], t.torque[i] = x, y, rb * (fl - fr)
         t.stored[i] += flank_energy(chain.laws, law, pen_r, pen_l)
-        p.moment[i] += fr * at_r - fl * at_l + offset * fx
+        p.fx[i] += x
+        p.fy[i] += y
+        p.moment[i] += moment
 
 
 @elementwise
@@ -119,15 +122,26 @@ def flank_damping_work(
     """Power and work of the flanks' damping, as of the joints'."""
     ca, sa, rb = chain.cos, chain.sin, teeth.base[n]
     bx, by, ux, uy, spin = b.x[n], b.y[n], b.vx[n], b.vy[n], b.w[n]
-    for i in range(np.uint64(first), np.uint64(last)):
+    for i in range(np.uint64(first), whole_vectors(first, last)):
+        own = i < np.uint64(last)
         c, s, w = p.c[i], p.s[i], p.w[i]
         gx, gy, zx, zy = p.x[i] - bx, p.y[i] - by, p.vx[i] - ux, p.vy[i] - uy
         across = ca * (c * zx + s * zy + w * (c * gy - s * gx))
         out = -sa * (c * zy - s * zx - w * (c * gx + s * gy))
         turning = rb * (w - spin)
-        power = t.damped_right[i] * (out + across - turning) + t.damped_left[i] * (out - across + turning)
-        t.power[i] = power
-        t.lost[i] += dt * power
+        power, before = t.damped_right[i] * (out + across - turning) + t.damped_left[i] * (out - across + turning), t.power[i]
+        t.power[i] = power if own else before
+        t.lost[i] += dt * power if own else 0.0
+
+
+@inner
+def whole_vectors(first: int, last: int) -> np.uint64:
+    """End of the whole vectors, from `first` on, that hold the plates first .. last-1; those behind `last` are left as they are.
+
+    A run of few plates, as on an idler, would else go through its loop plate by plate.
+    """
+    most = np.uint64(PLATES_PER_VECTOR)
+    return np.uint64(first) + (np.uint64(last - first) + (most - np.uint64(1))) // most * most
 
 
 @inner
@@ -146,12 +160,9 @@ def total(row: Floats, first: int, last: int) -> float:
     return (a + b) + (c + d)
 
 
-@elementwise
-def add_contact_forces(p: Plates, t: Touches, b: Records, n: int, first: int, last: int) -> None:
-    """Contact forces onto the plates first .. last-1, and the opposite ones onto body n."""
-    for i in range(np.uint64(first), np.uint64(last)):
-        p.fx[i] += t.fx[i]
-        p.fy[i] += t.fy[i]
+@inner
+def add_reaction(t: Touches, b: Records, n: int, first: int, last: int) -> None:
+    """What the plates first .. last-1 do to body n: the opposite of its forces on them."""
     b.fx[n] -= total(t.fx, first, last)
     b.fy[n] -= total(t.fy, first, last)
     b.torque[n] += total(t.torque, first, last)

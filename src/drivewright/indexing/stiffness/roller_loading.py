@@ -8,6 +8,7 @@ import numpy as np
 from drivewright._typing import Floats, Numbers
 from drivewright.contact import line_contact
 from drivewright.indexing.parallel import ParallelIndexer
+from drivewright.indexing.pin_pressure import contact_force_table
 from drivewright.indexing.plane import contacts_at
 from drivewright.indexing.play import find_play
 from drivewright.indexing.roller_gear.design import RollerGear
@@ -16,7 +17,7 @@ from drivewright.indexing.stiffness.loading import REACH
 from drivewright.indexing.stiffness.result import FREE, WheelStiffness, take_up_play
 from drivewright.indexing.stiffness.roller_contacts import RollerContacts, of_flanks, of_plate_cams
 from drivewright.indexing.stiffness.roller_drive import RollerDrive, solve_roller_stiffness
-from drivewright.result import Column, Table
+from drivewright.result import Table
 
 ALONG = 9  # places along a roller
 
@@ -76,18 +77,11 @@ def shared_force_table(angles: Floats, contacts: Sequence[RollerContacts], force
             known = pressed[k] > 0 and np.isfinite(curvature) and curvature > 0
             pressure = float(line_contact(pressed[k], each.length[k], 1 / curvature, modulus).pressure) if known else np.nan
             rows.append((angle, each.cam[k], each.roller[k], pressed[k], each.arm[k], each.length[k], pressure))
-    data = np.array(rows, dtype=float).reshape(-1, 7).T
-    return Table(
+    return contact_force_table(
         "shared_forces",
         "Roller forces shared by stiffness",
-        (
-            Column("angle", "rad", "input angle", data[0]),
-            Column("cam", "-", "cam, or flank: 0 pushes forward, 1 backward", data[1]),
-            Column("pin", "-", "roller", data[2]),
-            Column("force", "N", "force on the roller", data[3]),
-            Column("arm", "m", "lever about the wheel's axis", data[4]),
-            Column("length", "m", "length of the contact line", data[5]),
-            Column("pressure", "Pa", "Hertz pressure", data[6]),
-        ),
+        ("angle", "cam", "pin", "force", "arm", "length", "pressure"),
+        rows,
+        {"cam": "cam, or flank: 0 pushes forward, 1 backward"},
         missing="no Hertz pressure at a corner or in a pull",
     )

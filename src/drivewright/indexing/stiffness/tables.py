@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright._typing import Complexes, Floats
 from drivewright.indexing.contacts import CamContacts
-from drivewright.indexing.pin_pressure import pin_pressure
+from drivewright.indexing.pin_pressure import contact_force_table, pin_pressure
 from drivewright.indexing.stiffness.result import TorsionalStiffness, WheelStiffness
 from drivewright.result import Column, Plot, Table
 
@@ -65,18 +65,12 @@ def pin_force_table(
             for k in np.flatnonzero(np.nan_to_num(row) != 0):
                 pressure = pin_pressure(row[k], each.curvature[k], pin_radius, width, modulus)
                 rows.append((angle, cam, each.pin[k], row[k], each.arm[k], pressure))
-    data = np.array(rows, dtype=float).reshape(-1, 6).T
-    return Table(
+    return contact_force_table(
         name,
         title,
-        (
-            Column("angle", "rad", "input angle", data[0]),
-            Column("cam", "-", "cam", data[1]),
-            Column("pin", "-", "pin, counted from the first cam's own line", data[2]),
-            Column("force", "N", "force on the pin", data[3]),
-            Column("arm", "m", "lever about the wheel's axis", data[4]),
-            Column("pressure", "Pa", "Hertz pressure", data[5]),
-        ),
+        ("angle", "cam", "pin", "force", "arm", "pressure"),
+        rows,
+        {"pin": "pin, counted from the first cam's own line", "force": "force on the pin"},
         missing="no Hertz pressure at a corner, in a pull, or where the profile is as hollow as the pin",
     )
 

@@ -156,7 +156,12 @@ def settled(values: Mapping[str, Value]) -> Check:
 def _remarks(runs, values):
     """What keeps the numbers from being the whole truth."""
     drifting = [name for name, value in values.items() if not value.settled]
-    if drifting and runs.first.revolutions < 2:
+    if not runs.stable:
+        yield (
+            f"the motion is unstable: two runs whose starts differ by nanometres part {runs.growth:.2g}-fold from the first revolution of "
+            "the chain that is evaluated to the last, and will settle to another motion; give dynamics.settling more"
+        )
+    elif drifting and runs.first.revolutions < 2:
         yield (
             "dynamics.duration holds less than two revolutions of the chain: they cannot tell whether the run has settled; below one, "
             "statistics are those of the whole run and depend on its length"
