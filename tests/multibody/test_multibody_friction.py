@@ -1,15 +1,18 @@
 """Friction of ideal joints against closed forms, an independent balance of every body, and exact properties."""
 
 import dataclasses
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from scipy.optimize import fsolve
 
+from drivewright._jit import plain
 from drivewright.errors import InputError
 from drivewright.multibody.analyses.energy_audit import audit
 from drivewright.multibody.assembly import assemble
-from drivewright.multibody.forces.joint_friction import JointFriction
+from drivewright.multibody.forces.joint_friction import SLIDE, SLOT, JointFriction
+from drivewright.multibody.forces.sliding_friction import joint_rate, unit_force
 from drivewright.multibody.model import (
     GROUND,
     AppliedForce,
@@ -411,3 +414,22 @@ def test_the_runs_of_an_ensemble_side_by_side_are_those_one_by_one():
     together = [row.value for row in cases.run(end, range(4), workers=None).rows]
     for number, found in enumerate(together):
         np.testing.assert_array_equal(found, end(number))
+
+
+def test_a_unit_force_of_friction_turns_both_bodies_about_their_centroids():
+    """Its torques are those of (ux, uy) at the point of the first body, and of its opposite there on the second; the rate is their power."""
+    rng = np.random.default_rng(4)
+    for kind in (SLIDE, SLOT):
+        x, y, angle, vx, vy, w = rng.normal(size=(6, 2))
+        poses = [SimpleNamespace(x=x[n], y=y[n], c=np.cos(angle[n]), s=np.sin(angle[n]), vx=vx[n], vy=vy[n], w=w[n]) for n in range(2)]
+        point, axis = complex(*rng.normal(size=2)), np.exp(1j * rng.normal())
+        friction = SimpleNamespace(kind=kind, i=0, j=1, ax=point.real, ay=point.imag, ex=axis.real, ey=axis.imag)
+        centres, turned = x + 1j * y, np.exp(1j * angle)
+        place, force = centres[0] + turned[0] * point, turned[1] * axis
+        torques = [(np.conj(place - centre) * sign * force).imag for centre, sign in zip(centres, (1.0, -1.0), strict=True)]
+        work = SimpleNamespace(poses=poses)
+        unit = plain(unit_force)(work, friction)
+        np.testing.assert_allclose(unit, (force.real, force.imag, *torques), rtol=1e-12)
+        rates = [vx[n] + 1j * vy[n] + 1j * w[n] * (place - centres[n]) for n in range(2)]
+        wanted = (np.conj(force) * (rates[0] - rates[1])).real
+        assert plain(joint_rate)(work, friction, unit) == pytest.approx(wanted, rel=1e-12)
