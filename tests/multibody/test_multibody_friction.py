@@ -417,7 +417,7 @@ def test_the_runs_of_an_ensemble_side_by_side_are_those_one_by_one():
 
 
 def test_a_unit_force_of_friction_turns_both_bodies_about_their_centroids():
-    """Its torques are those of (ux, uy) at the point of the first body, and of its opposite there on the second; the rate is their power."""
+    """Torques of (ux, uy) at the point of the first body, of its opposite there on the second; the rate is their power."""
     rng = np.random.default_rng(4)
     for kind in (SLIDE, SLOT):
         x, y, angle, vx, vy, w = rng.normal(size=(6, 2))
