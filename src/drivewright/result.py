@@ -96,7 +96,8 @@ BOUNDED = (
 class Value(NamedTuple):
     """One number [SI unit] and what it means; where it is uncertain with its 95 % interval.
 
-    `label` is the short name for people, from the meaning where it is not given; `meaning` is the sentence.
+    `label` is the short name for people, from the meaning where it is not given; `meaning` is the sentence; `convention` settles sign,
+    zero or sense, where that is not plain: "positive where it opposes the rise".
 
     `interval` says how that was made: "ensemble" or "windows" of a chaotic run, "visits", "sample", "fit", "periodic" (rounding),
     "outlines" (by how finely they are divided), "mesh" (of finite elements, from a finer one), "given" (of a range that the spec
@@ -115,6 +116,7 @@ class Value(NamedTuple):
     settled: bool = True
     error: float | None = None
     label: str = ""
+    convention: str = ""
 
     @property
     def made(self) -> str:
@@ -124,10 +126,10 @@ class Value(NamedTuple):
         return f"{'bound' if self.interval in BOUNDED else '95 %'}, {self.interval}"
 
     @classmethod
-    def of(cls, estimate: UncertainNumber, unit: str, meaning: str, label: str = "") -> "Value":
+    def of(cls, estimate: UncertainNumber, unit: str, meaning: str, label: str = "", convention: str = "") -> "Value":
         """The value of an estimate with its interval."""
         low, high, error = estimate.low, estimate.high, estimate.error
-        return cls(estimate.value, unit, meaning, low, high, estimate.interval, estimate.settled, error, label).plain()
+        return cls(estimate.value, unit, meaning, low, high, estimate.interval, estimate.settled, error, label, convention).plain()
 
     def plain(self) -> "Value":
         """The same in Python's own floats; a bound that is not finite is None, and without any bound there is no interval."""
@@ -142,7 +144,8 @@ class Value(NamedTuple):
         bounds = {name: end for name, end in (("low", plain.low), ("high", plain.high)) if end is not None}
         how = {"interval": plain.interval} if plain.interval else {}
         unsettled = {} if plain.settled else {"settled": False}
-        return {"value": plain.value, "unit": plain.unit, "label": plain.label, "meaning": plain.meaning, **bounds, **how, **unsettled}
+        about = {"label": plain.label, "meaning": plain.meaning} | ({"convention": plain.convention} if plain.convention else {})
+        return {"value": plain.value, "unit": plain.unit, **about, **bounds, **how, **unsettled}
 
 
 LOW, HIGH, ERROR = ".low", ".high", ".error"  # behind the name of a column: ends of its 95 % intervals; in studies its standard errors

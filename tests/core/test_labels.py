@@ -35,6 +35,13 @@ def test_a_label_of_its_own_stands_beside_the_meaning():
     assert (metadata[b"label"], metadata[b"meaning"]) == (b"Lift", b"how far it rises")
 
 
+def test_a_convention_stands_apart_from_label_and_meaning():
+    value = Value(1.0, "rad", "largest pressure angle", label="maximum pressure angle", convention="positive where it opposes the rise")
+    assert value.record()["convention"] == "positive where it opposes the rise" and Value(**value.record()).record() == value.record()
+    assert Value.of(value, "rad", "angle", convention="from above").record()["convention"] == "from above"
+    assert "convention" not in Value(1.0, "m", "lift").record()
+
+
 def test_the_key_of_a_spec_in_words():
     assert label_of_key("base_radius") == "Base radius" and label_of_key("n", "Number of teeth") == "Number of teeth"
 
