@@ -4,11 +4,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.multibody.analyses.actuation import actuations, observe_run
 from drivewright.multibody.analyses.ensemble import statistics
 from drivewright.multibody.analyses.simulation_model import SimulationModel, cycle_columns, last_turn, run_of
 from drivewright.multibody.analyses.turns import RunNumbers, mean_per_turn, start_of_window, turn_ends
 from drivewright.multibody.forces.joint_friction import KINDS
+from drivewright.multibody.forces.resting_friction import holding_shares, with_loads
 from drivewright.multibody.observe import POWER_FIELDS
 from drivewright.multibody.observed import FRICTION_FIELDS
 from drivewright.multibody.simulate import Run
@@ -16,6 +18,7 @@ from drivewright.multibody.system import joints_with_friction
 from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
+MORE, GROWS = 2.0, 1e-3  # factor on the loads, and growth of the shares by it, that tell self-locking from a load that is too small
 AT_REST = 1e-3  # rate over the largest one of the run below which a joint is at rest
 TURNING = (KINDS["pin"], KINDS["wheel"])
 
@@ -36,12 +39,18 @@ def friction_numbers(model: SimulationModel, run: Run) -> RunNumbers:
     losses = -observed.powers[:, POWER_FIELDS.index("friction")]
     rates |= {"driving": driving, "losses": losses, "holds": ((driving > 0) & (driving < losses)).astype(float)}
     for name, values in rates.items():
-        numbers.whole[name] = time_mean(observed.t, values)
-        numbers.turns.update({name: mean_per_turn(observed.t, values, ends)} if len(ends) > 1 else {})
+        t, values = staircase(observed.t, values) if name.endswith(".stuck") else (observed.t, values)
+        numbers.whole[name] = time_mean(t, values)
+        numbers.turns.update({name: mean_per_turn(t, values, ends)} if len(ends) > 1 else {})
     numbers.whole["loads"] = -_load_power(observed, driving, model)
     for k, (name, _) in enumerate(rubbing_joints(model)):
         numbers.whole[f"{name}.most"] = float(np.max(np.abs(observed.friction(k, "force"))))
     return numbers
+
+
+def staircase(t: Floats, x: Floats) -> tuple[Floats, Floats]:
+    """(times, values), the corners of x (m,) kept from each time to the next: what changes in events alone is no polygon between them."""
+    return np.repeat(t, 2)[1:-1], np.repeat(x, 2)[:-2]
 
 
 def _of_joint(observed, k):
@@ -133,5 +142,17 @@ def _standstill(model) -> Iterator[str]:
     held = ", ".join(f"{name!r} {100 * share:.3g} %" for (name, _), share in zip(rubbing_joints(model), shares, strict=True))
     yield (
         f"the mechanism stands still from t = {since:.4g} s to the end of the run: friction holds it. Used of what each joint can hold: "
-        f"{held}. A motor or load that is meant to move it has to be larger, or the friction smaller"
+        f"{held}. {_what_moves_it(run)}"
+    )
+
+
+def _what_moves_it(run):
+    """Whether larger loads would move what friction holds: not where they press the joints as much as they push."""
+    system, t, y = run.end
+    now, then = holding_shares(system, t, y), holding_shares(with_loads(system, MORE), t, y)
+    if np.any(then > now * (1 + GROWS)):
+        return "A motor or load that is meant to move it has to be larger, or the friction smaller"
+    return (
+        "It is self-locking: a larger load presses the joints as much harder as it pushes, and does not move it either. Take a smaller "
+        "coefficient, lengthen a guide (bearing_length), let the load act nearer to the joint, or make a slope steeper"
     )
