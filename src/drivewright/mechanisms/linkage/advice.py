@@ -17,8 +17,28 @@ def advice(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
 
 
 def assumed_friction(spec: LinkageSpec) -> tuple[str, ...]:
-    """Findings on the friction of ideal joints: what was not given for it, and where it is not taken into account."""
-    return tuple(text for joint in spec.joints if (text := _friction_finding(joint)))
+    """Findings on friction: what was not given for it, where it is not taken into account, a coefficient at rest below that of sliding."""
+    findings = tuple(text for joint in spec.joints if (text := _friction_finding(joint)))
+    return (*findings, *(text for joint in spec.joints if (text := _low_static_friction(joint))), *_gears_without_teeth(spec))
+
+
+def _gears_without_teeth(spec):
+    """A finding where pins rub that gears press in reality: here a pair of gears is a ratio of angles, which passes on a torque."""
+    gears = [joint.name for joint in spec.joints if joint.kind == "gear"]
+    if gears and any(joint.friction for joint in spec.joints if joint.kind == "revolute"):
+        yield (
+            f"joints of kind gear ({', '.join(map(repr, gears))}) pass on a torque alone: the forces of their teeth on the pins are in no "
+            "joint force, and cause no friction. Forces and losses in the pins of geared bodies are larger in reality"
+        )
+
+
+def _low_static_friction(joint):
+    if joint.static_friction is None or joint.static_friction >= joint.friction:
+        return None
+    return (
+        f"joint {joint.name!r}: static_friction {joint.static_friction:g} is below friction {joint.friction:g}. A joint at rest is "
+        "then easier to move than one that slides; dry surfaces behave the other way round"
+    )
 
 
 def _friction_finding(joint):
@@ -89,9 +109,12 @@ def inertia_extent(spec: LinkageSpec) -> tuple[Check, ...]:
 
 
 def window(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
-    """Turns that are left for peaks and means of a run that may end before its time."""
+    """Turns that are left for peaks and means of a run that may end before its time; of a mechanism without play one is enough."""
     if spec.simulate is None or spec.period is None:
         return ()
+    repeats = all(joint.is_ideal for joint in spec.joints)
     turns = max(min(spec.duration or math.inf, end) - spec.start_of_window, 0.0) / spec.period
     message = "turns after discard; the five largest peaks of fewer are not all main peaks"
-    return (Check("window", turns, spec.limits.least_turns, ">=", "-", message),)
+    if repeats:
+        message = "turns after discard; peaks and means of less than one are not those of the mechanism"
+    return (Check("window", turns, min(spec.limits.least_turns, 1.0) if repeats else spec.limits.least_turns, ">=", "-", message),)

@@ -19,6 +19,7 @@ from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
 MORE, GROWS = 2.0, 1e-3  # factor on the loads, and growth of the shares by it, that tell self-locking from a load that is too small
+LITTLE = 1e-6  # of what joints can hold: there is no load
 AT_REST = 1e-3  # rate over the largest one of the run below which a joint is at rest
 TURNING = (KINDS["pin"], KINDS["wheel"])
 
@@ -150,6 +151,8 @@ def _what_moves_it(run):
     """Whether larger loads would move what friction holds: not where they press the joints as much as they push."""
     system, t, y = run.end
     now, then = holding_shares(system, t, y), holding_shares(with_loads(system, MORE), t, y)
+    if np.max(now) < LITTLE:
+        return "No load is there to hold"
     if np.any(then > now * (1 + GROWS)):
         return "A motor or load that is meant to move it has to be larger, or the friction smaller"
     return (
