@@ -144,7 +144,7 @@ class Simulate(Spec):
     )
     max_steps: Integer = Field(20_000_000, ge=1, description="steps after which the run ends with what it has")
     min_step: Time = Field("0 s", ge=0, description="step below which the run ends with what it has; 0: at the limit of the arithmetic")
-    samples_per_turn: Integer = Field(720, ge=8, le=1_000_000, description="rows of the tables (a run without turns: for all of it)")
+    samples_per_turn: Integer = Field(720, ge=8, le=1_000_000, description="rows of the tables of a turn, or of a run without turns")
     seed: Integer = Field(1, ge=0, le=2**31 - 1, description="seed of the random numbers; same seed, same answer")
     ensemble: Integer = Field(
         4,
