@@ -453,3 +453,14 @@ def test_the_displacement_of_a_point_is_the_chord_of_its_way():
         simulate={"duration": "0.4 s"},
     )
     assert value(dw.run(spec, only=["end"]), "tip.displacement") == pytest.approx(0.16 * np.sin(0.5 * np.pi * 0.4), rel=1e-7)
+
+
+def test_a_mechanism_without_a_load_has_no_efficiency_and_says_so():
+    spec = slider_crank(friction=0.1, bearing_radius="10 mm")
+    result = dw.run(spec, only=["friction"])
+    assert "efficiency" not in result.values and any("there is no efficiency" in text for text in result.findings)
+
+
+def test_the_equilibrium_says_that_it_leaves_friction_out():
+    found = dw.run(block({"friction": 0.2}, start="0 m/s").replace({"gravity": ["0 m/s^2", "0 m/s^2"]}), only=["rest"])
+    assert any("friction in ideal joints is left out" in text for text in found.findings)

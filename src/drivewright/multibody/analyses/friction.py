@@ -79,7 +79,8 @@ def friction(model: SimulationModel) -> Answer:
             values[f"joints.{name}.stick_share"] = Value.of(share, "-", f"share of the time in which joint {name!r} sticks")
     values["friction.power"] = Value.of(numbers.mean("losses"), "W", "mean power lost to friction in ideal joints")
     values |= _efficiency(model)
-    return Answer(values, (_table(model),), tuple(_grip_checks(model)), tuple(_standstill(model)))
+    findings = (*_no_efficiency(model, values), *_standstill(model))
+    return Answer(values, (_table(model),), tuple(_grip_checks(model)), findings)
 
 
 def _efficiency(model):
@@ -94,6 +95,14 @@ def _efficiency(model):
         words = "share of the time in which the load would move the drive without friction, and with friction does not"
         values["friction.self_locking_share"] = Value.of(numbers.mean("holds"), "-", words)
     return values
+
+
+def _no_efficiency(model, values) -> Iterator[str]:
+    if "efficiency" not in values and statistics(model, friction_numbers).members[0].whole["driving"] > 0.0:
+        yield (
+            "there is no efficiency: no force or torque of the spec takes power from the mechanism, and all that drives give goes into "
+            "friction and damping"
+        )
 
 
 def _table(model):
