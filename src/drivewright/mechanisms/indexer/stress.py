@@ -13,7 +13,11 @@ from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.result import Answer, Answers, Check, Table, Value
 
-PRESSURES = ("pins.max_pressure", "shared.max_pressure", "dwell.pins.max_pressure")  # values that the check of the pressure looks at
+PRESSURES = {  # values that the check of the pressure looks at, and its message where one is the largest
+    "pins.max_pressure": "Hertz pressure on a pin",
+    "shared.max_pressure": "Hertz pressure on a roller, the load shared by stiffness",
+    "dwell.pins.max_pressure": "Hertz pressure in the dwell, on a pin or roller",
+}
 TOO_WIDE = (
     "{0} = {1:.4g} MPa: the half-width of this contact is {2:.2g} times its relative radius; Hertz's theory holds up to about {3:g}, so "
     "this force and pressure are no prediction. Lower the torque or the interference, or take larger pins"
@@ -48,10 +52,9 @@ def judge_pressure(model: IndexerModel, values: Mapping[str, Value]) -> Answer:
         return Answer()
     name, largest = max(known.items(), key=lambda each: each[1])
     allowed = model.spec.limits.contact_pressure or materials.material(model.spec.contact.material).hertz_limit
-    message = f"Hertz pressure on a pin, the largest known: {name}"
-    checks = (Check("contact_pressure", largest, allowed, "<=", "Pa", message, ("cam1", "wheel")),) if allowed else ()
+    check = Check("contact_pressure", largest, allowed or np.nan, "<=", "Pa", PRESSURES[name], ("cam1", "wheel"))
     width = relative_width(largest, model.modulus)
-    return Answer(checks=checks, findings=(TOO_WIDE.format(name, largest / 1e6, width, WIDEST),) if width > WIDEST else ())
+    return Answer(checks=(check,) if allowed else (), findings=(TOO_WIDE.format(name, largest / 1e6, width, WIDEST),) if width > WIDEST else ())
 
 
 def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
