@@ -150,6 +150,10 @@ def test_missing_rows_of_an_even_table_are_told(tmp_path):
 @pytest.mark.property
 def test_rows_that_are_uneven_or_rounded_have_no_gaps(tmp_path):
     """Angles of a third of a degree printed to a tenth; rows that are closer in the flanks than elsewhere."""
-    for degrees in (np.round(np.linspace(0, 360, 1081), 1), np.r_[0:90:5, 90:150:1, 150:361:5], 180 * (1 - np.cos(np.linspace(0, np.pi, 61)))):
+    for degrees in (
+        np.round(np.linspace(0, 360, 1081), 1),
+        np.r_[0:90:5, 90:150:1, 150:361:5],
+        180 * (1 - np.cos(np.linspace(0, np.pi, 61))),
+    ):
         radians = np.radians(degrees)
         assert not [each for each in law("table", angle=radians, lift=lift(radians)).findings if "are missing" in each]

@@ -147,8 +147,8 @@ def missing_rows(angle: Floats) -> Iterator[str]:
     places = [f"{degrees[k]:.6g} to {degrees[k + 1]:.6g} deg" for k in wide[:MOST_NAMED]]
     more = f" and {len(wide) - len(places)} more" if len(wide) > len(places) else ""
     yield (
-        f"rows of the table are missing from {', '.join(places)}{more}: elsewhere there is one every {math.degrees(usual):.4g} deg. The lift "
-        "there is that of the spline, not measured; give the missing rows, or check the motion there"
+        f"rows of the table are missing from {', '.join(places)}{more}: elsewhere there is one every {math.degrees(usual):.4g} deg. "
+        "The lift there is that of the spline, not measured; give the missing rows, or check the motion there"
     )
 
 

@@ -119,8 +119,8 @@ def _with_header(lines, notes, groups, file):
     lines = lines[1:] if said else lines
     for separator in (said[1],) if said else SEPARATORS:
         rows = list(_rows(lines[:SEARCHED], separator, file))
-        for number, row in enumerate(rows):
-            if _has_all(row, groups) and (separator != " " or said or _as_wide(row, rows[number + 1 : number + 2])):
+        for place, row in enumerate(rows, 1):
+            if _has_all(row, groups) and (separator != " " or said or _as_wide(row, rows[place : place + 1])):
                 below = [each for each in lines if each[0] > row.end]
                 return separator, row, list(_rows(below, separator, file))
         for note in _rows(notes[:SEARCHED], separator, file):

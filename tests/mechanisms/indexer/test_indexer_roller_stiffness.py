@@ -147,8 +147,8 @@ def test_the_pressure_in_the_dwell_counts_for_cams_on_cranks():
 
 @pytest.mark.analytical
 def test_interference_alone_presses_opposed_rollers_by_the_law_of_the_contact():
-    """In the dwell two rollers hold the cam between them; all else is rigid, and next to no torque is on the wheel.  The interference d is then
-    the approach of either line contact: F = K_l d^(10/9), p0 = sqrt(F E*/(pi L R))."""
+    """In the dwell two rollers hold the cam between them; all else is rigid, and next to no torque is on the wheel.  The interference d
+    is then the approach of either line contact: F = K_l d^(10/9), p0 = sqrt(F E*/(pi L R))."""
     found = run("globoidal", "load.torque=1 N m", "contact.interference=5 um", "load.angle=300 deg")
     table = found.tables["shared_forces"]
     force = 8.06e10 * table["length"].data ** (8 / 9) * 5e-6 ** (10 / 9)
@@ -172,7 +172,7 @@ def test_a_contact_wider_than_theory_holds_is_told():
 
 @pytest.mark.error
 def test_an_interference_beyond_contact_theory_is_refused():
-    with pytest.raises(SpecError, match=r"1 mm is 8\.\d % of the roller's radius; beyond 0\.\d+ mm .*try \"5 um\"") as told:
+    with pytest.raises(SpecError, match=r"1 mm is 8\.\d+ % of the roller's radius; beyond 0\.\d+ mm .*try \"5 um\"") as told:
         dw.build(load("globoidal", "contact.interference=1 mm"))
     assert told.value.key == "contact.interference"
 

@@ -180,10 +180,11 @@ def _housing(spec: IndexerSpec) -> None:
         raise SpecError(f"is for parallel, barrel and globoidal; the cams of kind {spec.kind!r} are not set", "contact.interference")
     if spec.contact.interference and spec.contact.model == "bonded":
         raise SpecError('contacts that stick need none; leave it out, or take contact.model = "unilateral"', "contact.interference")
-    if spec.contact.interference > (largest := largest_approach(spec.pin_radius)):
+    given, largest = spec.contact.interference, largest_approach(spec.pin_radius)
+    if given > largest:
         raise SpecError(
-            f"{1e3 * spec.contact.interference:.4g} mm is {100 * spec.contact.interference / spec.pin_radius:.2g} % of the roller's radius; "
-            f"beyond {1e3 * largest:.3g} mm the contact is wider than a tenth of the radius, where Hertz's theory ends. Some micrometres "
+            f"{1e3 * given:.4g} mm is {100 * given / spec.pin_radius:.3g} % of the roller's radius; beyond "
+            f"{1e3 * largest:.3g} mm the contact is wider than a tenth of the radius, where Hertz's theory ends. Some micrometres "
             'are usual: try "5 um"',
             "contact.interference",
         )

@@ -54,7 +54,9 @@ def judge_pressure(model: IndexerModel, values: Mapping[str, Value]) -> Answer:
     allowed = model.spec.limits.contact_pressure or materials.material(model.spec.contact.material).hertz_limit
     check = Check("contact_pressure", largest, allowed or np.nan, "<=", "Pa", PRESSURES[name], ("cam1", "wheel"))
     width = relative_width(largest, model.modulus)
-    return Answer(checks=(check,) if allowed else (), findings=(TOO_WIDE.format(name, largest / 1e6, width, WIDEST),) if width > WIDEST else ())
+    return Answer(
+        checks=(check,) if allowed else (), findings=(TOO_WIDE.format(name, largest / 1e6, width, WIDEST),) if width > WIDEST else ()
+    )
 
 
 def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
