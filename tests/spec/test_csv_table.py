@@ -110,8 +110,8 @@ REFUSED = {
         ("no column 'angle [deg]' in line 3 'Stellung [deg];Ventilhub [mm]'", "should read 'angle [deg];lift [mm]'"),
     ),
     "a sentence, other headings and a row of units": (
-        "lift of cam 7\nStellung;Weg\n[deg];[mm]\n" + body(";"),
-        ("no column 'angle [deg]' in line 2 'Stellung;Weg'",),
+        "lift of cam 7\nStellung;Ausschlag\n[deg];[mm]\n" + body(";"),
+        ("no column 'angle [deg]' in line 2 'Stellung;Ausschlag'",),
     ),
     "a sentence with all words": ("lift of cam\n0 0\n60 3\n", ("line 1: 'lift of cam' has 3 cells between blanks", "another number")),
     "unit in a cell": (
