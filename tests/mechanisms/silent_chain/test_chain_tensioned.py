@@ -8,8 +8,11 @@ from places import EXAMPLES, ROOT
 
 import drivewright as dw
 from drivewright import registry, units
+from drivewright.chains.explicit.turning import turning
+from drivewright.chains.path import route
+from drivewright.chains.wear import path_articulations
 from drivewright.errors import InputError, SpecError
-from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
+from drivewright.mechanisms.silent_chain.chain_drive import bare_drive, chain_drive
 from drivewright.runner import build
 
 pytestmark = pytest.mark.analytical
@@ -112,6 +115,52 @@ def test_tables_and_plots_are_those_of_a_tensioner(whole):
     assert set(table["tensioner"].data) == {"idler"}
     shown = {plot.name for plot in registry.mechanism("silent-chain").plots(whole)}
     assert {"tensioners", "motion_spectrum", "rigid_travel"} <= shown and "spectrum" not in shown
+
+
+# ---------------------------------------------------------------------------------------------------------------- its wear
+
+WEAR = 'wear.coefficient="2e-7 mm^3/(N m)"'
+
+
+@pytest.mark.parametrize("changes", [(), ("guides=[]", "sprockets.0.teeth=10"), ("guides=[]", 'driven.centre_distance="319 mm"')])
+def test_a_joint_turns_as_much_as_in_the_rigid_chain_that_is_followed_over_a_tooth(changes):
+    """All joints of the chain over one tooth are one joint over a revolution; in the last two the idler is wrapped by less than a tooth."""
+    model = build(load(*changes))
+    drive = bare_drive(model)
+    found = turning(drive, -np.linspace(0.0, 2 * np.pi / model.teeth[0], 401), model.balance)
+    angles = found.plates[:, :, 2]
+    bends = np.angle(np.exp(1j * (np.roll(angles, -1, axis=1) - angles)))
+    turned = np.sum(np.abs(np.diff(bends, axis=0)))
+    rigid = model.balance._replace(route=route(drive, model.balance.route.stations, np.mean(found.q[1:], axis=0)))
+    assert turned == pytest.approx(sum(turn.angle for turn in path_articulations(rigid)), rel=3e-3)
+
+
+def test_wear_counts_the_tensioner_and_the_rail():
+    found = run(("layout", "wear"), WEAR)
+    assert found.outcome == "complete" and found["layout.wrap.idler"] > 2 * np.pi / 15
+    model = build(load())
+    rail = 2 * np.arctan(0.5 * 9.525e-3 / (300e-3 + model.roller_link.end_radius))  # between two plates that lie on it
+    angles = np.array([2 * np.pi / 19, 2 * np.pi / 15, 2 * np.pi / 38, rail])
+    assert found["wear.sliding"] == pytest.approx(3.28e-3 * np.sum(angles), rel=1e-12)
+    pulls = np.array([found[f"layout.pull.{name}"] for name in ("drive", "idler", "driven", "rail")]) + model.balance.centrifugal
+    depth = 2e-16 * np.sum(angles * (pulls + np.roll(pulls, 1))) / (2 * 8.5e-3)
+    assert found["wear.depth"] == pytest.approx(depth, rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize("only", ["layout", "closure", "contact", "wear"])
+def test_wear_without_a_running_time_leaves_the_chain_as_it_is(only):
+    worn, new = run(only, WEAR), run(only)
+    assert worn.outcome == "complete" or only == "closure"
+    for name, value in new.values.items():
+        assert worn[name] == pytest.approx(value.value, rel=1e-12, abs=0), name
+
+
+def test_the_forces_of_the_strands_are_those_of_the_worn_chain():
+    worn = run(("layout", "contact", "wear"), WEAR, 'wear.running_time="500 h"')
+    assert worn["wear.elongation"] > 1e-4
+    assert worn["strand.tight_force"] == pytest.approx(worn["layout.pull.rail"], rel=1e-12)
+    assert worn["layout.tensioner.idler.travel"] > 1.05 * run("layout")["layout.tensioner.idler.travel"]
+    assert worn["wear.depth"] == pytest.approx(run("wear", WEAR)["wear.depth"], rel=1e-12, abs=0)
 
 
 # ------------------------------------------------------------------------------------------------------------------- a blade

@@ -19,7 +19,7 @@ def wear(model: ChainModel, done: Answers) -> Answer:
     found = model.joint_wear
     assert found is not None and model.spec.wear is not None
     drive, pitch = model.drive, model.spec.pitch
-    limit = joint.elongation_limit(model.spec.wear.elongation_limit, model.teeth)
+    limit = joint.elongation_limit(model.spec.wear.elongation_limit, (*model.teeth, *(each.teeth for each in model.spec.sprockets)))
     lives = found.turn_time * np.asarray(joint.revolutions_to(limit, pitch, found.depths))
     life = _interval(lives[0], lives[1:], "s", "wear life: time until wear elongates the chain to its limit")
     values = {
