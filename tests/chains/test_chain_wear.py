@@ -56,7 +56,7 @@ def test_two_sprockets_on_a_path_are_the_two_of_the_closed_form():
 
 @pytest.mark.analytical
 def test_every_body_on_the_path_bends_the_chain_by_a_tooth_or_by_its_wrap():
-    """Driver, idler under the pull of its own strands, driven sprocket, rail with friction that the chain leaves less tense than it comes."""
+    """Driver, idler under the pull of its own strands, driven sprocket, rail with friction that takes pull from the chain."""
     pulls = [150.0, 150.0, 900.0, 880.0]  # of the strands that leave the driver, the idler, the driven sprocket, the rail
     wide = path_articulations(path([3.1, 0.6, 3.4, 0.2], [19, 15, 38, 200.0], pulls))
     teeth = 150 / 15 + (880 + 150) / 2 / 19 + (150 + 900) / 2 / 38 + (900 + 880) / 2 / 200

@@ -2,9 +2,9 @@
 
 A joint turns whenever it comes onto a sprocket or off it, by the angle 2 pi/z of a tooth, under the force of the strand that it comes from
 or goes to; the pin slides in its bush by that angle times its radius.  Every body on the path bends the chain so, tensioners and guides
-too: a joint turns by the angle a between two plates that lie on the body, or by the wrap w where that is less.  (Plates come along one after
-another and the joints on the body share its wrap: a joint bends from 0 to b and back while w/a + 1 pitches pass, so that the mean sum over the
-joints is b max(w/a, 1) = w, b = min(w, a).)  The volume worn off pin and bush together lets the bush move
+too: a joint turns by the angle a between two plates that lie on the body, or by the wrap w where that is less.  (The joints on the body
+share its wrap: each bends from 0 to b and back while w/a + 1 pitches pass, so that they sum up to b max(w/a, 1) = w, b = min(w, a).)  The
+volume worn off pin and bush together lets the bush move
 along the force by the volume over the projected area d L: two circles of one diameter d that move apart by h leave a lune of h d.
 
 Pins that roll on each other do not slide: Archard's law knows no wear of theirs.

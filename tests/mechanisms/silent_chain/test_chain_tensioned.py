@@ -85,7 +85,7 @@ def whole():
 
 def test_every_check_of_the_example_passes(whole):
     assert whole.outcome == "complete" and whole.ok
-    assert {"running.overspeed", "running.slack", "running.jumped_teeth", "tensioner.idler.travel", "guide.rail.reach", "settled"} <= {
+    assert {"running.tooth_contacts", "running.slack", "running.jumped_teeth", "tensioner.idler.travel", "guide.rail.reach", "settled"} <= {
         check.name for check in whole.checks
     }
 
@@ -222,7 +222,11 @@ def test_a_guide_out_of_reach_is_a_finding_and_one_too_short_a_check():
         (("links=104",), r"104 links are [\d.]+ links \([\d.]+ mm\) too long: sprocket 'idler' moves by 15 mm"),
         (("links=94",), r"94 links are .* too short.*Take 2 links more"),
         (('sprockets.0.centre=["130 mm", "95 mm"]', 'sprockets.0.travel="1 mm"'), "too long|does not reach"),
-        (('sprockets.0.side="inside"',), "does not reach sprocket 'idler'|too long|too short"),
+        (('sprockets.0.side="inside"',), "sprocket 'idler' does not t.*: it lies inside the loop.* take side = 'outside'"),
+        (
+            ('driven.centre_distance="100 mm"',),
+            "driving sprocket and the driven sprocket overlap|no strand fits between sprocket 'idler' and the",
+        ),
     ],
 )
 def test_what_does_not_fit_is_said_in_links_and_millimetres(changes, words):
@@ -255,6 +259,43 @@ def test_a_preload_beside_a_fixed_centre_distance_is_told_to_be_idle():
     assert any("drive.preload has no effect" in each for each in build(load('drive.preload="100 N"')).findings)
 
 
+BELOW = ('sprockets.0.centre=["130 mm", "-46 mm"]', 'sprockets.0.direction="90 deg"', "guides=[]")
+
+
+@pytest.mark.error
+def test_a_strand_that_would_have_to_push_fails_a_check_once_and_is_no_overspeed():
+    found = run(("layout", "contact", "wear"), *BELOW, WEAR)
+    taut = [check for check in found.checks if check.name == "strand.taut"]
+    assert len(taut) == 1 and not taut[0].ok
+    assert taut[0].value == pytest.approx(found["strand.slack_force"], rel=1e-12) and taut[0].value < -50.0
+    assert not any(check.name == "chain.overspeed" for check in found.checks) and "layout.limit_speed" not in found.values
+    assert found.outcome == "complete" and "chain.mean_static_safety" not in found.values
+    assert sum("the slack strand would have to push" in each for each in found.warnings) == 1
+    assert run(("layout", "contact")).check("strand.taut").ok
+
+
+@pytest.mark.error
+@pytest.mark.parametrize("only", ["layout", "contact", "wear"])
+def test_the_preload_at_which_the_slack_strand_begins_to_pull_is_told(only):
+    changes = ("driven.centre_distance=", "sprockets=[]", "guides=[]", WEAR)
+    loose = run(only, *changes, 'drive.preload="100 N"')
+    assert not loose.check("strand.taut").ok
+    words = next(each for each in loose.warnings if "would have to push" in each)
+    least = float(re.search(r"A drive.preload above ([\d.]+) N", words)[1])
+    slope = np.sqrt(1 - (19 * 9.525e-3 / (2 * np.pi) / run("layout", *changes, 'drive.preload="1 kN"')["layout.centre_distance"]) ** 2)
+    assert least == pytest.approx(8.0 * 2 * np.pi / (38 * 9.525e-3) * slope, rel=1e-3)
+    assert run(only, *changes, f'drive.preload="{1.001 * least} N"').check("strand.taut").ok
+
+
+@pytest.mark.error
+def test_a_chain_longer_than_its_path_hangs_in_the_slack_strand_up_to_a_limit():
+    fixed = ("sprockets=[]", "guides=[]")
+    hangs = run("layout", *fixed, 'driven.centre_distance="319 mm"').check("chain.slack")
+    assert hangs.ok and hangs.limit == pytest.approx(0.02 * 0.319)
+    assert not run("layout", *fixed, 'driven.centre_distance="310 mm"').check("chain.slack").ok
+    assert not any(check.name == "chain.slack" for check in run("layout").checks)
+
+
 # ------------------------------------------------------------------------------------------------------------- how a run fails
 
 
@@ -281,7 +322,7 @@ def test_a_load_beyond_the_preload_is_slack_or_jumps():
 def test_overspeed_is_a_check_of_the_run_and_of_the_layout():
     changes = ('drive.speed="30000 rpm"', 'dynamics.settling="10 ms"', 'dynamics.duration="10 ms"', "dynamics.ensemble=1")
     fast = dw.run(dw.load(EXAMPLES / "roller_chain.toml", changes), only="dynamics")
-    lifted = fast.check("running.overspeed")
+    lifted = fast.check("running.tooth_contacts")
     assert not lifted.ok and "overspeed" in lifted.message
     tight = ("sprockets=[]", "guides=[]", 'driven.centre_distance="320.5 mm"', 'drive.load_torque="0 N m"')
     still = run("layout", *tight)
