@@ -151,6 +151,15 @@ def test_the_makers_rating_counts():
 
 
 @pytest.mark.error
+def test_a_table_that_is_written_and_left_out_is_a_warning():
+    def warned(*changes):
+        return [each for each in dw.run(spec("wear=", "drive=", "chain=12B", *changes)).warnings if "'rating'" in each]
+
+    assert not warned() and not warned("rating.service_factor=1")
+    assert len(warned("rating.service_factor=1.5")) == 1
+
+
+@pytest.mark.error
 @pytest.mark.parametrize(
     ("changes", "words"),
     [(("chain=12B",), "no rating is known"), (("drive.load_torque=0 N m",), "no power is transmitted"), (("drive=",), "write [drive]")],

@@ -319,6 +319,22 @@ def test_a_load_beyond_the_preload_is_slack_or_jumps():
 
 
 @pytest.mark.error
+def test_a_run_that_goes_slack_says_which_check_fails_and_by_how_much():
+    found = run("dynamics", 'sprockets.0.force="12 N"', 'sprockets.0.stiffness="0 N/mm"', 'drive.speed="1500 rpm"', "guides=[]", *SHORT)
+    slack = found.check("running.slack")
+    assert found.outcome == "partial" and not slack.ok
+    words = next(each for each in found.findings if each.startswith("the run has failed and its statistics are left out: "))
+    assert f"running.slack is {slack.value:.3g} and has to be at most 0.05 (share of the time" in words
+    assert "Raise the preload or the tensioner's force" in words
+
+
+def test_what_the_tensioner_does_is_among_the_first_values(whole):
+    shown = registry.headlines(registry.mechanism("silent-chain"), whole.values)
+    assert {f"layout.tensioner.idler.{name}" for name in ("travel", "force")} < set(shown)
+    assert {f"dynamics.tensioner.idler.{name}" for name in ("travel.mean", "force")} < set(shown)
+
+
+@pytest.mark.error
 def test_overspeed_is_a_check_of_the_run_and_of_the_layout():
     changes = ('drive.speed="30000 rpm"', 'dynamics.settling="10 ms"', 'dynamics.duration="10 ms"', "dynamics.ensemble=1")
     fast = dw.run(dw.load(EXAMPLES / "roller_chain.toml", changes), only="dynamics")

@@ -28,7 +28,7 @@ MOST_STEPS = 2e10  # of a link, in all runs: about ten minutes
 MOST_LISTED = 3  # statistics that have not settled, by name
 MOST_FRICTION = 0.3  # coefficient of friction of dry steel on steel; lubricated about 0.1
 HINT = (
-    "Raise the preload or the tensioner's force, damp the tensioner more, or lower the speed or the wear; the check strand.taut says "
+    "raise the preload or the tensioner's force, damp the tensioner more, or lower the speed or the wear; the check strand.taut says "
     "whether the slack strand pulls, and the analysis 'quasi_static' computes the chain at rest under its load"
 )
 ORDERS = 8  # of the mesh frequency, up to which the spectrum is shown
@@ -52,7 +52,7 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
     reasons = [runs.advice] if runs.advice else []
     reasons += [_failing(check) for check in checks if not check.ok and check.name != "energy_drift"]
     if reasons:
-        findings = (f"the run has failed and its statistics are left out: {'; '.join(reasons)}. {HINT}",)
+        findings = (f"the run has failed and its statistics are left out: {'; '.join(reasons)}. {_hint(runs.advice)}",)
         return Answer({"dynamics.energy_drift": drift}, tables, checks, findings, outcome="partial")
     found = signal_values(runs) | force_values(runs) | tensioner_values(runs)
     if not model.plain:
@@ -68,6 +68,11 @@ def _failing(check: Check) -> str:
     most = "at most" if check.sense == "<=" else "at least"
     unit = "" if check.unit == "-" else f" {check.unit}"
     return f"{check.name} is {check.value:.3g}{unit} and has to be {most} {check.limit:.3g}{unit} ({check.message})"
+
+
+def _hint(advice: str = "") -> str:
+    """What to try; after the run's own advice, which is a shorter step."""
+    return f"Where a shorter step does not help, {HINT}" if advice else f"R{HINT[1:]}"
 
 
 def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> Answer:
@@ -88,7 +93,7 @@ def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> 
         values,
         tables,
         checks,
-        (f"the run has failed and its statistics are left out: {failed.reason}. {HINT}",),
+        (f"the run has failed and its statistics are left out: {failed.reason}. {_hint()}",),
         outcome="partial",
         stopped=(stop,),
     )
