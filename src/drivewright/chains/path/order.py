@@ -32,7 +32,7 @@ def met(model: ChainDrive, q: Floats, without: Sequence[int] = ()) -> Route:
     """
     every = stations(model)
     chosen = [every[0], every[_second(model)]]
-    _refuse_overlap(*chosen, centres(model, q))
+    _refuse_overlap(chosen[0], chosen[1], centres(model, q))
     waiting = [s for s in every if s not in chosen and s.body not in without]
     count = len(model.sprockets)
     for group in ([s for s in waiting if s.body < count], [s for s in waiting if s.body >= count]):
