@@ -30,12 +30,8 @@ Sense = Literal["counter-clockwise", "clockwise"]
 class Follower(Spec):
     """The follower: its face on the cam, and its guidance."""
 
-    motion: Literal["translating", "oscillating"] = Field(
-        "translating", description="on a slide along +y, or on an arm about a pivot", title="Motion of the follower"
-    )
-    face: Literal["roller", "flat", "knife", "shoe"] = Field(
-        "roller", description="shape of the follower's face on the cam", title="Face of the follower"
-    )
+    motion: Literal["translating", "oscillating"] = Field("translating", description="on a slide along +y, or on an arm about a pivot")
+    face: Literal["roller", "flat", "knife", "shoe"] = Field("roller", description="shape of the follower's face on the cam")
     prime_radius: Length | None = Field(
         None, gt=0, description="radius of the pitch curve at zero lift; for a flat face the base radius", examples=["40 mm"]
     )
