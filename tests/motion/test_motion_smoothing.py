@@ -64,10 +64,10 @@ def test_rounding_goes_with_the_digit_and_the_third_power_of_the_spacing(tmp_pat
 @pytest.mark.parametrize(("step", "digits", "shows"), [(6, 4, False), (1, 3, True), (1, 6, False), (6, 1, True)])
 def test_a_finding_where_the_last_digit_shows_in_the_jerk(tmp_path, step, digits, shows):
     table(tmp_path, step, digits)
-    found = [finding for finding in dw.run(spec(tmp_path), only=("motion",)).findings if "printed to" in finding]
+    found = [finding for finding in dw.run(spec(tmp_path), only=("motion",)).findings if "rounded to" in finding]
     assert bool(found) == shows
     if shows:
-        assert f"printed to {10.0**-digits:.4g} mm" in found[0] and f'band = "{0.5 * 10.0**-digits:.4g} mm"' in found[0]
+        assert f"rounded to {10.0**-digits:.4g} mm" in found[0] and f'band = "{0.5 * 10.0**-digits:.4g} mm"' in found[0]
 
 
 def test_smoothing_within_half_the_last_digit(tmp_path):
@@ -75,9 +75,9 @@ def test_smoothing_within_half_the_last_digit(tmp_path):
     rough, smooth = dw.run(spec(tmp_path), only=("motion",)), dw.run(spec(tmp_path, band="0.5 um"), only=("motion",))
     assert 0.4e-6 < smooth["smoothing.departure"] <= 0.5e-6
     assert smooth["smoothing.jerk"] < 0.2 and "smoothing.jerk" not in rough.values
-    found = [finding for finding in smooth.findings if "smoothest" in finding]
+    found = [finding for finding in smooth.findings if "is smoothed" in finding]
     assert len(found) == 1 and "within 0.0005 mm of each of its 361 rows" in found[0] and "least integral of the squared jerk" in found[0]
-    assert not any("printed to" in finding for finding in smooth.findings)
+    assert not any("rounded to" in finding for finding in smooth.findings)
     motion = smooth.tables["motion"]
     angle = motion["angle"].data
     true = 1e-3 * (-5 * np.sin(angle) - 0.4 * 27 * np.sin(3 * angle))
