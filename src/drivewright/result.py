@@ -178,10 +178,15 @@ class Column(NamedTuple):
 
     def bounds(self, low: ArrayLike, high: ArrayLike) -> "tuple[Column, Column]":
         """The columns NAME.low and NAME.high with the ends of its 95 % intervals, nan where it has none; they go beside it."""
-        return (
-            self._replace(name=f"{self.name}{LOW}", meaning=f"{self.meaning}, at least", data=np.asarray(low, float)),
-            self._replace(name=f"{self.name}{HIGH}", meaning=f"{self.meaning}, at most", data=np.asarray(high, float)),
+        label = label_of(self.meaning, self.label)
+        ends = ((LOW, low, "at least", "lower bound"), (HIGH, high, "at most", "upper bound"))
+        lower, upper = (
+            self._replace(
+                name=f"{self.name}{end}", meaning=f"{self.meaning}, {words}", data=np.asarray(data, float), label=f"{label}, {bound}"
+            )
+            for end, data, words, bound in ends
         )
+        return lower, upper
 
 
 @dataclass(frozen=True)
