@@ -179,14 +179,10 @@ class Column(NamedTuple):
     def bounds(self, low: ArrayLike, high: ArrayLike) -> "tuple[Column, Column]":
         """The columns NAME.low and NAME.high with the ends of its 95 % intervals, nan where it has none; they go beside it."""
         label = label_of(self.meaning, self.label)
-        ends = ((LOW, low, "at least", "lower bound"), (HIGH, high, "at most", "upper bound"))
-        lower, upper = (
-            self._replace(
-                name=f"{self.name}{end}", meaning=f"{self.meaning}, {words}", data=np.asarray(data, float), label=f"{label}, {bound}"
-            )
-            for end, data, words, bound in ends
+        return (
+            Column(f"{self.name}{LOW}", self.unit, f"{self.meaning}, at least", np.asarray(low, float), f"{label}, low"),
+            Column(f"{self.name}{HIGH}", self.unit, f"{self.meaning}, at most", np.asarray(high, float), f"{label}, high"),
         )
-        return lower, upper
 
 
 @dataclass(frozen=True)

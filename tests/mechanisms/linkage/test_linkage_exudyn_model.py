@@ -246,8 +246,8 @@ def test_friction_has_its_arm():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"offset": 0.0}, r"'wrist' starts 0 m off centre with a play of 0.0005 m"),
-        ({"offset": -6e-4}, r"'wrist' starts 0.0006 m off centre .* half the play"),
+        ({"offset": 0.0}, r"'wrist' starts 0 m off centre with a clearance of 0.0005 m"),
+        ({"offset": -6e-4}, r"'wrist' starts 0.0006 m off centre .* half the clearance"),
         ({"hysteresis": 1.6}, r"'wrist' has a hysteresis of 1.6; .* below 1.5"),
         ({"cylinder": True}, r"'wrist' has the cylinder law"),
         ({"friction": Friction("coulomb", 0.1)}, r"'wrist' has friction 'coulomb' with a dead speed of 0 m/s.*'ambrosio'"),

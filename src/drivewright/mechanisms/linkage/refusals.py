@@ -24,7 +24,7 @@ def refuse_nonsense(spec: LinkageTables) -> None:
 
 def _known(name, known, what, key):
     if name not in known:
-        raise SpecError(f"no {what} is called {name!r}{nearest(name, known)}; available: {', '.join(map(str, known)) or 'none'}", key=key)
+        raise SpecError(f"no {what} is called {name!r}{nearest(name, known)}; there are: {', '.join(map(str, known)) or 'none'}", key=key)
 
 
 # -- bodies --------------------------------------------------------------------------------------------------------------------
