@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.errors import DoesNotAssemble
+from drivewright.errors import DoesNotAssemble, InputError
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.compile_model import compile_model, index_of, rows_and_equations
 from drivewright.multibody.joints.rows import DISTANCE
@@ -25,6 +25,9 @@ from drivewright.numerics.linear import null_space
 CLOSED = 1e-12  # largest miss of an assembled loop [rad], [lengths of the mechanism]
 WEAK = 0.05  # a coordinate that moves the loops less than this part of its own size is no good dependent one
 RANK = 1e-9  # rows that depend on one another to this accuracy are redundant
+SAME_RATE = 1e-6  # of a rate given: what a body starts with instead is another
+WEIGHTLESS = 1e-14  # of the largest kinetic energy of a motion of unit rates: that of one without inertia
+MOVES = 1e-6  # of the largest rate: what moves in it
 NUDGE = 1e-3  # how far a mechanism is moved to see whether rows depend on one another everywhere [rad], [lengths of the mechanism]
 
 
@@ -91,11 +94,12 @@ def _assemble(model, expanded, tree, system, q):
     q, rows = work.coordinates.q.copy(), len(system.rows)
     system, findings, folded = _without_redundant_rows(expanded, tree, system, work)
     work = work if len(system.rows) == rows else evaluate_at(system, q)
+    _refuse_motion_without_inertia(tree, system, work)
     system = partition_at(system, work)
     v, undecided = start_rates(expanded, tree, system, work)
     if folded:
         system = _on_branch(system, q, v, undecided, folded)
-    return Assembly(model, expanded, tree, system, Start(q, v), findings)
+    return Assembly(model, expanded, tree, system, Start(q, v), (*findings, *_impossible_rates(tree, evaluate_at(system, q), v)))
 
 
 # ---------------------------------------------------------------------------------------------------------------- position
@@ -357,6 +361,25 @@ def start_rates(expanded: MultibodyModel, tree: Tree, system: System, work: Work
     return x, free.shape[1]
 
 
+def _refuse_motion_without_inertia(tree, system, work):
+    """InputError where bodies can move, drives standing still and loops closed, in a way in which nothing that moves has an inertia."""
+    fixed = np.concatenate([_driven_rates(system, work)[0], _closed_loops(system, work)[0]]) * system.sizes
+    free = system.sizes[:, None] * null_space(fixed, rcond=1e-10)
+    if not free.shape[1]:
+        return
+    ways = [getattr(work.partial_velocities, name) @ free for name in ("x", "y", "t")]
+    inertias = (system.bodies.mass, system.bodies.mass, system.bodies.inertia)
+    energies, directions = np.linalg.eigh(sum(way.T * inertia @ way for way, inertia in zip(ways, inertias, strict=True)))
+    if energies[0] > WEIGHTLESS * energies[-1]:
+        return
+    moves = np.hypot(np.hypot(ways[0] @ directions[:, 0], ways[1] @ directions[:, 0]), system.length * (ways[2] @ directions[:, 0]))[1:]
+    names = [link.body.name for link, move in zip(tree.links, moves, strict=True) if move > MOVES * np.max(moves)]
+    raise InputError(
+        f"bod{'ies' if len(names) > 1 else 'y'} {' and '.join(map(repr, names))} can move with neither mass nor inertia, so the "
+        "acceleration is undetermined: give a mass (and an inertia for rotation about the centroid), a drive, or a joint that fixes it"
+    )
+
+
 def _driven_rates(system, work):
     """Rows (matrix, right-hand side) for the rates of all coordinates: the driven ones are given."""
     driven = system.driven.coordinate
@@ -379,6 +402,24 @@ def _given_rates(expanded, tree, system, work):
             rows.append(work.partial_velocities.t[k])
             wanted.append(link.body.angular_velocity)
     return np.array(rows).reshape(-1, len(work.coordinates)), np.array(wanted)
+
+
+def _impossible_rates(tree, work, v):
+    """A finding on every body whose rates given are not those with which it starts, as joints and drives do not allow them."""
+    for k, link in enumerate(tree.links, start=1):
+        body, partial_velocities = link.body, work.partial_velocities
+        if body.velocity is not None:
+            found = np.array([partial_velocities.x[k] @ v, partial_velocities.y[k] @ v])
+            if np.max(np.abs(found - body.velocity)) > SAME_RATE * max(np.max(np.abs(body.velocity)), np.max(np.abs(found))):
+                given, left = (f"({1e3 * x:.4g}, {1e3 * y:.4g}) mm/s" for x, y in (body.velocity, found))
+                yield f"body {body.name!r} cannot start with the velocity {given}: joints and drives allow {left}"
+        if body.angular_velocity is not None:
+            found = float(partial_velocities.t[k] @ v)
+            if abs(found - body.angular_velocity) > SAME_RATE * max(abs(body.angular_velocity), abs(found)):
+                yield (
+                    f"body {body.name!r} cannot start with the angular velocity {body.angular_velocity:.4g} rad/s: joints and drives "
+                    f"allow {found:.4g} rad/s"
+                )
 
 
 def _concentric(expanded, tree, system, work):

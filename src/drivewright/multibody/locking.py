@@ -43,7 +43,7 @@ def locked_message(assembly: Assembly, system: System, t: float, y: Floats) -> s
     """What locks the mechanism at a state y (n,): the pose, the joint, and how much friction would let it move; "" where nothing does."""
     moving, frictions = motion(system), system.frictions
     assert isinstance(frictions, JointFrictions)
-    begin_sliding(moving.system, moving.work, t, y.copy(), frictions)
+    begin_sliding(moving.system, moving.work, t, y.copy(), frictions, True)
     scratch, table = moving.work.friction, frictions.table
     found = locking(table, scratch)
     if found is None:

@@ -17,6 +17,7 @@ from drivewright.multibody.drive_positions import drive_positions
 from drivewright.multibody.dynamics import FIRST_PIN, begin_sliding
 from drivewright.multibody.forces.joint_friction import JointFrictions
 from drivewright.multibody.forces.pin_contact import LASTING, penetration
+from drivewright.multibody.forces.resting_friction import balance_sticking
 from drivewright.multibody.locking import locked_message
 from drivewright.multibody.model import MultibodyModel
 from drivewright.multibody.observe import FIELDS, kernels_of_observation, observe
@@ -246,7 +247,9 @@ def rubbing(system: System, t: float, y: Floats) -> Floats:
     """A state whose joints with friction slide where they move, and stick where they do not, unless it remembers whether they do."""
     frictions = system.frictions
     if isinstance(frictions, JointFrictions) and not np.any(y[[*frictions.table.sliding, *frictions.table.relaxation]]):
-        begin_sliding(*motion(system), t, y, frictions)
+        moving = motion(system)
+        begin_sliding(*moving, t, y, frictions, False)
+        balance_sticking(moving, t, y, frictions)
     return y
 
 

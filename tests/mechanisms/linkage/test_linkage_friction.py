@@ -321,3 +321,122 @@ def test_verify_finds_the_friction_by_the_bodies_equations(tmp_path):
         for _, ours, other, _, allowed, _ in rows:
             assert ours == pytest.approx(other, abs=allowed)
             assert other > 0
+
+
+def slider_crank(**wrist):
+    """Crank 50 mm, rod 150 mm, at 300 rpm."""
+    return spec_of(
+        {
+            "crank": {"mass": "0.5 kg", "inertia": "1e-3 kg m^2", "points": {"O": ["0 mm", "0 mm"], "A": ["50 mm", "0 mm"]}},
+            "rod": {
+                "mass": "0.3 kg",
+                "inertia": "6e-4 kg m^2",
+                "centroid": ["75 mm", "0 mm"],
+                "points": {"A": ["0 mm", "0 mm"], "B": ["150 mm", "0 mm"]},
+                "angle": "-15 deg",
+            },
+            "slider": {"mass": "1 kg", "inertia": "1e-3 kg m^2", "points": {"B": ["0 mm", "0 mm"]}},
+        },
+        [
+            {"name": "main", "connects": ["ground.O", "crank.O"]},
+            {"name": "pin", "connects": ["crank.A", "rod.A"]},
+            {"name": "wrist", "connects": ["rod.B", "slider.B"], **wrist},
+            {"name": "guide", "kind": "prismatic", "connects": ["slider.B", "ground.O"], "axis": [1, 0]},
+        ],
+        drive={"joint": "main", "speed": "300 rpm"},
+        simulate={"turns": 2, "discard": 1},
+    )
+
+
+def test_reflected_inertia_is_its_mean_over_time_and_does_not_go_by_play():
+    """Twice the kinetic energy over the speed squared, on an even grid of the crank's angle."""
+    angle = np.linspace(0, 2 * np.pi, 7201)
+    tilt = np.arcsin(np.sin(angle) / 3)
+    rod_rate = np.cos(angle) / 3 / np.cos(tilt)  # against the crank's sense
+    slider = -0.05 * np.sin(angle) - 0.15 * np.sin(tilt) * rod_rate
+    middle = np.array([-0.05 * np.sin(angle) - 0.075 * np.sin(tilt) * rod_rate, 0.05 * np.cos(angle) - 0.075 * np.cos(tilt) * rod_rate])
+    inertia = 1e-3 + 0.3 * np.sum(middle**2, axis=0) + 6e-4 * rod_rate**2 + slider**2
+    for wrist in ({}, {"model": "dry", "clearance": "0.1 mm", "bearing_radius": "10 mm", "bearing_length": "15 mm"}):
+        result = dw.run(slider_crank(**wrist), only=["motors"])
+        assert value(result, "drives.main.reflected_inertia") == pytest.approx(np.mean(inertia[:-1]), rel=2e-3)
+        assert value(result, "drives.main.max_reflected_inertia") == pytest.approx(np.max(inertia), rel=3e-3)
+
+
+def test_a_pin_that_slides_slowly_says_that_its_friction_is_smoothed_away():
+    pin = {"model": "dry", "clearance": "0.1 mm", "bearing_radius": "10 mm", "bearing_length": "15 mm", "friction": 0.1}
+
+    def told(**more):
+        found = dw.run(slider_crank(**pin, **more), only=["pins"])
+        return [text for text in found.findings if "friction_speed" in text]
+
+    (text,) = told(friction_speed="200 mm/s")
+    assert "joint 'wrist' slides too slowly" in text and "not 0.1" in text and "200 mm/s" in text
+    assert not told(friction_speed="1 mm/s")
+
+
+# -- what is said of odd input --------------------------------------------------------------------------------------------------
+
+
+def findings_of(spec):
+    return build(spec).findings
+
+
+def test_a_velocity_that_the_joints_do_not_allow_is_said():
+    (text,) = [text for text in findings_of(spec_of({"block": body(velocity=["1 m/s", "2 m/s"])}, [guide()])) if "cannot start" in text]
+    assert text == "body 'block' cannot start with the velocity (1000, 2000) mm/s: joints and drives leave (1000, 0) mm/s of it"
+    (text,) = [text for text in findings_of(spec_of({"block": body(angular_velocity="60 rpm")}, [guide()])) if "cannot start" in text]
+    assert "angular velocity 6.283 rad/s" in text and "allow 0 rad/s" in text
+    assert not any("cannot start" in text for text in findings_of(block()))
+
+
+def test_a_body_that_can_move_without_mass_is_refused():
+    with pytest.raises(InputError, match="body 'block' can move with neither mass nor inertia"):
+        build(spec_of({"block": body(mass="0 kg")}, [guide()]))
+
+
+def test_static_friction_below_that_of_sliding_is_said():
+    assert any(
+        "static_friction 0.1 is below friction 0.2" in text for text in findings_of(block({"friction": 0.2, "static_friction": 0.1}))
+    )
+    assert not any("is below" in text for text in findings_of(block({"friction": 0.2, "static_friction": 0.2})))
+
+
+def test_gears_beside_pins_that_rub_say_that_their_teeth_press_none():
+    bodies = {"one": body(), "two": body()}
+    joints = [
+        {"name": "in", "connects": ["ground.O", "one.C"], "friction": 0.1, "bearing_radius": "10 mm"},
+        {"name": "out", "connects": ["ground.Q", "two.C"]},
+        {"name": "mesh", "kind": "gear", "connects": ["one", "two"], "ratio": -0.5},
+    ]
+    found = findings_of(spec_of(bodies, joints, {"Q": ["100 mm", "0 mm"]}))
+    assert any("joints of kind gear ('mesh') transmit torque only" in text for text in found)
+    joints[0] = {key: value for key, value in joints[0].items() if key != "friction"}
+    assert not any("of kind gear" in text for text in findings_of(spec_of(bodies, joints, {"Q": ["100 mm", "0 mm"]})))
+
+
+def test_the_share_of_sticking_goes_from_event_to_event():
+    """The block slides for v/(mu g) of its second."""
+    result = dw.run(block({"friction": 0.2}), only=["friction"])
+    assert value(result, "joints.guide.stick_share") == pytest.approx(1 - 1 / (0.2 * G), abs=2e-6)
+
+
+@pytest.mark.parametrize(("length", "words"), [("70 mm", "It is self-locking"), (None, "has to be larger")])
+def test_what_stands_still_says_what_would_move_it(length, words):
+    """A block pushed 200 mm beside a guide of 70 mm, mu = 0.2, locks under any force; one pushed in its line only by a small one."""
+    joint = {"friction": 0.2} | ({"bearing_length": length} if length else {})
+    arm = ["0 mm", "200 mm"] if length else ["0 mm", "0 mm"]
+    bodies = {"block": body() | {"points": {"C": ["0 mm", "0 mm"], "H": arm}}}
+    spec = spec_of(
+        bodies,
+        [guide(**joint)],
+        gravity=["0 m/s^2", "0 m/s^2"] if length else DOWN,
+        forces=[{"body": "block", "point": "H", "force": ["2 N", "0 N"]}],
+        simulate={"duration": "0.1 s"},
+    )
+    (text,) = [text for text in dw.run(spec, only=["friction"]).findings if "at rest from" in text]
+    assert words in text
+
+
+def test_turns_of_a_mechanism_without_play_need_be_no_more_than_one():
+    check = next(check for check in dw.run(slider_crank(), only=["motion"]).checks if check.name == "window")
+    assert (check.value, check.limit, check.ok) == (1.0, 1.0, True)

@@ -18,8 +18,28 @@ def advice(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
 
 
 def assumed_friction(spec: LinkageSpec) -> tuple[str, ...]:
-    """Findings on the friction of ideal joints: what was not given for it, and where it is not taken into account."""
-    return tuple(text for joint in spec.joints if (text := _friction_finding(joint)))
+    """Findings on friction: what was not given for it, where it is not taken into account, a coefficient at rest below that of sliding."""
+    findings = tuple(text for joint in spec.joints if (text := _friction_finding(joint)))
+    return (*findings, *(text for joint in spec.joints if (text := _low_static_friction(joint))), *_gears_without_teeth(spec))
+
+
+def _gears_without_teeth(spec):
+    """A finding where pins rub that gears press in reality: here a pair of gears is a ratio of angles, which passes on a torque."""
+    gears = [joint.name for joint in spec.joints if joint.kind == "gear"]
+    if gears and any(joint.friction for joint in spec.joints if joint.kind == "revolute"):
+        yield (
+            f"joints of kind gear ({', '.join(map(repr, gears))}) transmit torque only: joint forces and friction of the pins exclude the "
+            "tooth forces. The real forces and losses in the pins of geared bodies are larger"
+        )
+
+
+def _low_static_friction(joint):
+    if joint.static_friction is None or joint.static_friction >= joint.friction:
+        return None
+    return (
+        f"joint {joint.name!r}: static_friction {joint.static_friction:g} is below friction {joint.friction:g}; for dry surfaces static "
+        "friction is at least as large as sliding friction"
+    )
 
 
 def _friction_finding(joint):
@@ -97,9 +117,13 @@ def inertia_extent(spec: LinkageSpec) -> tuple[Check, ...]:
 
 
 def window(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
-    """Turns that are left for peaks and means of a run that may end before its time."""
+    """Turns that are left for peaks and means of a run that may end before its time; of a mechanism without play one is enough."""
     if spec.simulate is None or spec.period is None:
         return ()
+    repeats = all(joint.is_ideal for joint in spec.joints)
     turns = max(min(spec.duration or math.inf, end) - spec.start_of_window, 0.0) / spec.period
     message = "turns after the discarded ones; with fewer the five largest peaks are not all main peaks: raise simulate.turns"
-    return (Check("window", turns, spec.limits.least_turns, ">=", "-", message, label="evaluated turns"),)
+    if repeats:
+        message = "turns after the discarded ones; peaks and means need at least one whole turn: raise simulate.turns"
+    limit = min(spec.limits.least_turns, 1.0) if repeats else spec.limits.least_turns
+    return (Check("window", turns, limit, ">=", "-", message, label="evaluated turns"),)

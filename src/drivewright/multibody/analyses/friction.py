@@ -4,12 +4,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.labels import in_words
 from drivewright.multibody.analyses.actuation import actuations, observe_run
 from drivewright.multibody.analyses.ensemble import statistics
 from drivewright.multibody.analyses.simulation_model import SimulationModel, cycle_columns, last_turn, over_last_turn, run_of
 from drivewright.multibody.analyses.turns import RunNumbers, mean_per_turn, start_of_window, turn_ends
 from drivewright.multibody.forces.joint_friction import KINDS
+from drivewright.multibody.forces.resting_friction import holding_shares, with_loads
 from drivewright.multibody.observe import POWER_FIELDS
 from drivewright.multibody.observed import FRICTION_FIELDS
 from drivewright.multibody.simulate import Run
@@ -17,6 +19,8 @@ from drivewright.multibody.system import joints_with_friction
 from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Check, Column, Table, Value
 
+MORE, GROWS = 2.0, 1e-3  # factor on the loads, and growth of the shares by it, that tell self-locking from a load that is too small
+LITTLE = 1e-6  # of what joints can hold: there is no load
 AT_REST = 1e-3  # rate over the largest one of the run below which a joint is at rest
 TURNING = (KINDS["pin"], KINDS["wheel"])
 
@@ -37,12 +41,18 @@ def friction_numbers(model: SimulationModel, run: Run) -> RunNumbers:
     losses = -observed.powers[:, POWER_FIELDS.index("friction")]
     rates |= {"driving": driving, "losses": losses, "holds": ((driving > 0) & (driving < losses)).astype(float)}
     for name, values in rates.items():
-        numbers.whole[name] = time_mean(observed.t, values)
-        numbers.turns.update({name: mean_per_turn(observed.t, values, ends)} if len(ends) > 1 else {})
+        t, values = staircase(observed.t, values) if name.endswith(".stuck") else (observed.t, values)
+        numbers.whole[name] = time_mean(t, values)
+        numbers.turns.update({name: mean_per_turn(t, values, ends)} if len(ends) > 1 else {})
     numbers.whole["loads"] = -_load_power(observed, driving, model)
     for k, (name, _) in enumerate(rubbing_joints(model)):
         numbers.whole[f"{name}.most"] = float(np.max(np.abs(observed.friction(k, "force"))))
     return numbers
+
+
+def staircase(t: Floats, x: Floats) -> tuple[Floats, Floats]:
+    """(times, values), the corners of x (m,) kept from each time to the next: what changes in events alone is no polygon between them."""
+    return np.repeat(t, 2)[1:-1], np.repeat(x, 2)[:-2]
 
 
 def _of_joint(observed, k):
@@ -145,5 +155,19 @@ def _standstill(model) -> Iterator[str]:
     held = ", ".join(f"{name!r} {100 * share:.3g} %" for (name, _), share in zip(rubbing_joints(model), shares, strict=True))
     yield (
         f"friction holds the mechanism at rest from t = {since:.4g} s to the end of the run. Utilisation of the static friction by joint: "
-        f"{held}. Raise the motor torque or the load, or lower the friction, if the mechanism is meant to move"
+        f"{held}. {_what_moves_it(run)}"
+    )
+
+
+def _what_moves_it(run):
+    """Whether larger loads would move what friction holds: not where they press the joints as much as they push."""
+    system, t, y = run.end
+    now, then = holding_shares(system, t, y), holding_shares(with_loads(system, MORE), t, y)
+    if np.max(now) < LITTLE:
+        return "No load acts on it"
+    if np.any(then > now * (1 + GROWS)):
+        return "If the mechanism is meant to move, raise the motor torque or the load, or lower the friction"
+    return (
+        "The mechanism is self-locking: a larger load raises the joint forces in proportion and does not move it either. Lower the "
+        "coefficient of friction, lengthen a guide (bearing_length), apply the load closer to the joint, or make a slope steeper"
     )

@@ -1,12 +1,17 @@
 """Forces, impacts and orbits of pins with play."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from drivewright.labels import in_words
 from drivewright.multibody.analyses.ensemble import settled_check, statistics, unsettled
 from drivewright.multibody.analyses.simulation_model import SimulationModel, cycle_columns, last_turn, over_last_turn, run_of
+from drivewright.multibody.forces.contact import AMBROSIO, COULOMB
 from drivewright.multibody.observe import PIN_FIELDS
 from drivewright.result import Answer, Check, Column, Table, Value
+
+FULL = 0.9  # of the coefficient stated: with less a finding says so
 
 
 def pins(model: SimulationModel) -> Answer:
@@ -26,7 +31,19 @@ def pins(model: SimulationModel) -> Answer:
                 words = f"{peak.meaning}; {remedy}"
                 checks.append(Check.of(peak, f"{key}.{name}", limit, "<=", words, (name,), peak.label))
     settled = settled_check("settled.joints", values.values(), "Settled statistics of the joints")
-    return Answer(values, tuple(tables), (*checks, settled), unsettled(values))
+    return Answer(values, tuple(tables), (*checks, settled), (*unsettled(values), *_smoothed_friction(model)))
+
+
+def _smoothed_friction(model) -> Iterator[str]:
+    """A finding on each pin that slides so slowly that the smoothing of its law about standstill takes a good part of its friction."""
+    for name, contact in zip(model.pins, model.assembly.system.contacts, strict=True):
+        found = statistics(model).members[0].whole[f"{name}.coefficient"]
+        if contact.law in (COULOMB, AMBROSIO) and found < FULL * contact.friction:
+            yield (
+                f"joint {name!r} slides too slowly for its smoothed friction law: the mean coefficient of friction is {found:.2g}, not "
+                f"{contact.friction:.3g}, because friction_speed = {1e3 * contact.slip_speed:.3g} mm/s is not small compared with the "
+                'sliding speed. Give a smaller friction_speed, or friction_law = "lugre"'
+            )
 
 
 def _pin_values(model, name):
