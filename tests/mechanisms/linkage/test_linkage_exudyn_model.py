@@ -270,7 +270,7 @@ def test_the_distance_off_centre_knows_how_bodies_stand():
     ("part", "message"),
     [
         ({"joints": (Revolute("pin", Marker("a"), Marker(GROUND), MasslessLink(1e-4)),)}, r"joint 'pin' is a MasslessLink"),
-        ({"joints": (Gear("mesh", "a", "b", -2.0),)}, r"no Gear \('mesh'\)"),
+        ({"joints": (Gear("mesh", "a", "b", -2.0),)}, r"does not support Gear \('mesh'\)"),
         ({"forces": (AppliedTorque("motor", "a", LoadCurve(line(1.0, 2.0), "speed")),)}, r"'motor' is not constant"),
         (
             {

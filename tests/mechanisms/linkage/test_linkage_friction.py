@@ -383,7 +383,7 @@ def findings_of(spec):
 
 def test_a_velocity_that_the_joints_do_not_allow_is_said():
     (text,) = [text for text in findings_of(spec_of({"block": body(velocity=["1 m/s", "2 m/s"])}, [guide()])) if "cannot start" in text]
-    assert text == "body 'block' cannot start with the velocity (1000, 2000) mm/s: joints and drives leave (1000, 0) mm/s of it"
+    assert text == "body 'block' cannot start with the velocity (1000, 2000) mm/s: joints and drives allow (1000, 0) mm/s"
     (text,) = [text for text in findings_of(spec_of({"block": body(angular_velocity="60 rpm")}, [guide()])) if "cannot start" in text]
     assert "angular velocity 6.283 rad/s" in text and "allow 0 rad/s" in text
     assert not any("cannot start" in text for text in findings_of(block()))
@@ -420,7 +420,7 @@ def test_the_share_of_sticking_goes_from_event_to_event():
     assert value(result, "joints.guide.stick_share") == pytest.approx(1 - 1 / (0.2 * G), abs=2e-6)
 
 
-@pytest.mark.parametrize(("length", "words"), [("70 mm", "It is self-locking"), (None, "has to be larger")])
+@pytest.mark.parametrize(("length", "words"), [("70 mm", "The mechanism is self-locking"), (None, "raise the motor torque or the load")])
 def test_what_stands_still_says_what_would_move_it(length, words):
     """A block pushed 200 mm beside a guide of 70 mm, mu = 0.2, locks under any force; one pushed in its line only by a small one."""
     joint = {"friction": 0.2} | ({"bearing_length": length} if length else {})
