@@ -167,8 +167,8 @@ def test_a_drawer_that_locks_names_joint_place_and_share():
     with pytest.raises(InputError) as error:
         record(simulate(assembly, 0.1), {})
     assert "friction locks the mechanism at t = 0 s, drive 'drive' at 0 mm" in str(error.value)
-    assert "joint 'guide' presses itself fast" in str(error.value)
-    assert "up to 80 % of the friction" in str(error.value)
+    assert "joint 'guide' is self-locking" in str(error.value)
+    assert "up to 80 % of the given friction" in str(error.value)
 
 
 def pushed_drawer(pusher):
@@ -191,7 +191,7 @@ def test_a_heavy_pusher_locks_it_and_the_run_says_where():
     """Where m_p > 4 m_b the drawer's own friction is pressed on by the deceleration that it makes: no force is in balance."""
     run = pushed_drawer(5.0)
     assert run.outcome == "partial"
-    assert "joint 'guide' presses itself fast" in run.advice
+    assert "joint 'guide' is self-locking" in run.advice
 
 
 # ---------------------------------------------------------------------------------------------------------- pins, slots, wheels

@@ -34,7 +34,7 @@ WARY, CAREFUL = 3.0, 0.2  # length of a leg towards a singular position, and lon
 STRETCHED = 1e-4  # smallest singular value of loops in which a drive is stuck
 MOST_STATES = 1_500_000  # that are kept of kinematics: about a kilobyte each with all that is observed of them
 MOST_KEPT = 750_000  # that are kept of a run with freedom, whose ensemble is observed side by side: about three kilobytes
-FULL = f"{MOST_KEPT / 1e6:g} million states of it fill the memory that a run may have; ask for fewer turns, or loosen its tolerances"
+FULL = f"{MOST_KEPT / 1e6:g} million states reach the memory limit of a run; reduce turns, or raise the tolerances"
 ROUNDING = 1e-12  # of the number of turns
 SAMPLES = 720  # states of a turn where the drives leave no freedom and so no steps to report
 
@@ -114,9 +114,8 @@ def simulate(
     """
     if assembly.freedom == 0:
         turns = max(duration * fastest_drive_speed(assembly) / (2 * np.pi), 1.0)
-        count = counted(
-            np.ceil(settings.samples * turns * (1 - ROUNDING)), MOST_STATES, "states of the run", "ask for fewer turns, or a shorter run"
-        )
+        states = np.ceil(settings.samples * turns * (1 - ROUNDING))
+        count = counted(states, MOST_STATES, "states of the run", "reduce turns, samples_per_turn or duration")
         grid = np.linspace(start, start + duration, 1 + count)
         times = grid if samples is None else np.asarray(samples, float)
         return _driven(assembly, times, start + duration, settings, samples is None)
@@ -215,12 +214,12 @@ def stop_advice(time: float, settings: Settings) -> str:
     """Advice of a run that ends in a singular position."""
     if settings.singular == "stop":
         return (
-            f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; "
-            'take simulate.singular = "smooth" to go through it'
+            f'the mechanism reaches a singular position at t = {time:.6g} s, where simulate.singular = "stop" ends the run; '
+            'set simulate.singular = "smooth" to pass through it'
         )
     return (
-        f"the mechanism comes to a singular position at t = {time:.6g} s, where the forces in its joints grow without bound, and their "
-        "friction with them. Take the friction out of the ideal joints, give the pins play, or end the run before"
+        f"the mechanism reaches a singular position at t = {time:.6g} s, where the joint forces and their friction grow without bound. "
+        "Remove the friction of the ideal joints, give the pins clearance, or end the run before that time"
     )
 
 
@@ -375,10 +374,11 @@ def _stuck(assembly, t, end):
     if t <= 0.0:
         return (
             f"the mechanism starts in a singular position, drive {' and '.join(positions)}: links of the loop through joint"
-            f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} stand in line there, and nothing says to which side they "
-            "bend. Start a few degrees away"
+            f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} are collinear there, and the side to which they fold is "
+            "undetermined. Start a few degrees away"
         )
     return (
         f"the mechanism cannot go on beyond t = {t:.6g} s of {end:.6g} s, drive {' and '.join(positions)}: the loop through joint"
-        f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} does not close there. Change a length, or drive over less"
+        f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} does not close there. Change a length, or reduce "
+        "the range of the drive"
     )

@@ -1,4 +1,4 @@
-"""The kind `linkage`: planar linkages with ideal joints or joints with play."""
+"""The kind `linkage`: planar linkages with ideal joints or joints with clearance."""
 
 from pathlib import Path
 
@@ -51,7 +51,7 @@ def plots(result: Result[LinkageSpec]) -> tuple[Plot, ...]:
 
 mechanism = Mechanism(
     kind="linkage",
-    summary="planar linkage with ideal joints or joints with play",
+    summary="planar linkage with ideal joints or joints with clearance",
     spec=LinkageSpec,
     build=build,
     compile_ahead=compile_ahead,

@@ -3,6 +3,7 @@
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.labels import in_words
 from drivewright.motion.motor_sizing import MotorSizing, size_motor
 from drivewright.multibody.analyses.actuation import Actuation, actuations, observe_run
 from drivewright.multibody.analyses.simulation_model import SimulationModel, run_of
@@ -18,13 +19,13 @@ from drivewright.result import Answer, Column, Table, Value
 
 POSITIONS = 73  # at which the inertia is felt
 QUANTITIES = (
-    # key, of MotorSizing, unit where it turns, unit where it slides, words, what they mean
-    ("rms", "rms_torque", "N m", "N", "rms {effort}", "root mean square over the time of the window"),
-    ("peak", "peak_torque", "N m", "N", "peak {effort}", "the largest, either way"),
-    ("mean_power", "mean_power", "W", "W", "mean power", "from the drive into the mechanism"),
-    ("peak_power", "peak_power", "W", "W", "peak power", "from the drive into the mechanism"),
-    ("braking_power", "braking_power", "W", "W", "braking power", "the largest that flows back into the drive"),
-    ("peak_speed", "peak_speed", "rad/s", "m/s", "peak {rate}", "the largest, either way"),
+    # key, of MotorSizing, unit where it turns, unit where it slides, words, convention
+    ("rms", "rms_torque", "N m", "N", "RMS {effort}", ""),
+    ("peak", "peak_torque", "N m", "N", "peak {effort}", "magnitude"),
+    ("mean_power", "mean_power", "W", "W", "mean power", "positive from the drive into the mechanism"),
+    ("peak_power", "peak_power", "W", "W", "peak power", "positive from the drive into the mechanism"),
+    ("braking_power", "braking_power", "W", "W", "peak braking power", "positive from the mechanism back into the drive"),
+    ("peak_speed", "peak_speed", "rad/s", "m/s", "peak {rate}", "magnitude"),
 )
 
 
@@ -52,10 +53,11 @@ def motors(model: SimulationModel) -> Answer:
 def _sizing_values(one: Actuation, sizing: MotorSizing) -> dict[str, Value]:
     effort, rate = ("torque", "speed") if one.turns else ("force", "velocity")
     values = {}
-    for key, field, turning, sliding, words, meaning in QUANTITIES:
+    for key, field, turning, sliding, words, convention in QUANTITIES:
         name = f"{key}_{effort}" if key in ("rms", "peak") else key
-        told = f"{words.format(effort=effort, rate=rate)} of drive {one.name!r}, {meaning}"
-        values[name] = Value(getattr(sizing, field), turning if one.turns else sliding, told)
+        label = f"{words.format(effort=effort, rate=rate)} of drive {in_words(one.name)}"
+        unit, meaning = turning if one.turns else sliding, f"{label} over the window"
+        values[name] = Value(getattr(sizing, field), unit, meaning, label=label, convention=convention)
     return values
 
 
@@ -64,11 +66,13 @@ def _inertia_values(model: SimulationModel, one: Actuation) -> dict[str, Value]:
     if not len(inertia):
         return {}
     unit, word = ("kg m^2", "inertia") if one.turns else ("kg", "mass")
-    positions = "over the positions of a turn without play" if model.has_play else "over the positions in the window"
-    where = f"reflected {word} of drive {one.name!r}, {{}} {positions}, other drives held"
+    drive = f"drive {in_words(one.name)}"
+    positions = "over the positions of a turn with ideal joints" if model.has_play else "over the positions in the window"
+    of_all = {f"reflected_{word}": ("mean", time_mean(times, inertia)), f"max_reflected_{word}": ("maximum", np.max(inertia))}
+    where = f"{positions}, other drives held"
     return {
-        f"reflected_{word}": Value(time_mean(times, inertia), unit, where.format("mean over time")),
-        f"max_reflected_{word}": Value(float(np.max(inertia)), unit, f"largest {where.format('largest')}"),
+        key: Value(float(value), unit, f"{kind} reflected {word} of {drive}, {where}", label=f"{kind} reflected {word}, {drive}")
+        for key, (kind, value) in of_all.items()
     }
 
 
@@ -84,14 +88,14 @@ def _table(rows) -> Table:
     for kind, unit, there in (("torque", "N m", turning), ("force", "N", sliding)):
         if there:
             columns += [
-                column(f"rms_{kind}", unit, f"rms {kind}", [f"rms_{kind}"]),
+                column(f"rms_{kind}", unit, f"RMS {kind}", [f"rms_{kind}"]),
                 column(f"peak_{kind}", unit, f"peak {kind}", [f"peak_{kind}"]),
             ]
     columns += [column(key, "W", words, [key]) for key, _, unit, _, words, _ in QUANTITIES if unit == "W"]
     for kind, unit, there in (("inertia", "kg m^2", turning), ("mass", "kg", sliding)):
         if there:
-            columns.append(column(f"reflected_{kind}", unit, f"reflected {kind}, mean over positions", [f"reflected_{kind}"]))
-            columns.append(column(f"max_reflected_{kind}", unit, f"largest reflected {kind}", [f"max_reflected_{kind}"]))
+            columns.append(column(f"reflected_{kind}", unit, f"mean reflected {kind}", [f"reflected_{kind}"]))
+            columns.append(column(f"max_reflected_{kind}", unit, f"maximum reflected {kind}", [f"max_reflected_{kind}"]))
     return Table("motors", "Motor sizing", tuple(columns))
 
 
