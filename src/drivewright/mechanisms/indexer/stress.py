@@ -24,16 +24,17 @@ def stress(model: IndexerModel, done: Answers) -> Answer:
     if model.translating:
         return Answer()
     table, findings = (_plate if model.flat else roller.stress)(model, done)
-    values = largest_pin_values(table)
-    return Answer(values, (table,), (*pressure_check(model, values), *_held(model, table)), findings)
+    values = largest_pin_values(table, "roller")
+    return Answer(values, (table,), (*pressure_check(model, values, "roller"), *_held(model, table)), findings)
 
 
-def pressure_check(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
-    """The Hertz pressure against what is allowed, or what the material stands."""
+def pressure_check(model: IndexerModel, values: Mapping[str, Value], part: str = "pin") -> Iterator[Check]:
+    """The Hertz pressure on a pin or roller against what is allowed, or what the material stands."""
     allowed = model.spec.limits.contact_pressure or materials.material(model.spec.contact.material).hertz_limit
     if allowed and "pins.max_pressure" in values:
-        largest = values["pins.max_pressure"].value
-        yield Check("contact_pressure", largest, allowed, "<=", "Pa", "Hertz pressure on a pin", ("cam1", "wheel"))
+        message = f"maximum Hertz pressure on a {part}; take longer contact lines, larger {part}s or a stronger material"
+        label = f"Maximum Hertz pressure on a {part}"
+        yield Check.of(values["pins.max_pressure"], "contact_pressure", allowed, "<=", message, ("cam1", "wheel"), label)
 
 
 def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
@@ -41,12 +42,13 @@ def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
     if model.spec.load.angle is None:
         angles = model.angles if model.flat else np.linspace(0, TURN, roller.STEPS)
         lost = 1 - len(np.unique(table["angle"].data)) / len(angles)
-        yield Check("held", lost, 0.0, "<=", "-", "part of the input angles at which no roller takes the torque", ("cam1", "wheel"))
+        message, label = "share of the input angles at which no roller carries the torque", "Cycle without holding contact"
+        yield Check("held", lost, 0.0, "<=", "-", message, ("cam1", "wheel"), label=label)
 
 
 def _plate(model: IndexerModel, done: Answers) -> tuple[Table, tuple[str, ...]]:
-    """Of two plate cams: the roller with the longest lever alone."""
+    """Of two plate cams: the roller with the longest moment arm alone."""
     table = longest_lever_table(model.plane, model.angles, model.torque, model.spec.cam_width, model.modulus)
     count = len(model.angles)
     lost = count - len(table["angle"].data)
-    return table, (f"nothing carries the torque at {lost} of {count} input angles",) if lost else ()
+    return table, (f"no roller carries the torque at {lost} of {count} input angles",) if lost else ()
