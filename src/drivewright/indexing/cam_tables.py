@@ -12,7 +12,7 @@ from drivewright.indexing.plane import PinDrive, PlaneDrive, contacts_at
 from drivewright.result import Array, Column, Table
 
 
-def profile_table(drive: PlaneDrive, name: str, title: str = "Profile of the cam", chords: int = 24) -> Table:
+def profile_table(drive: PlaneDrive, name: str, title: str = "Cam profile", chords: int = 24) -> Table:
     """Points along the profile with the input angle and the pin that cuts them; curvature positive where the cam is convex."""
     t, points, curvature = _along_spans(drive.profile, chords)
     x, y = points.real, points.imag

@@ -28,14 +28,16 @@ def motion_values(table: Table, motion_angle: float, speed: float | None = None)
     }
     if speed:
         values["motion.peak_speed"] = Value(rate * speed, "rad/s", "maximum speed of the wheel")
-        values["motion.peak_acceleration"] = Value(second * speed**2, "rad/s^2", "maximum angular acceleration of wheel")
+        values["motion.peak_acceleration"] = Value(
+            second * speed**2, "rad/s^2", "maximum angular acceleration of the wheel", label="Maximum wheel acceleration"
+        )
     return values
 
 
 def profile_values(drive: PlaneDrive, table: Table, which: str = "") -> dict[str, Value]:
     """Measures of the trimmed profile of a cam, named after its `profile_table`; no convex radius where the cam is nowhere convex.
 
-    which: ", cam 2" behind the labels of a cam that is not the first.
+    which: ", cam 2" behind the labels and meanings of a cam that is not the first.
     """
     trimmed, name, convex = drive.profile, table.name, least_convex_radius(drive)
     radius = np.hypot(table["x"].data, table["y"].data)
@@ -49,7 +51,9 @@ def profile_values(drive: PlaneDrive, table: Table, which: str = "") -> dict[str
     if np.isfinite(convex):
         meaning = "minimum radius of curvature of the pitch curve where the cam is convex"
         rows.append(("min_convex_radius", convex, "m", meaning, "Minimum convex pitch-curve radius"))
-    return {f"{name}.{key}": Value(number, unit, meaning, label=f"{label}{which}") for key, number, unit, meaning, label in rows}
+    return {
+        f"{name}.{key}": Value(number, unit, f"{meaning}{which}", label=f"{label}{which}") for key, number, unit, meaning, label in rows
+    }
 
 
 def contact_count_values(table: Table, parts: str, where: str) -> dict[str, Value]:

@@ -40,7 +40,7 @@ def stiffness_table(angles: Floats, result: WheelStiffness, loaded: WheelStiffne
     columns += [
         Column("free_rotation", "rad", "play before a contact carries the torque", free, "Play before holding contact"),
         Column("secant_after_play", "N m/rad", "secant stiffness after the play, torque over the rotation beyond it", loaded.secant),
-        Column("secant_reversed", "N m/rad", "secant stiffness with the torque reversed", reverse.secant),
+        Column("secant_reversed", "N m/rad", "secant stiffness, torque reversed", reverse.secant, "Secant stiffness, torque reversed"),
     ]
     return Table("stiffness", "Torsional stiffness", tuple(columns))
 

@@ -11,7 +11,7 @@ from drivewright.motion.motor_sizing import MotorSizing, mean_over_cycle, size_m
 from drivewright.result import Answer, Answers, Check, Value
 
 DEMAND = {  # field of a `MotorSizing`: unit, meaning
-    "peak_torque": ("N m", "maximum torque {place}, of either sign"),
+    "peak_torque": ("N m", "maximum magnitude of the torque {place}"),
     "rms_torque": ("N m", "RMS torque {place}"),
     "mean_torque": ("N m", "mean torque {place}"),
     "peak_power": ("W", "maximum power {place}"),
@@ -68,7 +68,8 @@ def _motor_values(model: IndexerModel, torque: DriveTorque, speed: float) -> Ite
 
 def _demand(prefix: str, sizing: MotorSizing, place: str) -> Iterator[tuple[str, Value]]:
     for name, (unit, meaning) in DEMAND.items():
-        yield f"{prefix}.{name}", Value(getattr(sizing, name), unit, meaning.format(place=place))
+        label = f"Maximum torque {place}" if name == "peak_torque" else ""
+        yield f"{prefix}.{name}", Value(getattr(sizing, name), unit, meaning.format(place=place), label=label)
 
 
 def _checks(model: IndexerModel, values: dict[str, Value]) -> Iterator[Check]:

@@ -44,7 +44,7 @@ def profile(model: IndexerModel, done: Answers) -> Answer:
     """The trimmed profile of every cam that differs: measures, points, curvature, undercut."""
     levels, values = model.plane.levels, {}
     names = [(f"profile{suffix}", which) for _, (suffix, which) in zip(levels, SUFFIXES.items(), strict=False)]
-    tables = tuple(profile_table(level, name, f"Profile of the cam{which}") for level, (name, which) in zip(levels, names, strict=True))
+    tables = tuple(profile_table(level, name, f"Cam profile{which}") for level, (name, which) in zip(levels, names, strict=True))
     for level, table, (_, which) in zip(levels, tables, names, strict=True):
         values |= profile_values(level, table, which)
     checks = chain(_curvature_checks(model, values), _wall_checks(model, values))
@@ -121,6 +121,11 @@ def play_answer(model: IndexerModel, angle: Floats, rotations: Mapping[str, Floa
     return Answer(values, (play_table(angle, rotations),), tuple(checks), tuple(play_findings(angle, rotations)))
 
 
+def holding_hint(model: IndexerModel) -> str:
+    """What to change where the cams do not hold the wheel without play."""
+    return "take a longer motion angle, thinner pins or a larger eccentricity" if model.translating else "check for undercut"
+
+
 def _play_checks(model: IndexerModel, angle: Floats, rotations: Mapping[str, Floats]) -> Iterator[Check]:
     limit = model.spec.limits.play
     for name, free in rotations.items():
@@ -131,4 +136,5 @@ def _play_checks(model: IndexerModel, angle: Floats, rotations: Mapping[str, Flo
         else:
             largest = max(model.drive.pin_pitch, 2 * limit)
             message = f"play of the wheel {name}: no contact stops the wheel within a whole pitch"
+        message = f"{message}; {holding_hint(model)}"
         yield Check(f"play.{name}", largest, limit, "<=", "rad", message, ("wheel", "cam"), label=f"Maximum play, {name}")

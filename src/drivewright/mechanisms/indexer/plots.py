@@ -20,8 +20,8 @@ def _all(result: Result[Any]) -> Iterator[Plot]:
     yield Plot("drive_power", "Power at the input", "drive", "angle", ("input_power",))
     for suffix, which in SUFFIXES.items():
         if f"profile{suffix}" in result.tables and "z" not in [column.name for column in result.tables["profile"].columns]:
-            yield Plot(f"profile{suffix}", f"Profile of the cam{which}", f"profile{suffix}", "x", ("y",), equal=True)
-    yield Plot("curvature", "Curvature of the profile over input angle", "profile", "angle", ("curvature",), style="points")
+            yield Plot(f"profile{suffix}", f"Cam profile{which}", f"profile{suffix}", "x", ("y",), equal=True)
+    yield Plot("curvature", "Curvature of the cam profile", "profile", "angle", ("curvature",), style="points")
     yield Plot("contacts", "Contacts by direction of push", "contacts", "angle", ("pins", "forward", "backward"))
     pushed, meaning = ("pin_forward", "pin_backward"), "pins in contact with one cam, by the direction in which it can push them"
     yield Plot("contact_map", "Contact map of one cam", "contact_points", "angle", pushed, style="points", meaning=meaning)

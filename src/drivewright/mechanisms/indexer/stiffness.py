@@ -7,6 +7,7 @@ from drivewright.indexing.stiffness.loading import dwell_angles, solve_after_pla
 from drivewright.indexing.stiffness.tables import pin_force_table, stiffness_table
 from drivewright.indexing.stiffness.values import dwell_values, stiffness_findings, stiffness_values
 from drivewright.mechanisms.indexer.build import STEP, IndexerModel, once
+from drivewright.mechanisms.indexer.geometry import holding_hint
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.mechanisms.indexer.stress import pressure_check
@@ -85,8 +86,7 @@ def stiffness_check(least: Value, limit: float) -> Check:
 def holding_checks(model: IndexerModel, name: str, lost: Value | None, stretch: str) -> Iterator[Check]:
     """Share of the input angles at which the torque is not held at once; stretch: "index period" or "dwell"."""
     if lost is not None and model.spec.load.angle is None:
-        hint = "take a longer motion angle, thinner pins or a larger eccentricity" if model.translating else "check play and undercut"
         why = "the wheel first turns freely, or the moment arm is near zero"
-        message = f"share of the {stretch} at which no contact holds the torque at once: {why}; {hint}"
+        message = f"share of the {stretch} at which no contact holds the torque at once: {why}; {holding_hint(model)}"
         label = f"{stretch.capitalize()} without holding contact"
         yield Check(name, lost.value, 0.0, "<=", "-", message, ("cam1", "wheel"), label=label)

@@ -9,6 +9,7 @@ from drivewright.indexing.motion import TURN
 from drivewright.indexing.pin_pressure import largest_pin_values, longest_lever_table
 from drivewright.mechanisms.indexer import roller
 from drivewright.mechanisms.indexer.build import IndexerModel
+from drivewright.mechanisms.indexer.geometry import holding_hint
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 from drivewright.result import Answer, Answers, Check, Table, Value
@@ -32,7 +33,7 @@ def pressure_check(model: IndexerModel, values: Mapping[str, Value], part: str =
     """The Hertz pressure on a pin or roller against what is allowed, or what the material stands."""
     allowed = model.spec.limits.contact_pressure or materials.material(model.spec.contact.material).hertz_limit
     if allowed and "pins.max_pressure" in values:
-        message = f"maximum Hertz pressure on a {part}; take longer contact lines, larger {part}s or a stronger material"
+        message = f"maximum Hertz pressure on a {part}; increase the contact length or the {part} radius, or take a stronger material"
         label = f"Maximum Hertz pressure on a {part}"
         yield Check.of(values["pins.max_pressure"], "contact_pressure", allowed, "<=", message, ("cam1", "wheel"), label)
 
@@ -42,7 +43,10 @@ def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
     if model.spec.load.angle is None:
         angles = model.angles if model.flat else np.linspace(0, TURN, roller.STEPS)
         lost = 1 - len(np.unique(table["angle"].data)) / len(angles)
-        message, label = "share of the input angles at which no roller carries the torque", "Cycle without holding contact"
+        message, label = (
+            f"share of the input angles at which no roller carries the torque; {holding_hint(model)}",
+            "Cycle without holding contact",
+        )
         yield Check("held", lost, 0.0, "<=", "-", message, ("cam1", "wheel"), label=label)
 
 
