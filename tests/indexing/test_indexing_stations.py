@@ -248,6 +248,9 @@ def test_half_a_pitch_more_changes_the_levels_of_a_parallel_drive():
     "make", [lambda: wheel(12, 5).profile, lambda: parallel(12, 5).levels[0].profile, lambda: hourglass(12, 5), lambda: drum(12, 5)]
 )
 def test_stations_that_do_not_divide_the_pins_are_refused(make):
-    words = "stations = 5 does not divide pins = 12: a step of 72 deg would pass 2.4 pins.*Take 10 or 15 pins, or stations from 1, 2, 3, 4, 6, 12"
+    words = (
+        "stations = 5 does not divide pins = 12: a step of 72 deg would pass 2.4 pins.*"
+        "Take 10 or 15 pins, or stations from 1, 2, 3, 4, 6, 12"
+    )
     with pytest.raises(InputError, match=words):
         make()

@@ -92,7 +92,7 @@ class Lubrication(Spec):
 
 
 def refuse_said_twice(lubrication: Lubrication) -> None:
-    """SpecError for the first key that stands in place of others which are given too."""
+    """SpecError for the first key that replaces others which are given too."""
     for one, others in (("viscosity", ("grade", "temperature")), ("contamination_factor", ("contamination",))):
         twice = [key for key in others if getattr(lubrication, one) is not None and getattr(lubrication, key) is not None]
         if twice:

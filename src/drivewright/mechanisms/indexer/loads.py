@@ -67,5 +67,5 @@ def _checks(model: IndexerModel, group: str, values: Mapping[str, Value]) -> Ite
         label = f"Static safety, {group} bearings"
         yield Check(f"static_rating.{group}", rating / largest, limits.static_safety, ">=", "-", message, (group,), label=label)
     if limits.life and life:
-        message = f"basic life of the most loaded {group} bearing; take bearings with a higher dynamic rating or a lower speed"
+        message = f"basic life of the most loaded {group} bearing; take bearings of larger dynamic rating or a lower speed"
         yield Check(f"life.{group}", life.value, limits.life, ">=", "s", message, (group,), label=f"Basic life L10h, {group} bearings")

@@ -39,7 +39,7 @@ def pressure_check(model: IndexerModel, values: Mapping[str, Value], part: str =
 
 
 def _held(model: IndexerModel, table: Table) -> Iterator[Check]:
-    """Part of the input angles at which no roller takes the torque."""
+    """Share of the input angles at which no roller carries the torque."""
     if model.spec.load.angle is None:
         angles = model.angles if model.flat else np.linspace(0, TURN, roller.STEPS)
         lost = 1 - len(np.unique(table["angle"].data)) / len(angles)

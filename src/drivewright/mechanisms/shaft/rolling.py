@@ -170,5 +170,5 @@ def _life_checks(model: ShaftModel, lives: Mapping[str, Value]) -> Iterator[Chec
         for name in model.rolling if limit else ():
             value = lives.get(f"bearings.{name}.{kind}.time")
             if value is not None and limit:
-                message = f"{kind.replace('_', ' ')} of bearing {name!r}; take a bearing with a higher dynamic rating"
+                message = f"{kind.replace('_', ' ')} of bearing {name!r}; take a bearing of larger dynamic rating"
                 yield Check(f"{check}.{name}", value.value, limit, ">=", "s", message, (name,))

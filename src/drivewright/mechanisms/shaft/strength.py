@@ -106,5 +106,5 @@ def _checks(spec: ShaftSpec, values: dict[str, Value]) -> Iterator[Check]:
     ):
         value = values[f"strength.{key}"]
         section = f"; weakest section: {where}" if value.value == least.value else ""
-        message = f"{words}{section}; take a larger diameter, a larger fillet radius or a stronger material"
+        message = f"{words}; take a larger diameter, a larger fillet radius or a stronger material{section}"
         yield Check.of(value, f"strength.{key}", limit, ">=", message, ("shaft",), label)
