@@ -16,7 +16,7 @@ FORCE_COLUMNS = {
     "cam": ("-", "cam"),
     "pin": ("-", "roller"),
     "force": ("N", "force on the roller"),
-    "arm": ("m", "lever about the wheel's axis"),
+    "arm": ("m", "moment arm about the wheel's axis"),
     "length": ("m", "length of the contact line"),
     "pressure": ("Pa", "Hertz pressure"),
 }
@@ -72,9 +72,7 @@ def longest_lever_table(drive: PinDrive, angles: Floats, torque: float, width: f
             rows.append(
                 (angle, pin + drive.levels[0].pins * number, force, arm, pin_pressure(force, curvature, level.pin_radius, width, modulus))
             )
-    return contact_force_table(
-        "pin_forces", "Force on the roller with the longest lever", ("angle", "pin", "force", "arm", "pressure"), rows
-    )
+    return contact_force_table("pin_forces", "Roller force at the longest moment arm", ("angle", "pin", "force", "arm", "pressure"), rows)
 
 
 def contact_force_table(
@@ -93,11 +91,11 @@ def contact_force_table(
     return Table(name, title, tuple(made), missing=missing)
 
 
-def largest_pin_values(forces: Table) -> dict[str, Value]:
-    """Largest force and pressure of a table of pins."""
+def largest_pin_values(forces: Table, part: str = "pin") -> dict[str, Value]:
+    """Largest force and pressure of a table of forces on each `part`, a pin or a roller."""
     values = {}
     if len(forces["force"].data):
-        values["pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", "largest force on a pin")
+        values["pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", f"maximum force on a {part}")
     if np.isfinite(forces["pressure"].data).any():
-        values["pins.max_pressure"] = Value(float(np.nanmax(forces["pressure"].data)), "Pa", "largest Hertz pressure on a pin")
+        values["pins.max_pressure"] = Value(float(np.nanmax(forces["pressure"].data)), "Pa", f"maximum Hertz pressure on a {part}")
     return values

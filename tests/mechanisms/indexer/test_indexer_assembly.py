@@ -38,7 +38,7 @@ def test_it_runs_on_request_only():
     ("given", "reason"),
     [
         (lambda: spec("load.torque="), "load.torque is not given"),
-        (lambda: spec(*UNSIZED), "no body has a size: crank_bearings.bearing tells the holes of the cams and the crank pins"),
+        (lambda: spec(*UNSIZED), "no body has a size: give crank_bearings.bearing, which sets the holes of the cams and the crank pins"),
         (lambda: dw.load(PRESETS["barrel"]), "kind 'barrel' has no cams on cranks"),
     ],
 )

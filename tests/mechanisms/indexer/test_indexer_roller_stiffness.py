@@ -97,7 +97,7 @@ def test_gears_that_are_not_given_neither_yield_nor_have_play():
     assert np.nanmax(with_gear.tables["stiffness"]["gear"].data) > 0
     assert np.nanmax(np.abs(without.tables["stiffness"]["gear"].data)) == 0.0
     assert without["stiffness.mean"] > with_gear["stiffness.mean"]
-    words = "[gear] is not given: the split shafts are held where their gears would sit"
+    words = "[gear] is not given: the split shafts are held at the gear positions"
     assert any(words in each for each in without.findings) and not any(words in each for each in with_gear.findings)
 
 
@@ -105,7 +105,7 @@ def test_gears_that_are_not_given_neither_yield_nor_have_play():
 @pytest.mark.parametrize(
     ("kind", "change", "key", "words"),
     [
-        ("parallel", "housing.support_stiffness=1e9 N/m", "housing.support_stiffness", "take cam_stiffness for the bearings of its cam"),
+        ("parallel", "housing.support_stiffness=1e9 N/m", "housing.support_stiffness", "give cam_stiffness for the bearings of its cam"),
         ("default", "housing.cam_stiffness=1e9 N/m", "housing.cam_stiffness", "is for parallel, barrel and globoidal"),
         ("default", "housing.input_torsion=1e5 N m/rad", "housing.input_torsion", "is for parallel, barrel and globoidal"),
         ("default", "contact.interference=5 um", "contact.interference", "is for parallel, barrel and globoidal"),
@@ -121,7 +121,7 @@ def test_keys_of_other_kinds_are_refused(kind, change, key, words):
 
 @pytest.mark.error
 def test_contacts_that_stick_have_no_interference():
-    with pytest.raises(SpecError, match="contacts that stick need none"):
+    with pytest.raises(SpecError, match="bonded contacts need no interference"):
         dw.build(load("parallel", "contact.interference=5 um", "contact.model=bonded"))
 
 

@@ -59,7 +59,7 @@ def read_test(file: str | PathLike[str], arm: float | None = None) -> Readings:
     table = read_csv(Path(file), WANTED, (("torque", "force"), ("angle",)))
     _refuse_load(table.columns, arm, file)
     if len(table.rows) > LARGEST:
-        raise SpecError(f"{len(table.rows)} samples; give at most {LARGEST}, every tenth will do", file=str(file))
+        raise SpecError(f"{len(table.rows)} samples are too many; give at most {LARGEST}, for instance every tenth", file=str(file))
     torque = table.numbers("force") * arm if arm is not None else table.numbers("torque")
     cycle, branch = (_whole(table) if "cycle" in table else None), (_branch(table) if "branch" in table else None)
     return Readings(torque, table.numbers("angle"), cycle, branch, table.numbers("crank") if "crank" in table else None)

@@ -34,21 +34,26 @@ def no_torque(spec: IndexerSpec) -> str | None:
 
 ANALYSES = (
     Analysis("motion", geometry.motion, "motion of the wheel over the input"),
-    Analysis("drive", drive.drive, "torque and power at the input for the table", missing=drive.no_drive),
-    Analysis("profile", by_kind(geometry.profile, roller.surface), "trimmed profile, curvature, undercut"),
+    Analysis("drive", drive.drive, "input torque and power for a dial table", missing=drive.no_drive),
+    Analysis("profile", by_kind(geometry.profile, roller.surface), "cam profile, curvature and undercut"),
     Analysis(
         "contacts",
         by_kind(geometry.contact_map, roller.contact_map),
-        "which pins touch, which way they push, pressure angle",
+        "pins in contact, direction of push, pressure angle",
         needs=("profile",),
     ),
-    Analysis("play", by_kind(geometry.free_play, roller.free_play), "free rotation of the wheel in either direction", needs=("profile",)),
-    Analysis("stiffness", by_motion(stiffness.torsional, shared_load.torsional), "torsional stiffness and who yields", missing=no_torque),
+    Analysis("play", by_kind(geometry.free_play, roller.free_play), "play of the wheel in both directions", needs=("profile",)),
+    Analysis(
+        "stiffness",
+        by_motion(stiffness.torsional, shared_load.torsional),
+        "torsional stiffness and compliance contributions",
+        missing=no_torque,
+    ),
     Analysis("stress", stress.stress, "forces and contact pressure of the rollers", needs=("profile",), missing=stress.no_stress),
     Analysis(
         "assembly",
         assembly.assembly,
-        "cams, shafts and wheel as solids in contact: torsional stiffness, and which body yields",
+        "cams, shafts and wheel as elastic solids in contact: torsional stiffness and compliance by body",
         default=False,
         missing=assembly.no_assembly,
         fields=True,
