@@ -267,7 +267,7 @@ def test_what_is_estimated_is_told():
     (text,) = catalogue_findings("B", "NU210", entry("NU210"), True, True)
     assert "estimated" in text and "kN" not in text and text.endswith("depend on that geometry")
     (text,) = catalogue_findings("B", "NU210", entry("NU210"))
-    assert "scatter by ±6 %" in text
+    assert "scatter about this by ±6 %" in text
     assert list(catalogue_findings("A", "61804", entry("61804"))) == [] and estimated_keys(entry("61804")) == ()
     assert set(estimated_keys(card)) == {"balls", "ball_diameter", "pitch_diameter", "dynamic_rating", "static_rating"}
 

@@ -261,7 +261,7 @@ def test_the_table_of_the_deformed_surface():
         ({"stations": ()}, "no station; give at least one position to load"),
         ({"poisson": 0.5}, "Poisson's ratio 0.5; a solid needs E > 0 and -1 < nu < 0.5"),
         ({"modulus": 0.0}, "modulus 0 Pa"),
-        ({"max_size": 0.0}, "max_size 0 mm; elements want a positive size"),
+        ({"max_size": 0.0}, "max_size 0 mm; elements need a positive size"),
         ({"sections": [(0.34, 0.02, 0.02, 0.02)]}, "shaft: ring 0 has length 340 mm, diameters 20 and 20 mm, bore 20 mm"),
     ],
 )

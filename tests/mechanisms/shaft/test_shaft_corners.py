@@ -154,7 +154,7 @@ def past_the_door(spec, table, **numbers):
 @pytest.mark.parametrize(
     "spec, told",
     [
-        (threads("0.000468465 mm"), "gave up: shaft: shaft and bearings are singular to rounding"),
+        (threads("0.000468465 mm"), "gave up: shaft: the equations of shaft and bearings are singular to rounding"),
         (
             past_the_door(threads("20 mm"), "segments", diameter=1e-93),
             "no answer for this design: shaft: from 0 to 56.5 mm, with a diameter of 1e-90 mm, its bending is beyond all",

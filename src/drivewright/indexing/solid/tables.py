@@ -24,9 +24,9 @@ BODIES = {  # label, shares of the assembly, shares of the lumped model
     "gear": ("gears", ("gear",), ("gear",)),
 }
 SURFACES = {  # title, axes that are drawn (right, up, away) and their meanings
-    "cam": ("Deformed cam", ((0, "across"), (1, "height"), (2, "along the axis"))),
-    "shaft": ("Deformed split shaft", ((2, "along the axis"), (1, "height"), (0, "across"))),
-    "wheel": ("Deformed wheel", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards"))),
+    "cam": ("Deformed cam", ((0, "transverse position"), (1, "height"), (2, "axial position"))),
+    "shaft": ("Deformed split shaft", ((2, "axial position"), (1, "height"), (0, "transverse position"))),
+    "wheel": ("Deformed wheel", ((0, "circumferential position"), (2, "axial position"), (1, "radial position"))),
 }
 
 
@@ -60,20 +60,38 @@ def assembly_table(
     words = {"unilateral": "unilateral pins", "bonded": "bonded pins"}
     columns = [Column("angle", "rad", "input angle", angles)]
     for model, text in words.items():
-        columns.append(Column(f"lumped_{model}", "N m/rad", f"lumped model, {text}", lumped[model].secant))
-        columns.append(Column(model, "N m/rad", f"assembly of solids, {text}", solids[model].secant))
+        columns.append(
+            Column(
+                f"lumped_{model}", "N m/rad", f"secant stiffness of the lumped model, {text}", lumped[model].secant, f"lumped model, {text}"
+            )
+        )
+        columns.append(
+            Column(
+                model, "N m/rad", f"secant stiffness of the assembly of solids, {text}", solids[model].secant, f"assembly of solids, {text}"
+            )
+        )
     for model, text in words.items():
-        columns.append(Column(f"ratio_{model}", "-", f"solids over lumped model, {text}", solids[model].secant / lumped[model].secant))
+        columns.append(
+            Column(
+                f"ratio_{model}",
+                "-",
+                f"secant stiffness of solids over lumped model, {text}",
+                solids[model].secant / lumped[model].secant,
+                f"stiffness ratio, {text}",
+            )
+        )
     return Table("assembly", title, tuple(columns), missing=NOTHING)
 
 
 def share_tables(angles: Floats, solid: SolidStiffness, lumped: TorsionalStiffness) -> Iterator[Table]:
     """Compliance by bodies of the assembly, and what each adds to that of the lumped model, over the input angles (p,) [rad]."""
-    for name, title, shares in (
-        ("assembly_shares", "Compliance of the assembly by body", compliance_by_body(solid)),
-        ("assembly_added", "Compliance neglected by the lumped model", added_compliance(solid, lumped)),
+    for name, title, what, shares in (
+        ("assembly_shares", "Compliance of the assembly by body", "compliance", compliance_by_body(solid)),
+        ("assembly_added", "Compliance neglected by the lumped model", "neglected compliance", added_compliance(solid, lumped)),
     ):
-        columns = [Column(body, "rad/(N m)", label, shares[body]) for body, (label, _, _) in BODIES.items()]
+        columns = [
+            Column(body, "rad/(N m)", f"{what} of the {label}", shares[body], f"{what}, {label}") for body, (label, _, _) in BODIES.items()
+        ]
         yield Table(name, title, (Column("angle", "rad", "input angle", angles), *columns), missing=NOTHING)
 
 
@@ -91,14 +109,14 @@ def surface_table(solid: SolidStiffness, position: int, body: str = "cam", where
     if body == "wheel":
         surface, displacement = _window_surface(surface, displacement)
     factor = exaggeration or exaggeration_for(np.ptp(surface.points[:, drawn[0][0]]), displacement, DRAWN)
-    rest = tuple((axis, f"{words}, unloaded") for axis, words in drawn[:2])
+    rest = tuple((axis, f"unloaded {words}") for axis, words in drawn[:2])
     return displaced_table(f"assembly_{body}", title + where, surface, displacement, factor, drawn, rest)
 
 
 STRESSED = {  # title, axes that are drawn (right, up, towards the viewer) and their meanings, parts of an element's edge
-    "cam": ("Von Mises stress, cam", ((0, "across"), (1, "height"), (2, "along the axis")), 2),
-    "shaft": ("Von Mises stress, shaft", ((2, "along the axis"), (1, "height"), (0, "across")), 3),
-    "wheel": ("Von Mises stress, wheel", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards")), 3),
+    "cam": ("Von Mises stress, cam", ((0, "transverse position"), (1, "height"), (2, "axial position")), 2),
+    "shaft": ("Von Mises stress, shaft", ((2, "axial position"), (1, "height"), (0, "transverse position")), 3),
+    "wheel": ("Von Mises stress, wheel", ((0, "circumferential position"), (2, "axial position"), (1, "radial position")), 3),
 }
 
 

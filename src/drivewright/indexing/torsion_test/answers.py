@@ -48,8 +48,8 @@ def estimate_values(name: str, label: str, meaning: str, estimates: Sequence[Est
     rows = (
         ("", value, f"{meaning}{of}", "Stiffness"),
         (".uncertainty", np.sqrt(np.sum(columns[:, 1] ** 2)) / count, f"standard uncertainty of the {meaning}", "Uncertainty"),
-        (".low", value - below, f"lower end of the {share} interval of the {meaning}", "Lower end"),
-        (".high", value + above, f"upper end of the {share} interval of the {meaning}", "Upper end"),
+        (".low", value - below, f"lower end of the {share} interval of the {meaning}", "Lower bound"),
+        (".high", value + above, f"upper end of the {share} interval of the {meaning}", "Upper bound"),
     )
     values = {
         f"{name}{key}": Value(float(number), STIFF, text, label=f"{what}, {label}")

@@ -104,10 +104,17 @@ def assembly_values(loaded: LoadedAssembly, model: str, forces: Table) -> dict[s
         words, label = "mean secant stiffness of the assembly of solids with bonded pins", "Mean stiffness, solids, bonded pins"
         values["assembly.bonded.stiffness.mean"] = _within_mesh(float(np.nanmean(bonded)), "N m/rad", words, label)
     if len(forces["force"].data):
-        values["assembly.pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", "maximum force on a pin, solids")
+        values["assembly.pins.max_force"] = Value(
+            float(np.max(forces["force"].data)),
+            "N",
+            "maximum force on a pin of the assembly of solids",
+            label="Maximum force on a pin, solids",
+        )
     if np.isfinite(forces["pressure"].data).any():
         largest = float(np.nanmax(forces["pressure"].data))
-        values["assembly.pins.max_pressure"] = Value(largest, "Pa", "maximum Hertz pressure on a pin, solids")
+        values["assembly.pins.max_pressure"] = Value(
+            largest, "Pa", "maximum Hertz pressure on a pin of the assembly of solids", label="Maximum Hertz pressure on a pin, solids"
+        )
     words = "unknowns of the finite elements, one of each body"
     values["assembly.unknowns"] = Value(float(sum(own.unknowns.values())), "-", words, label="Unknowns of the finite elements")
     return values
@@ -129,7 +136,7 @@ def _body_values(own: SolidStiffness, lumped: TorsionalStiffness, carried: Bools
         yield f"assembly.share.{name}", Value(part, "-", meaning, label=f"Compliance share, {body}")
         part = float(np.mean(added[name][carried])) / missing
         meaning = f"share of the {body} in the compliance that the lumped model neglects, mean over the positions"
-        yield f"assembly.added.{name}", Value(part, "-", meaning, label=f"Share of neglected compliance, {body}")
+        yield f"assembly.added.{name}", Value(part, "-", meaning, label=f"Neglected share, {body}")
 
 
 def _pictures(angles: Floats, own: SolidStiffness) -> Iterator[Table]:
