@@ -107,8 +107,8 @@ def planting(model: PusherModel, done: Answers) -> Answer:
     values = {
         "needle.take_event": Value(take, "rad", "carrier angle at taking"),
         "needle.push_event": Value(push, "rad", "carrier angle at pushing"),
-        "needle.take_angle": Value(take_angle, "rad", "angle of the needle to the horizontal at taking", **_needle("at taking")),
-        "needle.push_angle": Value(push_angle, "rad", "angle of the needle to the horizontal at pushing", **_needle("at pushing")),
+        "needle.take_angle": _needle_angle(take_angle, "at taking"),
+        "needle.push_angle": _needle_angle(push_angle, "at pushing"),
         "needle.angle_difference": Value(
             difference, "rad", "needle angle at pushing minus needle angle at taking", label="Difference of push and take angle"
         ),
@@ -141,8 +141,9 @@ def planting(model: PusherModel, done: Answers) -> Answer:
     return Answer(values, (), checks, _rod_findings(model))
 
 
-def _needle(place):
-    return {"label": f"Needle angle {place}", "convention": "positive below the horizontal"}
+def _needle_angle(angle, place):
+    meaning, label = f"angle of the needle to the horizontal {place}", f"Needle angle {place}"
+    return Value(angle, "rad", meaning, label=label, convention="positive below the horizontal")
 
 
 def _rod_findings(model):
