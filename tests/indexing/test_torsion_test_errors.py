@@ -42,7 +42,7 @@ def rows(header="torque [N m],angle [arcmin]", count=10):
         (rows("torque [N m,angle [arcmin]"), r"no column 'torque \[N m\]'.*the bracket of 'torque \[N m' is not closed"),
         (rows("torque [N m],angle [furlong]"), "column 'angle': 'furlong' is no unit known here"),
         (rows("torque [N m],angel [arcmin]"), r"no column 'angle \[arcmin\]' in the first line .*did you mean 'angel'"),
-        (rows("moment [N m],angle [arcmin]"), r"no column 'torque \[N m\]' or 'force \[N\]'"),
+        (rows("load [N m],angle [arcmin]"), r"no column 'torque \[N m\]' or 'force \[N\]'"),
         (rows("torque [N m],angle [rad],angle [arcmin]"), "column 'angle' is there twice"),
         ("torque [N m],force [N],angle [deg]\n1,2,3\n", "has both a torque and a force; keep one"),
         (rows("force [N],angle [deg]"), "test.csv: the load is a force; give the length of its arm as well"),

@@ -121,3 +121,39 @@ def test_refusals(tmp_path, segment, words):
         data = {"mechanism": "cam", "follower": {"roller_radius": "8 mm", "prime_radius": "60 mm"}, "programme": [given]}
         dw.run(from_document(data, CamSpec, folder=tmp_path), only=("motion",))
     assert all(word in str(caught.value) for word in words), str(caught.value)
+
+
+def with_gaps(folder, *missing, step=3):
+    """A table over a turn with a row every `step` degrees but those within the open intervals."""
+    degrees = [a for a in range(0, 361, step) if not any(low < a < high for low, high in missing)]
+    path = folder / "lift.csv"
+    path.write_text("angle [deg],lift [mm]\n" + "".join(f"{a},{lift(np.radians(a)):.9f}\n" for a in degrees))
+    return path
+
+
+def gap_findings(path):
+    return [each for each in law("table", file=path).findings if "are missing" in each]
+
+
+@pytest.mark.property
+def test_missing_rows_of_an_even_table_are_told(tmp_path):
+    """Eleven of 121 rows are cut out: a step of 36 deg where there is one every 3 deg."""
+    (told,) = gap_findings(with_gaps(tmp_path, (120, 156)))
+    assert "missing from 120 to 156 deg: elsewhere there is one every 3 deg" in told
+    (told,) = gap_findings(with_gaps(tmp_path, (30, 36), (90, 99)))
+    assert "missing from 30 to 36 deg, 90 to 99 deg:" in told
+    assert not gap_findings(with_gaps(tmp_path))
+    model = dw.build(spec(tmp_path) if with_gaps(tmp_path, (120, 156)) else None)
+    assert any("missing from 120 to 156 deg" in each for each in model.findings)
+
+
+@pytest.mark.property
+def test_rows_that_are_uneven_or_rounded_have_no_gaps(tmp_path):
+    """Angles of a third of a degree printed to a tenth; rows that are closer in the flanks than elsewhere."""
+    for degrees in (
+        np.round(np.linspace(0, 360, 1081), 1),
+        np.r_[0:90:5, 90:150:1, 150:361:5],
+        180 * (1 - np.cos(np.linspace(0, np.pi, 61))),
+    ):
+        radians = np.radians(degrees)
+        assert not [each for each in law("table", angle=radians, lift=lift(radians)).findings if "are missing" in each]

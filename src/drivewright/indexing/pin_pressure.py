@@ -1,5 +1,6 @@
 """Hertz pressure of a pin on a profile, the contact that resists a torque best, and tables of forces on pins."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -20,6 +21,21 @@ FORCE_COLUMNS = {
     "pressure": ("Pa", "Hertz pressure"),
 }
 """Unit and label of every column that a table of forces on pins or rollers may have."""
+WIDEST = 0.1  # half-width of a line contact over its relative radius, up to which it is small against the bodies, as Hertz's theory wants
+
+
+def relative_width(pressure: float, modulus: float) -> float:
+    """Half-width of a line contact over its relative radius, b/R = 2 p0/E*; peak pressure p0, effective modulus E* [Pa]."""
+    return 2 * pressure / modulus
+
+
+def largest_approach(radius: float) -> float:
+    """Approach [m] of a roller of this radius [m] and a flank alike in material at which the contact is as wide as `WIDEST`.
+
+    delta = F'/(pi E*) (2 ln(4 R/b) - 1) with F' = pi E* b^2/(4 R), each body compressed as a cylinder (`contact.cylinder_compression`);
+    0.016 R for b = R/10, whatever the modulus.
+    """
+    return radius * WIDEST**2 / 4 * (2 * math.log(4 / WIDEST) - 1)
 
 
 def pin_pressure(force: float, curvature: float, pin_radius: float, width: float, modulus: float) -> float:

@@ -36,12 +36,13 @@ MOST_STATES = 1_500_000  # that are kept of kinematics: about a kilobyte each wi
 MOST_KEPT = 750_000  # that are kept of a run with freedom, whose ensemble is observed side by side: about three kilobytes
 FULL = f"{MOST_KEPT / 1e6:g} million states reach the memory limit of a run; reduce turns, or raise the tolerances"
 ROUNDING = 1e-12  # of the number of turns
-GRID = 720  # samples of a turn where the drives leave no freedom and so no steps to report
+SAMPLES = 720  # states of a turn where the drives leave no freedom and so no steps to report
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How to integrate.  `max_step` [s] None: a hundredth of a turn of the drive.  method: "dopri5", or "radau" for heavy damping.
+    """How to integrate.  `max_step` [s] None: a hundredth of a turn of the drive, without one so short that the run has `samples` states.
+    `samples`: states of a turn, or of a run without turns, where drives leave no freedom.  method: "dopri5", or "radau" for heavy damping.
 
     "rk4" takes `max_step` for every step, which contacts in pins need well below a thousandth of a turn, and disregards rtol and atol.
     """
@@ -54,6 +55,7 @@ class Settings:
     method: str = "dopri5"
     per_step: int = 1
     singular: str = "smooth"  # or "stop": end the run in the first singular position
+    samples: int = SAMPLES
 
 
 class Leg(NamedTuple):
@@ -112,7 +114,8 @@ def simulate(
     """
     if assembly.freedom == 0:
         turns = max(duration * fastest_drive_speed(assembly) / (2 * np.pi), 1.0)
-        count = counted(np.ceil(GRID * turns * (1 - ROUNDING)), MOST_STATES, "states of the run", "reduce turns or duration")
+        samples_in_all = np.ceil(settings.samples * turns * (1 - ROUNDING))
+        count = counted(samples_in_all, MOST_STATES, "states of the run", "reduce turns or duration")
         grid = np.linspace(start, start + duration, 1 + count)
         times = grid if samples is None else np.asarray(samples, float)
         return _driven(assembly, times, start + duration, settings, samples is None)
@@ -127,10 +130,11 @@ def simulate(
 def _legs(assembly, t, end, y, settings, samples):
     """The `Run` of a mechanism with freedom, leg by leg: to where the coordinates are split anew, or a chart leads across a fold."""
     system, leg = assembly.system, _leg(assembly.system, t, y, end)
+    longest = (end - t) * settings.per_step / settings.samples  # of a run without turns
     stretches, impacts, passages, steps = [], [np.zeros((0, 3))], [], 0
     while True:
         inside = None if samples is None else samples[(samples <= leg.until) & ((samples > t) | (not stretches))]
-        run = _integrate(system, t, leg, y, settings, steps, inside, fastest_drive_speed(assembly))
+        run = _integrate(system, t, leg, y, settings, steps, inside, fastest_drive_speed(assembly), longest)
         goes_on = run.outcome == "event" or (not run.advice and run.t_end < end)
         kept = slice(None, -1) if goes_on and samples is None else slice(None)  # the next stretch begins with the state at the end
         stretches.append(Stretch(system, run.t[kept], run.y[kept], run.t_end, run.y_end))
@@ -253,9 +257,9 @@ def rubbing(system: System, t: float, y: Floats) -> Floats:
     return y
 
 
-def _integrate(system, t, leg, y, settings, steps, samples, speed):
+def _integrate(system, t, leg, y, settings, steps, samples, speed, longest):
     most = settings.max_steps if samples is not None else min(settings.max_steps, MOST_KEPT // settings.per_step)
-    longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
+    longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else longest))
     return integrate(
         motion(system),
         t,

@@ -55,6 +55,7 @@ def value(result, name):
 def test_a_block_stops_where_its_energy_is_used_up():
     result = dw.run(block({"friction": 0.2}), only=["end", "friction", "energy"])
     assert value(result, "bodies.block.x") == pytest.approx(1 / (2 * 0.2 * G), abs=2e-5)
+    assert value(result, "out.displacement") == pytest.approx(value(result, "bodies.block.x"), rel=1e-12)
     assert value(result, "energy.friction") == pytest.approx(-1.0, rel=1e-6)
     assert value(result, "joints.guide.max_friction") == pytest.approx(0.2 * 2 * G, rel=1e-6)
     told = [text for text in result.findings if "at rest from" in text]
@@ -440,3 +441,26 @@ def test_what_stands_still_says_what_would_move_it(length, words):
 def test_turns_of_a_mechanism_without_play_need_be_no_more_than_one():
     check = next(check for check in dw.run(slider_crank(), only=["motion"]).checks if check.name == "window")
     assert (check.value, check.limit, check.ok) == (1.0, 1.0, True)
+
+
+def test_the_displacement_of_a_point_is_the_chord_of_its_way():
+    """A free rotor, its point 80 mm beside the axis and 110 mm from its centroid."""
+    rotor = body(angular_velocity="30 rpm", centroid=["-30 mm", "0 mm"]) | {"points": {"C": ["0 mm", "0 mm"], "P": ["80 mm", "0 mm"]}}
+    spec = spec_of(
+        {"rotor": rotor},
+        [{"name": "axle", "connects": ["ground.O", "rotor.C"]}],
+        outputs=[{"name": "tip", "body": "rotor", "point": "P"}],
+        simulate={"duration": "0.4 s"},
+    )
+    assert value(dw.run(spec, only=["end"]), "tip.displacement") == pytest.approx(0.16 * np.sin(0.5 * np.pi * 0.4), rel=1e-7)
+
+
+def test_a_mechanism_without_a_load_has_no_efficiency_and_says_so():
+    spec = slider_crank(friction=0.1, bearing_radius="10 mm")
+    result = dw.run(spec, only=["friction"])
+    assert "efficiency" not in result.values and any("there is no efficiency" in text for text in result.findings)
+
+
+def test_the_equilibrium_says_that_it_leaves_friction_out():
+    found = dw.run(block({"friction": 0.2}, start="0 m/s").replace({"gravity": ["0 m/s^2", "0 m/s^2"]}), only=["rest"])
+    assert any("ignore friction in ideal joints" in text for text in found.findings)

@@ -78,7 +78,7 @@ def force_values(runs: Ensemble) -> dict[str, Value]:
 
 def touching_flanks(runs: Ensemble) -> Value:
     """Flanks that touch, on average."""
-    return Value.of(runs.estimate(mean_of(lambda run: run.column("contacts"))), "-", "flanks that touch, on average")
+    return Value.of(runs.estimate(mean_of(lambda run: run.column("contacts"))), "-", "tooth contacts, on average")
 
 
 def _tension(run: Motion) -> Floats:

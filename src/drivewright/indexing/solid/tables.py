@@ -44,6 +44,15 @@ def added_compliance(solid: SolidStiffness, lumped: TorsionalStiffness) -> dict[
     return {name: own[name] - np.sum([lumped.shares[group] for group in groups], axis=0) for name, (_, _, groups) in BODIES.items()}
 
 
+def equivalent_pin_stiffness(solid: SolidStiffness) -> float:
+    """Stiffness k [N/m] of a pin in its seats that would yield like the solid wheel: sum F^2/k = T^2 C, F the forces of the pins and C the
+    compliance of the wheel, both summed over the positions that carry; nan where the wheel is no solid."""
+    carried = np.isfinite(solid.secant)
+    squares = sum(float(np.sum(np.square(forces))) for forces, held in zip(solid.pin_forces, carried, strict=True) if held)
+    yielded = solid.torque**2 * float(np.sum(solid.shares["wheel"][carried]))
+    return squares / yielded if yielded > 0 else np.nan
+
+
 def assembly_table(
     angles: Floats, solids: Mapping[str, SolidStiffness], lumped: Mapping[str, TorsionalStiffness], title: str = "Stiffness of the assembly"
 ) -> Table:

@@ -32,7 +32,7 @@ def stiffness_values(angles: Floats, result: WheelStiffness) -> dict[str, Value]
 
 
 def dwell_values(angles: Floats, result: WheelStiffness, forces: Table) -> dict[str, Value]:
-    """The same in the dwell, where work is done on the table, with the largest force of a `pin_force_table`."""
+    """The same in the dwell, where work is done on the table, with the largest force and pressure of a `pin_force_table`."""
     meaning = "part of the dwell where the torque is not held without play"
     values = {"dwell.undefined_fraction": Value(float(np.mean(~result.carried)), "-", meaning)}
     if result.carried.any():
@@ -42,6 +42,10 @@ def dwell_values(angles: Floats, result: WheelStiffness, forces: Table) -> dict[
             "dwell.stiffness.minimum.at": Value(float(angles[least]), "rad", "input angle of the least stiffness in the dwell"),
             "dwell.pins.max_force": Value(float(np.max(forces["force"].data)), "N", "largest force on a pin in the dwell"),
         }
+    if np.isfinite(forces["pressure"].data).any():
+        largest = float(np.nanmax(forces["pressure"].data))
+        words = "largest Hertz pressure in the dwell, on a pin or roller"
+        values["dwell.pins.max_pressure"] = Value(largest, "Pa", words)
     return values
 
 

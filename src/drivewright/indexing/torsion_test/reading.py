@@ -14,10 +14,12 @@ import numpy as np
 
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.errors import SpecError, brief
+from drivewright.spec import csv_words
 from drivewright.spec.csv_headings import PURE, TEXT, Wanted
 from drivewright.spec.csv_table import CsvTable, read_csv
 
 QUANTITIES = {"torque": ("torque", "N m"), "force": ("force", "N"), "angle": ("angle", "arcmin"), "crank": ("angle", "deg")}
+OTHER_NAMES = {"torque": csv_words.TORQUE, "force": csv_words.FORCE, "angle": csv_words.ANGLE, "crank": csv_words.CRANK_ANGLE}
 BRANCHES = {"loading": 1, "unloading": -1}
 LARGEST = 200_000  # samples
 
@@ -46,7 +48,7 @@ class Readings(NamedTuple):
 
 
 WANTED = (
-    *(Wanted(name, {dimension: unit}) for name, (dimension, unit) in QUANTITIES.items()),
+    *(Wanted(name, {dimension: unit}, OTHER_NAMES[name]) for name, (dimension, unit) in QUANTITIES.items()),
     Wanted("cycle", {PURE: ""}),
     Wanted("branch", {TEXT: ""}),
 )

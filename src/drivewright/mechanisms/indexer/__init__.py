@@ -43,8 +43,8 @@ ANALYSES = (
         needs=("profile",),
     ),
     Analysis("play", by_kind(geometry.free_play, roller.free_play), "free rotation of the wheel in either direction", needs=("profile",)),
-    Analysis("stress", stress.stress, "forces and contact pressure of the rollers", needs=("profile",), missing=stress.no_stress),
     Analysis("stiffness", by_motion(stiffness.torsional, shared_load.torsional), "torsional stiffness and who yields", missing=no_torque),
+    Analysis("stress", stress.stress, "forces and contact pressure of the rollers", needs=("profile",), missing=stress.no_stress),
     Analysis(
         "assembly",
         assembly.assembly,
@@ -79,6 +79,11 @@ HEADLINE = (
     "motor.peak_torque",
     "motor.rms_torque",
     "pins.max_force",
+    "pins.max_pressure",
+    "shared.max_force",
+    "shared.max_pressure",
+    "dwell.pins.max_force",
+    "dwell.pins.max_pressure",
     "crank.max_load",
     "support.max_load",
 )

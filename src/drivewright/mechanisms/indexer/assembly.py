@@ -51,7 +51,7 @@ def assembly(model: IndexerModel, done: Answers) -> Answer:
     fields = () if own.fields is None else (own.fields,)
     stressed = tuple(table for each in fields for table in tables.stress_tables(each))
     values = assembly_values(loaded, model.spec.contact.model, forces)
-    return Answer(values, found + pictures + stressed, (), tuple(_findings(loaded.angles, own)), fields=fields)
+    return Answer(values, found + pictures + stressed, (), tuple(_findings(model.spec, loaded.angles, own)), fields=fields)
 
 
 def load(model: IndexerModel, fineness: float = 1.0, positions: int = POSITIONS) -> LoadedAssembly:
@@ -129,7 +129,7 @@ def _pictures(angles: Floats, own: SolidStiffness) -> Iterator[Table]:
             yield tables.surface_table(own, least, body, where=f", input at {np.degrees(angles[least]):.4g}°")
 
 
-def _findings(angles: Floats, own: SolidStiffness) -> Iterator[str]:
+def _findings(spec: IndexerSpec, angles: Floats, own: SolidStiffness) -> Iterator[str]:
     """Where the assembly carries nothing and why, and how far its numbers can be trusted."""
     for reason in dict.fromkeys(reason for reason in own.reasons if reason):
         rows = [k for k, each in enumerate(own.reasons) if each == reason]
@@ -139,5 +139,10 @@ def _findings(angles: Floats, own: SolidStiffness) -> Iterator[str]:
         "assembly: wheel, drum and seats have usual proportions where the spec has no key for them (theory.md); a finer mesh softens it by "
         f"up to {100 * MESH_ERROR:.0f} %"
     )
+    stiffness = tables.equivalent_pin_stiffness(own)
+    if np.isfinite(stiffness):
+        given = spec.contact.pin_stiffness
+        there = "rigid pins" if given is None else f"{given:.3g} N/m"
+        yield f"assembly: pins and wheel yield like contact.pin_stiffness = {stiffness:.3g} N/m; the lumped model has {there}"
     if own.fields is not None:
         yield from (f"assembly, stress: {note}" for note in own.fields.notes)

@@ -6,6 +6,7 @@ import numpy as np
 
 from drivewright.errors import InputError, SpecError
 from drivewright.indexing.motion import refuse_stations
+from drivewright.indexing.pin_pressure import largest_approach
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 
 TRANSLATING = ("pin-wheel", "cycloid")
@@ -179,6 +180,14 @@ def _housing(spec: IndexerSpec) -> None:
         raise SpecError(f"is for parallel, barrel and globoidal; the cams of kind {spec.kind!r} are not set", "contact.interference")
     if spec.contact.interference and spec.contact.model == "bonded":
         raise SpecError('contacts that stick need none; leave it out, or take contact.model = "unilateral"', "contact.interference")
+    given, largest = spec.contact.interference, largest_approach(spec.pin_radius)
+    if given > largest:
+        raise SpecError(
+            f"{1e3 * given:.4g} mm is {100 * given / spec.pin_radius:.3g} % of the roller's radius; beyond "
+            f"{1e3 * largest:.3g} mm the contact is wider than a tenth of the radius, where Hertz's theory ends. Some micrometres "
+            'are usual: try "5 um"',
+            "contact.interference",
+        )
 
 
 def _bearings(spec: IndexerSpec) -> None:

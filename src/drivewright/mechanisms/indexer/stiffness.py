@@ -9,7 +9,7 @@ from drivewright.indexing.stiffness.values import dwell_values, stiffness_findin
 from drivewright.mechanisms.indexer.build import STEP, IndexerModel, once
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
-from drivewright.mechanisms.indexer.stress import pressure_check
+from drivewright.mechanisms.indexer.stress import judge_pressure
 from drivewright.result import Answer, Answers, Check, Value
 
 
@@ -26,10 +26,11 @@ def torsional(model: IndexerModel, done: Answers) -> Answer:
     loaded, _, free = _after_play(model)
     reverse = solve_at_contacts(model.loaded_wheel, angles, contacts, -model.torque)
     tables = (stiffness_table(angles, result, loaded, free, reverse), _pin_forces(model))
-    answers = (secant_stiffness(model), dwell_stiffness(model), pin_loads(model))
+    answers = (secant_stiffness(model), dwell_stiffness(model), pin_loads(model), pin_pressure(model))
     values = {name: value for answer in answers for name, value in answer.values.items()}
     checks = tuple(check for answer in answers for check in answer.checks)
-    return Answer(values, tables, checks, tuple(stiffness_findings(angles, result, loaded)), data=(result, contacts))
+    findings = (*stiffness_findings(angles, result, loaded), *(finding for answer in answers for finding in answer.findings))
+    return Answer(values, tables, checks, findings, data=(result, contacts))
 
 
 def secant_stiffness(model: IndexerModel) -> Answer:
@@ -42,6 +43,7 @@ def secant_stiffness(model: IndexerModel) -> Answer:
     return Answer(values, checks=(*checks, *_held(model, "held", values.get("stiffness.undefined_fraction"), "index period")))
 
 
+@once
 def dwell_stiffness(model: IndexerModel) -> Answer:
     """Holding, least stiffness and largest pin force in the dwell; nothing where one input angle is asked for."""
     angles = dwell_angles(model.wheel.motion, STEP)
@@ -54,8 +56,12 @@ def dwell_stiffness(model: IndexerModel) -> Answer:
 
 def pin_loads(model: IndexerModel) -> Answer:
     """Largest force and Hertz pressure of a pin over the index period, after the play where nothing holds the torque at first."""
-    values = largest_pin_values(_pin_forces(model))
-    return Answer(values, checks=tuple(pressure_check(model, values)))
+    return Answer(largest_pin_values(_pin_forces(model)))
+
+
+def pin_pressure(model: IndexerModel) -> Answer:
+    """Check of the largest Hertz pressure, over the index period and in the dwell."""
+    return judge_pressure(model, {**dwell_stiffness(model).values, **largest_pin_values(_pin_forces(model))})
 
 
 @once

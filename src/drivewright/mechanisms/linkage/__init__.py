@@ -15,6 +15,10 @@ from drivewright.result import Plot, Result
 
 HEADLINE = (
     "output.max_acceleration",
+    "efficiency",
+    "drives.*.peak_torque",
+    "drives.*.peak_force",
+    "*.displacement",
     "*.impact_load_coefficient",
     "*.peak_acceleration_ratio",
     "*.max_acceleration",

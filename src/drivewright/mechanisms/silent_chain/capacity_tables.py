@@ -26,7 +26,7 @@ class Wear(Spec):
     )
     running_time: Time = Field("0 s", ge=0, description="that the chain has run: its elongation goes into closure and running chain")
     elongation_limit: Number = Field(
-        0.03, gt=0, le=0.05, description="elongation that ends its life; 2 over the teeth of the larger sprocket where that is less"
+        0.03, gt=0, le=0.05, description="elongation that ends its life; 2 over the teeth of the largest sprocket where that is less"
     )
 
     @property

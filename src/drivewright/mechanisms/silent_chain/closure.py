@@ -14,7 +14,7 @@ from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.mechanisms.silent_chain.phased_rows import phased_rows
 from drivewright.result import Answer, Answers, Check, Value
 
-SLACK = 0.01  # of it that a fixed one may be shorter
+SLACK = 0.01  # of the taut centre distance that a fixed one may be shorter
 FREE = 1e-3  # of the taut centre distance: a fixed one that is longer would stretch the chain
 
 
@@ -112,5 +112,5 @@ def _remarks(model):
     if model.elongation:
         yield (
             f"the chain is {100 * model.elongation:.3g} % longer than its pitch: it rides on the polygon of its own pitch, "
-            "rigid; which flanks it then touches is told by the analysis 'quasi_static'"
+            "rigid; the analysis 'quasi_static' computes where it then touches the teeth"
         )

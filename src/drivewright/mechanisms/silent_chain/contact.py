@@ -4,6 +4,7 @@ from drivewright.chains.standards import articulation_pressure, tensile_safety
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import ChainModel
+from drivewright.mechanisms.silent_chain.taut import slack_pull, slack_warnings, taut_checks
 from drivewright.result import Answer, Answers, Check, Value
 
 
@@ -26,10 +27,8 @@ def contact(model: ChainModel, done: Answers) -> Answer:
     else:
         values |= bent
         checks.append(safe)
-    if model.spec.drive:
-        message = "force of the slack strand under preload and load torque, without the centrifugal force"
-        checks.append(Check("strand.taut", values["strand.slack_force"].value, 0.0, ">=", "N", message, ("chain",)))
-    return Answer(values, (), tuple(checks), tuple(findings))
+    checks += taut_checks(model, done)
+    return Answer(values, (), tuple(checks), tuple(findings), warnings=tuple(slack_warnings(model)))
 
 
 def _strands(model):
@@ -56,7 +55,7 @@ def _strength(model):
             safety, "-", "static safety factor: breaking load over the force of the tight strand, the centrifugal one included"
         ),
     }
-    if drive:
+    if drive and slack_pull(model) >= 0:
         mean = 0.5 * (model.strands.tight + model.strands.slack) + model.strands.centrifugal
         meaning = "mean static safety: breaking load over the mean of tight and slack strand, the centrifugal force included"
         values["chain.mean_static_safety"] = Value(tensile_safety(load, mean), "-", meaning)

@@ -28,8 +28,8 @@ MOST_STEPS = 2e10  # of a link, in all runs: about ten minutes
 MOST_LISTED = 3  # statistics that have not settled, by name
 MOST_FRICTION = 0.3  # coefficient of friction of dry steel on steel; lubricated about 0.1
 HINT = (
-    "where a shorter step does not help: a slack strand (check strand.taut), a speed, wear or teeth that throw the chain off, or a "
-    "tensioner that hits it; see also the analysis 'quasi_static'"
+    "raise the preload or the tensioner's force, damp the tensioner more, or lower the speed or the wear; the check strand.taut says "
+    "whether the slack strand pulls, and the analysis 'quasi_static' computes the chain at rest under its load"
 )
 ORDERS = 8  # of the mesh frequency, up to which the spectrum is shown
 WATCHED = 0
@@ -49,9 +49,10 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
         *_whole(model, runs.members),
     )
     tables = (signal_table(runs.first), spectrum_table(runs, ORDERS), *_tensioner_tables(runs.first))
-    reason = runs.advice or next((check.message for check in checks if not check.ok), "")
-    if reason:
-        findings = (f"the run has failed, its statistics are left out: {reason}; {HINT}",)
+    reasons = [runs.advice] if runs.advice else []
+    reasons += [_failing(check) for check in checks if not check.ok and check.name != "energy_drift"]
+    if reasons:
+        findings = (f"the run has failed and its statistics are left out: {'; '.join(reasons)}. {_hint(runs.advice)}",)
         return Answer({"dynamics.energy_drift": drift}, tables, checks, findings, outcome="partial")
     found = signal_values(runs) | force_values(runs) | tensioner_values(runs)
     if not model.plain:
@@ -60,6 +61,18 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
     checks = (*checks, settled(values), *_travels(model, values))
     values["dynamics.energy_drift"] = drift
     return Answer(values, tables, checks, tuple(_remarks(runs, values)), data=runs, warnings=tuple(_slipping(values)))
+
+
+def _failing(check: Check) -> str:
+    """What a check found, in numbers."""
+    most = "at most" if check.sense == "<=" else "at least"
+    unit = "" if check.unit == "-" else f" {check.unit}"
+    return f"{check.name} is {check.value:.3g}{unit} and has to be {most} {check.limit:.3g}{unit} ({check.message})"
+
+
+def _hint(advice: str = "") -> str:
+    """What to try; after the run's own advice, which is a shorter step."""
+    return f"Where a shorter step does not help, {HINT}" if advice else f"R{HINT[1:]}"
 
 
 def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> Answer:
@@ -76,7 +89,14 @@ def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> 
     }
     checks = tuple(_whole(model, (run,), 1 if "jumps" in failed.reason else 0))
     tables = (signal_table(run), *_tensioner_tables(run)) if len(run.t) > 2 else ()
-    return Answer(values, tables, checks, (f"the run has failed, its statistics are left out; {HINT}",), outcome="partial", stopped=(stop,))
+    return Answer(
+        values,
+        tables,
+        checks,
+        (f"the run has failed and its statistics are left out: {failed.reason}. {_hint()}",),
+        outcome="partial",
+        stopped=(stop,),
+    )
 
 
 def _tensioner_tables(run):
@@ -88,11 +108,11 @@ def _whole(model: ChainModel, members: Sequence[Motion], jumped: int = 0) -> Ite
     limits, seated = model.spec.limits, _seated_links(model, members[0].model)
     touching = min(run.mean(run.column("contacts")) for run in members) / seated
     message = (
-        "links that press on their teeth, on average, over those that lie on sprockets; fewer: overspeed, the chain's own centrifugal "
-        "force and its blows lift it off"
+        "tooth contacts, on average, for each link that lies on a sprocket; few: the chain's centrifugal force and the blows of the teeth "
+        "lift it off, which is overspeed"
     )
-    label = "Links that press on their teeth"
-    yield Check("running.overspeed", touching, limits.contact_share, ">=", "-", message, ("chain",), label=label)
+    label = "Tooth contacts per seated link"
+    yield Check("running.tooth_contacts", touching, limits.contact_share, ">=", "-", message, ("chain",), label=label)
     message = (
         f"share of the time in which {SLACK} joints or more are without tension at once: a strand is slack, for lack of preload or "
         "tensioner, or by blows"
@@ -125,7 +145,7 @@ def _travels(model: ChainModel, values: Mapping[str, Value]) -> Iterator[Check]:
 def _seated(model: ChainModel, runs: Ensemble) -> Iterator[Check]:
     """Whether the chain is still on its teeth."""
     first = runs.first
-    message = "flanks that touch, on average, against one on every sprocket: with fewer the chain has left its teeth"
+    message = "tooth contacts, on average, against one on every sprocket: with fewer the chain has left its teeth"
     yield Check.of(touching_flanks(runs), "running.contacts", float(len(first.model.sprockets)), ">=", message, ("chain",))
     if model.plain:
         off = abs(runs.estimate(mean_of(lambda run: run.centre_distance)).value - model.closure.mean)

@@ -332,7 +332,7 @@ class Limits(Spec):
     teeth: Integer = Field(8, ge=3, description="of a sprocket, at least")
     wrap: Angle = Field("120 deg", ge=0, description="angle of a sprocket that the chain takes in, at least")
     contact_share: Number = Field(
-        0.2, ge=0, le=1, description="links that press on their teeth over those on sprockets, at least: less is overspeed"
+        0.2, ge=0, le=1, description="tooth contacts for each link that lies on a sprocket, at least: fewer is overspeed"
     )
     slack_share: Number = Field(0.05, ge=0, le=1, description="share of the time in which three joints may be without tension at once")
     shakedown_safety: Number = Field(1.0, gt=0, description="shakedown limit of the rolling pins over their contact pressure")

@@ -14,6 +14,7 @@ from drivewright.chains.path.order import clearance
 from drivewright.chains.path.route import bodies, short_name
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import bare_drive
+from drivewright.mechanisms.silent_chain.closure import SLACK
 from drivewright.result import Check, Value
 
 LITTLE = 0.05  # of the load's pull: strands that differ by less are alike
@@ -68,7 +69,7 @@ def path_values(model: ChainModel) -> dict[str, Value]:
         values[f"layout.tensioner.{name}.travel"] = Value(q, "m", f"travel of tensioner {name} in balance")
         values[f"layout.tensioner.{name}.force"] = Value(slide.force - slide.stiffness * q, "N", f"force of tensioner {name} in balance")
     limit = model.limit_speed
-    if np.isfinite(limit):
+    if 0 < limit < np.inf:  # at 0 a strand is slack for another reason
         values["layout.limit_speed"] = Value(limit, "rad/s", "speed of the driving sprocket that takes all pull from the slack strand")
     values["layout.mesh_frequency"] = Value(
         float(standards.mesh_frequency(model.teeth[0], drive.speed)), "Hz", "teeth that mesh in a second"
@@ -98,13 +99,18 @@ def path_checks(model: ChainModel) -> Iterator[Check]:
         if isinstance(guide, Guide):
             message = f"arc of guide {guide.name} beyond the places where the chain meets and leaves it"
             yield Check(f"guide.{guide.name}.reach", _spare_arc(path, place, guide), 0.0, ">=", "rad", message, (guide.name,))
+    if balance.slack and spec.driven.centre_distance:
+        message = "length of the chain beyond its taut path, which hangs in the slack strand; more lets it jump"
+        yield Check("chain.slack", balance.slack, 2 * SLACK * spec.driven.centre_distance, "<=", "m", message, ("chain",))
     limit = model.limit_speed
-    if np.isfinite(limit):
+    if 0 < limit < np.inf:
         message = (
-            "speed of the driving sprocket against that at which the chain's centrifugal force leaves no pull in its slack strand: beyond, "
-            "it is overspeed"
+            "speed of the driving sprocket against that at which the chain's centrifugal force leaves no pull in its slack strand, the "
+            "blows of the teeth not counted: beyond, it is overspeed"
         )
-        yield Check("chain.overspeed", model.drive.speed, limit, "<=", "rad/s", message, ("chain",))
+        yield Check(
+            "chain.overspeed", model.drive.speed, limit, "<=", "rad/s", message, ("chain",), label="Speed below the centrifugal limit"
+        )
 
 
 def _spare_arc(path: DrivePath, place: int, guide: Guide) -> float:

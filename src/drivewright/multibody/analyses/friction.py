@@ -85,7 +85,8 @@ def friction(model: SimulationModel) -> Answer:
     meaning = "mean power lost to friction in ideal joints"
     values["friction.power"] = Value.of(numbers.mean("losses"), "W", meaning, "mean friction power, ideal joints")
     values |= _efficiency(model)
-    return Answer(values, (_table(model),), tuple(_grip_checks(model)), tuple(_standstill(model)))
+    findings = (*_no_efficiency(model, values), *_standstill(model))
+    return Answer(values, (_table(model),), tuple(_grip_checks(model)), findings)
 
 
 def _efficiency(model):
@@ -100,6 +101,14 @@ def _efficiency(model):
         words = "share of the time in which friction keeps the load from driving the mechanism"
         values["friction.self_locking_share"] = Value.of(numbers.mean("holds"), "-", words, "self-locking time share")
     return values
+
+
+def _no_efficiency(model, values) -> Iterator[str]:
+    if "efficiency" not in values and statistics(model, friction_numbers).members[0].whole["driving"] > 0.0:
+        yield (
+            "there is no efficiency: no force or torque of the spec takes power from the mechanism, so friction and damping dissipate all "
+            "of the drive power"
+        )
 
 
 def _table(model):

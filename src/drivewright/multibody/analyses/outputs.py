@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.errors import SolverError
 from drivewright.labels import in_words
 from drivewright.multibody.analyses.ensemble import other_runs, settled_check, statistics, unsettled
@@ -16,6 +17,8 @@ from drivewright.multibody.analyses.simulation_model import (
     run_of,
 )
 from drivewright.multibody.analyses.turns import acceleration, window_record
+from drivewright.multibody.assembly import Assembly
+from drivewright.multibody.bodies import Marker
 from drivewright.multibody.measures import largest
 from drivewright.multibody.observe import FIELDS
 from drivewright.multibody.record import POINT_FIELDS, Record, final_state
@@ -87,7 +90,28 @@ def end(model: SimulationModel) -> Answer:
                 meaning = f"{quantity} {place} body {body} at the end of the run"
                 convention = "whole turns are counted" if key == "angle" else ""
                 values[f"bodies.{name}.{key}"] = Value.of(drawn, unit, meaning, f"final {quantity} of {body}", convention)
-    return Answer(values)
+    return Answer(values | (_displacements(model, last) if model.period is None else {}))
+
+
+def _displacements(model, last):
+    """How far the points of outputs are from where they began, at the ends `last` (runs, bodies, FIELDS) of a run without turns."""
+    values, markers = {}, model.markers
+    for output in model.outputs:
+        if output.point:
+            start = record_of(model).points[output.name][0, [POINT_FIELDS.index(field) for field in ("x", "y")]]
+            ways = np.hypot(*(end_points(model.assembly, last, markers[output.name]) - start).T)
+            label = in_words(output.name)
+            meaning = f"distance of point {output.point} of {label} from its initial position, at the end of the run"
+            values[f"{output.name}.displacement"] = Value.of(predict_member(ways), "m", meaning, f"displacement, {label}")
+    return values
+
+
+def end_points(assembly: Assembly, last: Floats, marker: Marker) -> Floats:
+    """Places (runs, 2) [m] of a marker in the poses `last` (runs, bodies, FIELDS)."""
+    x, y, angle = (last[:, assembly.names.index(marker.body), FIELDS.index(field)] for field in ("x", "y", "angle"))
+    cx, cy = next((body.centroid for body in assembly.expanded.bodies if body.name == marker.body), (0.0, 0.0))
+    place = x + 1j * y + np.exp(1j * angle) * complex(marker.x - cx, marker.y - cy)
+    return np.stack([place.real, place.imag], axis=1)
 
 
 def _motion_table(model):

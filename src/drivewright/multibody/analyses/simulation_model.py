@@ -190,13 +190,13 @@ def ideal_at(model: SimulationModel, times: ArrayLike) -> Mapping[str, Floats]:
 
 
 def last_turn(model: SimulationModel) -> Record:
-    """The record of the last whole turn (of the whole run without turns), thinned to at most ROWS rows."""
+    """The record of the last whole turn (of the whole run without turns), thinned to about ROWS rows, or as many as are asked for."""
     record = record_of(model)
     turns = np.floor(record.t[-1] / model.period + 1e-9) if model.period else 0
     start = (turns - 1) * model.turn_length if turns >= 1 else 0.0
     end = turns * model.turn_length if turns >= 1 else record.t[-1]
     rows = np.flatnonzero((record.t >= start * (1 - 1e-12)) & (record.t <= end * (1 + 1e-12)))
-    stride = max(1, -(-len(rows) // ROWS))
+    stride = max(1, -(-len(rows) // max(ROWS, model.samples_per_turn + 1)))
     return record.take(rows[::stride])
 
 
