@@ -463,4 +463,4 @@ def test_a_mechanism_without_a_load_has_no_efficiency_and_says_so():
 
 def test_the_equilibrium_says_that_it_leaves_friction_out():
     found = dw.run(block({"friction": 0.2}, start="0 m/s").replace({"gravity": ["0 m/s^2", "0 m/s^2"]}), only=["rest"])
-    assert any("friction in ideal joints is left out" in text for text in found.findings)
+    assert any("ignore friction in ideal joints" in text for text in found.findings)

@@ -193,9 +193,7 @@ class Simulate(Spec):
     min_step: Time = Field(
         "0 s", ge=0, title="Minimum time step", description="time step below which the run ends early; 0: limited by rounding only"
     )
-    samples_per_turn: Integer = Field(
-        720, ge=8, le=1_000_000, description="rows of the tables per turn (for the whole run where there are no turns)"
-    )
+    samples_per_turn: Integer = Field(720, ge=8, le=1_000_000, description="rows of the tables per turn, or of a run without turns")
     seed: Integer = Field(
         1, ge=0, le=2**31 - 1, title="Random seed", description="seed of the random numbers; the same seed gives the same results"
     )

@@ -106,8 +106,8 @@ def _efficiency(model):
 def _no_efficiency(model, values) -> Iterator[str]:
     if "efficiency" not in values and statistics(model, friction_numbers).members[0].whole["driving"] > 0.0:
         yield (
-            "there is no efficiency: no force or torque of the spec takes power from the mechanism, and all that drives give goes into "
-            "friction and damping"
+            "there is no efficiency: no force or torque of the spec takes power from the mechanism, so friction and damping dissipate all "
+            "of the drive power"
         )
 
 

@@ -100,10 +100,9 @@ def _displacements(model, last):
         if output.point:
             start = record_of(model).points[output.name][0, [POINT_FIELDS.index(field) for field in ("x", "y")]]
             ways = np.hypot(*(end_points(model.assembly, last, markers[output.name]) - start).T)
-            point = in_words(output.point)
-            meaning = f"distance of point {point} of {in_words(output.body)} from its start position at the end of the run"
-            label = f"displacement of {in_words(output.name)}"
-            values[f"{output.name}.displacement"] = Value.of(predict_member(ways), "m", meaning, label)
+            label = in_words(output.name)
+            meaning = f"distance of point {output.point} of {label} from its initial position, at the end of the run"
+            values[f"{output.name}.displacement"] = Value.of(predict_member(ways), "m", meaning, f"displacement, {label}")
     return values
 
 

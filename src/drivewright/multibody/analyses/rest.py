@@ -16,7 +16,7 @@ def rest(model: SimulationModel) -> Answer:
     """Where the mechanism rests with its drives held at their start, what holds them, and its natural frequencies there."""
     assembly = model.assembly
     rubs = len(joints_with_friction(assembly.system)) > 0
-    rubbing = ("friction in ideal joints is left out of the equilibrium at rest and of the modes",) if rubs else ()
+    rubbing = ("equilibrium and modes ignore friction in ideal joints",) if rubs else ()
     try:
         at_rest = equilibrium(assembly)
     except SolverError as error:

@@ -246,7 +246,9 @@ def _development(model, joint, histories):
         return np.array([[number(stage) for stage in each.stages] for each in histories])
 
     loads = [
-        _columns(f"impact_load.{output.name}", "-", f"impact load, {in_words(output.name)}", stages(lambda at, k=k: at.loads[k]))
+        _columns(
+            f"impact_load.{output.name}", "-", f"impact load coefficient of {in_words(output.name)}", stages(lambda at, k=k: at.loads[k])
+        )
         for k, output in enumerate(model.outputs)
     ]
     return Table(
