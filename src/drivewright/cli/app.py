@@ -101,6 +101,7 @@ def run(
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="draw the figures")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="print the result as JSON to stdout")] = False,
     strict: StrictOption = False,
+    verbose: Annotated[bool, typer.Option("-v", "--verbose", help="print all values, checks and findings")] = False,
 ) -> None:
     """Validate, analyse and write a run folder per spec."""
     from drivewright import runner
@@ -121,9 +122,9 @@ def run(
                 result = runner.run(spec, _names(only), all_, step, model)
             folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model), compute)
         results.append(result)
-        show.note(f"wrote {folder}/")
         if not as_json:
-            show.result(result)
+            show.result(result, verbose)
+        show.note(f"report: {folder / 'report.html'}")
     show.finish_run(results, _names(only), as_json, strict)
 
 

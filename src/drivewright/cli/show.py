@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 
     Header: TypeAlias = Iterable[tuple[str, JustifyMethod]]
 
+REQUEST = "runs on request: --only"  # in a finding on an analysis that is not among the usual ones
+MOST_REMARKS = 5  # notes of a run on one screen
 MAX_STUDY_ROWS = 12  # of a study's values
 MOST_ENDS = 3  # values whose inputs are told at both ends
 MOST_REASONS = 3  # why its cases are not complete
@@ -190,24 +192,34 @@ def _with_unit(text: str, shown: str) -> str:
     return text if shown in ("-", "") else f"{text} {shown}"
 
 
-def result(run: "Result[Any]") -> None:
-    """Headline values, checks, findings, warnings and, at the end, the verdict of a run."""
-    from drivewright.report.content import verdict_of
+def result(run: "Result[Any]", everything: bool = False) -> None:
+    """Verdict, key numbers, the checks that fail with what to do, warnings and findings of a run, on one screen; `everything` for all."""
+    from drivewright.report.content import MOST_HEADLINES, verdict_of
 
-    mechanism = registry.mechanism(run.mechanism)
-    headline = registry.headlines(mechanism, run.values)
-    rows = [(name, _value(run.values[name], run.units), _meaning(run.values[name])) for name in headline]
-    table(run.title, (("value", "left"), ("", "right"), ("meaning", "left")), rows)
-    if len(run.values) > len(headline):
-        note(f"{len(run.values) - len(headline)} more values in result.json")
-    checks(run.checks, run.units)
-    for finding in run.findings:
-        if finding not in run.warnings:
-            note(f"note: {finding}")
+    headline = registry.headlines(registry.mechanism(run.mechanism), run.values)
+    names = list(run.values) if everything else headline[:MOST_HEADLINES]
+    rows = [(_label(run.values[name]), _value(run.values[name], run.units), _made(run.values[name])) for name in names]
+    table(run.title, (("quantity", "left"), ("value", "right"), ("", "left")), rows)
+    checks(run.checks if everything else [c for c in run.checks if not c.ok or c.undecided], run.units)
+    for line in _remarks_of(run, everything):
+        note(f"note: {line}")
     for warning in run.warnings:
         _coloured_note(f"warning: {warning}", "warn")
     verdict = verdict_of(run)
     _coloured_note(f"verdict: {verdict['text']}", verdict["state"])
+
+
+def _remarks_of(run: "Result[Any]", everything: bool) -> "Iterator[str]":
+    """The findings that are no warnings; those on analyses that did not run in one line, unless `everything` is wanted."""
+    findings = [finding for finding in run.findings if finding not in run.warnings]
+    optional = [finding for finding in findings if finding in run.left_out.values() or REQUEST in finding]
+    shown = findings if everything else [finding for finding in findings if finding not in optional]
+    yield from shown if everything else shown[:MOST_REMARKS]
+    folded = [f"{len(shown) - MOST_REMARKS} more notes"] if len(shown) > MOST_REMARKS else []
+    if optional:
+        folded.append(f"{len(optional)} analyses not run (on request only, or without their input)")
+    if folded and not everything:
+        yield f"{', '.join(folded)}: see the report, or drivewright run -v"
 
 
 def _coloured_note(text: str, state: str) -> None:
@@ -223,10 +235,15 @@ def _value(value: "Value", system: units.System = "mm") -> str:
     return number(value.value, value.unit, value.low, value.high, system=system)
 
 
-def _meaning(value: "Value") -> str:
-    """What it is, and how its interval was made where one is shown."""
-    interval = value.made if " to " in _value(value) else value.interval
-    return f"{value.meaning} ({interval})" if interval else value.meaning
+def _label(value: "Value") -> str:
+    from drivewright.labels import label_of
+
+    return label_of(value.meaning, value.label)
+
+
+def _made(value: "Value") -> str:
+    """How its interval was made, where one is shown."""
+    return value.made if " to " in _value(value) else value.interval
 
 
 def finish_run(results: "Sequence[Result[Any]]", only: "Sequence[str]" = (), as_json: bool = False, strict: bool = False) -> None:
@@ -256,7 +273,7 @@ def checks(design_checks: "Iterable[Check]", system: units.System = "mm") -> Non
         return Text("ok", style="green") if check.ok else Text("FAILS", style="bold red")
 
     rows = [
-        (verdict(c), c.name, *_check_numbers(c, system), f"{c.message} ({UNDECIDED})" if c.undecided else c.message)
+        (verdict(c), c.display_label, *_check_numbers(c, system), f"{c.message} ({UNDECIDED})" if c.undecided else c.message)
         for c in sorted(design_checks, key=lambda c: c.ok)
     ]
     if rows:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from drivewright import registry
 from drivewright.execution.helper import Map
+from drivewright.labels import label_of
 from drivewright.report.comparison import DesignComparison, difference_text, distinct, entry_text, identical_text, value_text
 from drivewright.report.content import (
     Content,
@@ -254,7 +255,7 @@ def _value_row(comparison: DesignComparison, name: str) -> Content:
         for n, (result, step) in enumerate(zip(comparison.results, apart_, strict=True))
     ]
     differs = any(not cell["same"] for cell in cells[1:])
-    return {"name": name, "meaning": sentence(known.meaning or name), "cells": cells, "differs": differs}
+    return {"name": name, "label": label_of(known.meaning or name, known.label), "cells": cells, "differs": differs}
 
 
 def _shown_value(value: Value | None, system: System) -> dict[str, str]:

@@ -12,6 +12,7 @@ import numpy as np
 from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
 from drivewright.execution.helper import Map
+from drivewright.labels import label_of
 from drivewright.result import UNDECIDED, Array, Check, Plot, Result, SpecLike, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
@@ -22,6 +23,7 @@ from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.style import new_figure
 from drivewright.view.text import ends_shown, interval_hint, number, numbers, sentence, shown_scale, uncertain, unit_text, with_unit
 
+MOST_HEADLINES = 8  # values that are shown first
 GHOSTS = tuple(n / 5 for n in range(5))
 SIGNS = {"<=": "≤", ">=": "≥"}
 Content: TypeAlias = dict[str, Any]  # plain text and numbers, as the templates take them
@@ -210,11 +212,17 @@ def verdict(passed: Sequence[bool], outcome: str, undecided: int = 0, warnings: 
 
 
 def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Content]:
-    """The values of those names; unless given the mechanism's headline values, or the first six; those that the run has."""
+    """The values of those names; unless given the first of the mechanism's headline values, or of all; those that the run has."""
     if names is None:
         known = registry.is_known(result.mechanism)
-        names = registry.headlines(registry.mechanism(result.mechanism), result.values) if known else list(result.values)[:6]
+        names = registry.headlines(registry.mechanism(result.mechanism), result.values) if known else list(result.values)
+        names = names[:MOST_HEADLINES]
     return [_value(name, result.values[name], result.units) for name in names]
+
+
+def full_meaning(value: Value) -> str:
+    """The sentence that says what a value means, with its convention of sign, zero or sense."""
+    return "; ".join(filter(None, [sentence(value.meaning), value.convention]))
 
 
 def _value(name: str, value: Value, system: System) -> Content:
@@ -223,7 +231,8 @@ def _value(name: str, value: Value, system: System) -> Content:
     text, low, high = numbers(shown.of(value.value), *ends_shown(value.low, value.high, shown))
     return {
         "name": name,
-        "meaning": sentence(value.meaning or name),
+        "label": label_of(value.meaning or name, value.label),
+        "meaning": full_meaning(value),
         "shown": uncertain(value.value, value.unit, value.low, value.high, system=system),
         "number": text,
         "unit": shown.unit,

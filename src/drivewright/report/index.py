@@ -8,10 +8,11 @@ from urllib.parse import quote
 
 from drivewright import registry
 from drivewright.atomic import write_text
+from drivewright.labels import label_of
 from drivewright.report.content import program, verdict
 from drivewright.report.html import page
 from drivewright.result import Value
-from drivewright.view.text import interval_hint, number, sentence, uncertain
+from drivewright.view.text import interval_hint, number, uncertain
 
 MOST = 4  # headline numbers on a card
 
@@ -57,6 +58,6 @@ def _headline(record):
     kind, values = record["mechanism"], {name: Value(**each) for name, each in record["values"].items()}
     names = registry.headlines(registry.mechanism(kind), values) if registry.is_known(kind) else list(values)
     return [
-        {"meaning": sentence(v.meaning or n), "shown": uncertain(v.value, v.unit, v.low, v.high), "hint": interval_hint(v)}
+        {"label": label_of(v.meaning or n, v.label), "shown": uncertain(v.value, v.unit, v.low, v.high), "hint": interval_hint(v)}
         for n, v in ((name, values[name]) for name in names[:MOST])
     ]

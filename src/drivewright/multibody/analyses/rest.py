@@ -34,9 +34,10 @@ def rest(model: SimulationModel) -> Answer:
                 float(observed.bodies[0, number, FIELDS.index("angle")]), "rad", f"angle of {in_words(name)} at rest"
             )
     for drive, load in zip(assembly.model.drives, balance(assembly) if assembly.model.drives else (), strict=True):
-        joint = f"joint {in_words(drive.joint)}"
-        meaning = f"torque of the drive at {joint} that holds the mechanism at rest"
-        values[f"rest.{drive.joint}.torque"] = Value(float(load), "N m", meaning, label=f"holding torque at {joint}")
+        turns = next(j for j in assembly.model.joints if j.name == drive.joint).driven_motion == "rotation"
+        (effort, unit), joint = ("torque", "N m") if turns else ("force", "N"), f"joint {in_words(drive.joint)}"
+        meaning = f"{effort} of the drive at {joint} that holds the mechanism at rest"
+        values[f"rest.{drive.joint}.{effort}"] = Value(float(load), unit, meaning, label=f"holding {effort} at {joint}")
     if assembly.freedom == 0:
         findings = ("natural frequencies do not exist: with its drives the mechanism has no degree of freedom", *rubbing)
         return Answer(values, findings=findings)

@@ -13,6 +13,7 @@ from drivewright.errors import SpecError, UnknownName
 from drivewright.execution.case_table import MESSAGE
 from drivewright.execution.evaluation import case_task
 from drivewright.execution.outputs import CHECK
+from drivewright.labels import label_of
 from drivewright.report.content import check_label, headline
 from drivewright.spec import Study
 from drivewright.spec.fields import field_at, marker_of
@@ -24,7 +25,7 @@ from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.design_keys import is_locked, label, numeric, plain
 from drivewright.studio.jobs.progress import Progress
-from drivewright.view.text import display_unit, quantity, sentence
+from drivewright.view.text import display_unit, quantity
 
 ROUNDING = 1e-12  # of a number: no change
 PATIENCE = 2.0  # seconds of a run, beyond which only the analyses that check something are asked
@@ -92,11 +93,11 @@ def _targets(result, names):
     targets = {f"{CHECK}{c.name}": ("check", check_label(c), c.unit, c.margin) for c in result.checks}
     for value in headline(result):
         about = result.values[value["name"]]
-        targets[value["name"]] = ("value", value["meaning"], about.unit, about.value)
+        targets[value["name"]] = ("value", value["label"], about.unit, about.value)
     for name in names or ():
         if name not in targets and name in result.values:
             about = result.values[name]
-            targets[name] = ("value", sentence(about.meaning or name), about.unit, about.value)
+            targets[name] = ("value", label_of(about.meaning or name, about.label), about.unit, about.value)
         elif name not in targets:
             raise UnknownName("value or check", name, {*targets, *result.values})
     return {name: targets[name] for name in names} if names else targets

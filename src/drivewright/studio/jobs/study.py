@@ -219,7 +219,7 @@ def _statements(study, answers):
         for table in page["tables"]
         if "printed" in table
     ]
-    headline = [{"name": value["name"], "meaning": value["meaning"], "shown": value["shown"]} for value in page["headline"]]
+    headline = [{"name": value["name"], "meaning": value["label"], "shown": value["shown"]} for value in page["headline"]]
     return {
         "verdict": page["verdict"],
         "headline": headline,

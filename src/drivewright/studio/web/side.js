@@ -77,9 +77,9 @@ function createNumbers(host, {store, t}) {
     host.closest(".sd-section").classList.toggle("is-empty", !values.length);
     for (const value of values) {
       const row = rows.get(value.name), other = others.get(value.name);
-      put(row.name, t(value.meaning)); put(row.value, withInterval(value, t));
+      put(row.name, t(value.label)); put(row.value, withInterval(value, t));
       put(row.other, other && other.shown !== value.shown ? withDifference(withInterval(other, t), result.differences?.values[value.name]) : "");
-      row.name.title = value.name; row.value.title = intervalHint(value, t);
+      row.name.title = `${t(value.meaning)} (${value.name})`; row.value.title = intervalHint(value, t);
     }
   }
   return [store.on(["result", "reference"], update)];
