@@ -83,16 +83,17 @@ def refused(found, code=2):
 
 def test_a_run_prints_the_result_and_writes_the_folder(drivewright, toy):
     code, out, err = drivewright("run", "toy.toml", "--no-figures")
-    assert code == 0 and "reach" in out and "40 mm" in out and "a toy" in out and "wrote" not in out
-    assert f"wrote {toy}/out/toy/" in err and "note: a finding" in err
+    assert code == 0 and "How far it reaches" in out and "40 mm" in out and "a toy" in out and "report:" not in out
+    assert "must fit the box" not in out and "must fit the box" in drivewright("run", "toy.toml", "--no-figures", "-v")[1]
+    assert err.splitlines()[-1] == f"report: {toy}/out/toy/report.html" and "note: a finding" in err
     assert {"result.json", "report.html", "spec.toml"} <= set(snapshot(toy / "out" / "toy")) and not list((toy / "out").glob("*tmp*"))
 
 
-def test_the_last_line_is_the_verdict_and_a_warning_stands_before_it(drivewright, toy, monkeypatch):
-    assert drivewright("run", "toy.toml", "--no-figures")[2].splitlines()[-2:] == ["note: a finding", "verdict: 1 check passes"]
+def test_the_verdict_stands_before_the_report_and_a_warning_before_it(drivewright, toy, monkeypatch):
+    assert drivewright("run", "toy.toml", "--no-figures")[2].splitlines()[-3:-1] == ["note: a finding", "verdict: 1 check passes"]
     monkeypatch.setitem(MODES, "kind", "warns")
     code, _, err = drivewright("run", "toy.toml", "--no-figures", "--strict")
-    assert code == 0 and err.splitlines()[-2:] == ["warning: pins slip", "verdict: 1 check passes, 1 warning"]
+    assert code == 0 and err.splitlines()[-3:-1] == ["warning: pins slip", "verdict: 1 check passes, 1 warning"]
     assert "note: pins slip" not in err
 
 

@@ -23,7 +23,7 @@ def told(*arguments):
 
 def test_run_in_inches_and_in_si(tmp_path):
     common = ("run", CAM, "--only", "geometry,forces", "--no-figures", "--out")
-    inch, si = (told(*common, str(tmp_path / system), "--units", system) for system in ("inch", "si"))
+    inch, si = (told(*common, str(tmp_path / system), "--units", system, "-v") for system in ("inch", "si"))
     assert "1.2445 in" in inch and " lbf" in inch and " mm" not in inch.split("design checks")[1]
     assert "0.031611 m " in si and " mm" not in si
     records = [json.loads((tmp_path / system / "result.json").read_text()) for system in ("inch", "si")]
@@ -64,3 +64,12 @@ def test_checks_of_the_terminal(capsys):
     show.checks([Check("a", 0.0508, 0.0254, ">=", "m", "wall"), Check("b", 343.15, 363.15, "<=", "K", "oil")], "inch")
     rows = capsys.readouterr().out
     assert "2 in" in rows and ">= 1 in" in rows and "158 degF" in rows and "<= 194 degF" in rows and "36 degF" in rows
+
+
+def test_a_run_is_told_on_one_screen(tmp_path):
+    """Key numbers, failed checks, one line on analyses that did not run, verdict, report; everything with -v."""
+    common = ("run", CAM, "--no-figures", "--out", str(tmp_path / "run"))
+    short, long = told(*common), told(*common, "-v")
+    assert len(short.splitlines()) <= 40 < len(long.splitlines())
+    assert "Stroke" in short and "stroke of the follower" not in short and "verdict: all 13 checks pass" in short
+    assert short.count("note:") == 1 and "analyses not run" in short and long.count("is left out") > 1 and "analyses not run" not in long

@@ -141,7 +141,7 @@ def test_the_difference_of_two_designs_has_a_column_and_the_page_says_to_which(d
     head, *rows = rows_of(page, part)
     assert head == ["Quantity", "A", "B", "Difference"]
     named = {row[0]: row[1:] for row in rows}
-    assert named["Stroke of the follower lift"] == ["20 mm", "20 mm", "0"]
+    assert named["Stroke lift"] == ["20 mm", "20 mm", "0"]
     angle = next(row for name, row in named.items() if name.startswith("Maximum pressure angle"))
     assert angle[2].startswith("−") and angle[2].endswith(" %)") and "(" not in angle[1]
     assert "Differences are B less A" in text_of(page) and "Differences are to" not in text_of(page)

@@ -215,7 +215,7 @@ def test_reasons_that_differ_in_numbers_are_one_line(capsys):
 
 def row_of(capsys, check, units="mm"):
     show.checks([check], units)
-    (line,) = [line for line in capsys.readouterr().out.splitlines() if " k " in line]
+    (line,) = [line for line in capsys.readouterr().out.splitlines() if re.match(r"\s*(ok|FAILS)\s", line)]
     return re.split(r"\s{2,}", line.strip())[2:5]
 
 
