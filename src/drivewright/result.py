@@ -178,9 +178,10 @@ class Column(NamedTuple):
 
     def bounds(self, low: ArrayLike, high: ArrayLike) -> "tuple[Column, Column]":
         """The columns NAME.low and NAME.high with the ends of its 95 % intervals, nan where it has none; they go beside it."""
+        label = label_of(self.meaning, self.label)
         return (
-            self._replace(name=f"{self.name}{LOW}", meaning=f"{self.meaning}, at least", data=np.asarray(low, float)),
-            self._replace(name=f"{self.name}{HIGH}", meaning=f"{self.meaning}, at most", data=np.asarray(high, float)),
+            Column(f"{self.name}{LOW}", self.unit, f"{self.meaning}, at least", np.asarray(low, float), f"{label}, low"),
+            Column(f"{self.name}{HIGH}", self.unit, f"{self.meaning}, at most", np.asarray(high, float), f"{label}, high"),
         )
 
 

@@ -32,8 +32,8 @@ class Requirement(Spec):
     """A value of the result that must stay within limits."""
 
     value: Text = Field(description="name of a value of the result")
-    at_least: Bound | None = Field(None, description="lower limit, in the value's own unit")
-    at_most: Bound | None = Field(None, description="upper limit, in the value's own unit")
+    at_least: Bound | None = Field(None, title="Lower limit", description="lower limit, in the value's own unit")
+    at_most: Bound | None = Field(None, title="Upper limit", description="upper limit, in the value's own unit")
 
 
 class Optimise(Spec):
