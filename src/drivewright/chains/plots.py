@@ -56,7 +56,7 @@ PLOTS = (
         style="points",
     ),
     Plot("scatter", "Drives with manufacturing scatter", "scatter", "mean", ("fluctuation",), style="points"),
-    Plot("plate_history", "Plate stress and forces over a revolution", "plate_history", "time", ("mises", "right_pin", "right_flank")),
+    Plot("plate_history", "Plate stress and forces per revolution", "plate_history", "time", ("mises", "right_pin", "right_flank")),
     Plot("plate_stress", "Plate stress at its worst instant", "plate_stress", "x", ("y", "depth", "mises"), equal=True, style="mesh"),
     Plot("plate_life", "Damage per revolution around a plate", "plate_life", "x", ("damage",), style="points", log=True),
     Plot(

@@ -88,7 +88,7 @@ def chain_size(text: str) -> ChainSize:
     rows = int(found["rows"] or 1)
     if rows not in size:
         made = "one row" if len(size) == 1 else f"1 to {len(size)} rows"
-        raise InputError(f"roller chain {text!r}: {size[1].number} is in the table with {made}, not with {rows}; take -{max(size)}")
+        raise InputError(f"roller chain {text!r}: {size[1].number} is available with {made}, not with {rows}; take -{max(size)}")
     return size[rows]
 
 
@@ -116,7 +116,7 @@ def _key(number: str, series: str) -> str:
 def _refuse_known(text: str, plain: str) -> None:
     for form, what in REFUSED:
         if re.fullmatch(PREFIX + f"(?:{form})", plain):
-            raise InputError(f"chain {text[:80]!r} is no size of the table: {what}.")
+            raise InputError(f"chain {text[:80]!r} is not in the table of sizes: {what}.")
 
 
 def _rows_of_one() -> Iterator[ChainSize]:

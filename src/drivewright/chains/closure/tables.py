@@ -33,7 +33,7 @@ def phased_table(found: Phased) -> Table:
             Column("single_distance", "m", "centre distance of one row", found.single_distance),
             Column("transmission_error", "rad", "transmission error of both rows", found.transmission_error),
             Column("single_error", "rad", "transmission error of one row", found.single_error),
-            Column("distance_gap", "m", "difference in centre distance of the rows", found.distance_gap),
+            Column("distance_gap", "m", "centre distance difference of the rows", found.distance_gap),
         ),
     )
 

@@ -154,7 +154,7 @@ def _sprung(model, chosen, movers, q, centrifugal):
     try:
         x = newton(both, np.append(q[movers] / pitch, _first_pull(model, chosen, movers[0], q) / size), tolerance=1e-11)
     except (SolverError, InputError) as error:
-        raise DoesNotAssemble(f"chain drive: the tensioner finds no place of balance ({error})") from error
+        raise DoesNotAssemble(f"chain drive: no equilibrium of the tensioner was found ({error})") from error
     now = misses(x)[1]
     _refuse_travel(model, now.q, movers)
     for number in movers:
@@ -246,10 +246,10 @@ def _misfit(model, number, excess, place):
     pitch, links = mean_link(model).pitch, abs(excess)
     longer, name = ("short", body_name(model, number)) if excess > 0 else ("long", body_name(model, number))
     even = 2 * int(np.ceil(0.5 * links))
-    change = f"take {even} links more" if excess > 0 else f"take {even} links less"
+    change = f"take {even} more links" if excess > 0 else f"take {even} fewer links"
     return (
         f"chain drive: {model.chain.count} links are {links:.3g} links ({1e3 * links * pitch:.4g} mm) too {longer}: {name} moves by "
-        f"{1e3 * place:.4g} mm and then the path takes {model.chain.count + excess:.4g} links. {change.capitalize()}, give it more travel, "
+        f"{1e3 * place:.4g} mm, where the path needs {model.chain.count + excess:.4g} links. {change.capitalize()}, give it more travel, "
         "or move its centre."
     )
 
@@ -272,8 +272,8 @@ def _refuse_travel(model, q, movers):
         low, high = slide.travel
         if not low - 1e-9 <= q[number] <= high + 1e-9:
             raise DoesNotAssemble(
-                f"chain drive: {body_name(model, number)} is in balance at {1e3 * q[number]:.4g} mm of its travel, which reaches from "
-                f"{1e3 * low:.4g} to {1e3 * high:.4g} mm. Give it more travel, another force, or other links."
+                f"chain drive: {body_name(model, number)} is in equilibrium at a travel of {1e3 * q[number]:.4g} mm, which is limited to "
+                f"{1e3 * low:.4g} to {1e3 * high:.4g} mm. Give it more travel, change its force, or change the number of links."
             )
 
 
@@ -281,10 +281,10 @@ def _slack(model, number, pull, q):
     slide = bodies(model)[number].slide
     if slide.force > 0 >= slide.force - slide.stiffness * q:
         return (
-            f"chain drive: the spring of {body_name(model, number)} has lost its force after {1e3 * q:.4g} mm of travel, where the chain "
-            "would be taut. Raise its force, lower its stiffness, move its centre towards the chain, or take links out."
+            f"chain drive: the spring of {body_name(model, number)} has no force left at the travel of {1e3 * q:.4g} mm where the chain is "
+            "taut. Increase its force, reduce its stiffness, move its centre towards the chain, or reduce the number of links."
         )
     return (
-        f"chain drive: the slide of {body_name(model, number)} leaves the chain slack (a pull of {float(pull):.3g} N); "
+        f"chain drive: the slide of {body_name(model, number)} leaves the chain slack (a tension of {float(pull):.3g} N); "
         "point its direction outward and its force along it."
     )

@@ -56,7 +56,7 @@ def _second(model):
     """The first other sprocket inside."""
     inside = [number for number, sprocket in enumerate(model.sprockets) if not sprocket.outside]
     if len(inside) < 2 or inside[0] != 0:
-        raise InputError("chain drive: sprocket 1 and another one have to lie inside of the loop; only idlers may be outside.")
+        raise InputError("chain drive: sprocket 1 and another one must lie inside the loop; only idlers may be outside.")
     return inside[1]
 
 

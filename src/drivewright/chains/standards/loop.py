@@ -101,12 +101,12 @@ def tangents(centres: Floats, signed: Floats) -> tuple[Floats, Floats]:
 
 def _check(circles):
     if len(circles) < 2:
-        raise InputError(f"loop: wants two circles or more, got {len(circles)}.")
+        raise InputError(f"loop: needs two circles or more, got {len(circles)}.")
     for number, circle in enumerate(circles, 1):
         if circle.turn not in (-1, 1):
             raise InputError(f"loop: turn of circle {number} must be +1 (counter-clockwise) or -1, got {circle.turn!r}.")
         if not (np.all(np.isfinite(circle)) and circle.radius >= 0):
-            raise InputError(f"loop: circle {number} wants a finite centre and a radius of 0 or more, got {tuple(circle)}.")
+            raise InputError(f"loop: circle {number} needs a finite centre and a radius of 0 or more, got {tuple(circle)}.")
 
 
 def _check_closes(turns, wraps):
