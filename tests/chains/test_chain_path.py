@@ -229,7 +229,7 @@ def test_a_fixed_chain_loses_its_pull_where_the_centrifugal_force_is_its_tension
     ("model", "words"),
     [
         (lambda: drive(idler(travel=(-0.015, 0.015)), links=104), r"104 links are .* links \(.* mm\) too long: .*'idler' moves by 15 mm"),
-        (lambda: drive(idler(travel=(-0.015, 0.015)), links=92), r"92 links are .* too short: .* Take \d+ links more, give it more travel"),
+        (lambda: drive(idler(travel=(-0.015, 0.015)), links=92), r"92 links are .* too short: .* Take \d+ more links, give it more travel"),
         (lambda: drive(wheel(15, (0.13, 0.0), name="lost")), "does not reach sprocket 'lost': the nearest strand passes .* mm away"),
         (lambda: drive(wheel(15, (0.13, 0.09), outside=True)), "does not reach sprocket 3"),
         (lambda: drive(idler(force=-40.0, stiffness=0.0)), "leaves the chain slack"),
@@ -244,7 +244,7 @@ def test_chains_that_do_not_fit(model, words):
 def test_teeth_outside_meet_rollers_only():
     from drivewright.chains.tooth import Tooth
 
-    with pytest.raises(InputError, match="sprocket 3: teeth outside of the loop meet rollers only"):
+    with pytest.raises(InputError, match="sprocket 3: outside of the loop it meshes with roller chains only"):
         drive(replace(wheel(15, (0.13, 0.036), outside=True), tooth=Tooth(15, 0.02, -0.01)))
 
 

@@ -30,7 +30,7 @@ from drivewright.spec.parsing import change_key
 pytestmark = pytest.mark.analytical
 
 MM = 1e-3
-SIGNAL = Signal("centre_distance", "m", "centre distance", lambda run: run.centre_distance)
+SIGNAL = Signal("centre_distance", "m", "centre distance", lambda run: run.centre_distance, "Dynamic centre distance")
 P = 9.525 * MM
 SPEC = """
 mechanism = "silent-chain"
@@ -677,7 +677,7 @@ def test_the_check_settled_counts_what_has_settled(drifting, value, ok):
     values = {f"dynamics.centre_distance.{name}": Value(1.0, "m", "", settled=name not in (*drifting, "range")) for name in names}
     check = dynamics.settled(values)
     assert (check.value, check.sense, check.limit, check.ok) == (value, ">=", 2, ok)
-    assert check.display_label == "Settled statistics of centre distance" and "how many of the two have stopped drifting" in check.message
+    assert check.display_label == "Settled statistics, centre distance" and "number of settled statistics" in check.message
 
 
 def test_the_life_of_a_plate_in_revolutions_and_seconds(monkeypatch):

@@ -61,9 +61,9 @@ def test_what_has_one_radius_alone_is_left_out_with_the_reason():
     )
     text = " ".join(result.findings)
     for words in (
-        "the published method has pins of one radius",
-        "as two equal radii roll. Take round pins of twice the effective radius",
-        "it compares joints of two equal radii",
+        "the published method applies to pins of one radius",
+        "joints of two equal radii only. Take round pins of twice the effective radius",
+        "it is available for joints of two equal radii only",
         "walls and gaps of the plates are left out",
         "bending of the pins is left out",
         "the mass of a link is estimated",

@@ -145,23 +145,23 @@ def test_a_blade_runs_and_keeps_its_energy(blade):
 def test_a_tensioner_on_the_tight_strand_is_told():
     below = ('sprockets.0.centre=["130 mm", "-46 mm"]', 'sprockets.0.direction="90 deg"', 'sprockets.0.force="140 N"', "guides=[]")
     found = " ".join(run("layout", *below).findings)
-    assert "tensioner idler presses on the tight strand: turning clockwise against a load torque of 8 N m" in found
-    assert "comes from the driven one" in found and "Put the tensioner on the other strand" in found
+    assert "tensioner idler presses on the tight strand: with clockwise rotation and a load torque of 8 N m" in found
+    assert "comes from the driven sprocket" in found and "Move the tensioner to the other strand" in found
     assert "tight strand" not in " ".join(run("layout").findings)
     driving = " ".join(run("layout", 'drive.load_torque="-2 N m"').findings)
-    assert "presses on the tight strand" in driving and "goes to the driven one" in driving
+    assert "presses on the tight strand" in driving and "goes to the driven sprocket" in driving
 
 
 @pytest.mark.error
 def test_a_reversing_drive_is_told_of_its_tensioner():
     found = " ".join(run("layout", "drive.reversing=true").findings)
-    assert "the drive reverses: then the strand of tensioner idler is the tight one" in found
+    assert "the drive reverses: in the other sense of rotation the strand of tensioner idler is the tight one" in found
 
 
 @pytest.mark.error
 def test_a_guide_out_of_reach_is_a_finding_and_one_too_short_a_check():
     found = run("layout", 'guides.0.centre=["160 mm", "-352 mm"]')
-    assert any(re.search(r"guides.rail: the chain does not touch it, it passes [\d.]+ mm away", each) for each in found.findings)
+    assert any(re.search(r"guides.rail: the chain does not touch this guide, it passes at a distance of [\d.]+ mm", each) for each in found.findings)
     short = run("layout", 'guides.0.start="100 deg"', 'guides.0.end="106 deg"').check("guide.rail.reach")
     assert not short.ok and short.value < 0
 
@@ -218,7 +218,7 @@ def test_jumped_teeth_end_the_run_there_and_keep_what_it_was_up_to():
     stop = found["dynamics.stop_time"]
     assert 0 <= stop < 0.2
     assert np.isfinite(found["dynamics.tension.mean"])
-    assert any(re.search(rf"up to t = {stop:.4g} s of 0.2\d* s: the chain jumps a tooth of", each) for each in found.findings)
+    assert any(re.search(rf"up to t = {stop:.4g} s of 0.2\d* s: the chain jumps a tooth on", each) for each in found.findings)
     assert found.tables["running"]["time"].data[-1] == pytest.approx(stop, abs=1e-3)
 
 
