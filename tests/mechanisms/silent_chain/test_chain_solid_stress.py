@@ -149,7 +149,8 @@ def test_findings_say_how_fine_and_what_is_assumed():
         ("write [drive]", ("drive=",)),
         ("shorter than a revolution of the chain; give dynamics.duration more", ('dynamics.duration="10 ms"',)),
         (
-            "0.08 mm is too large for the assumption of small displacements around a pin of 1.2 mm in radius; give a clearance of 0.06 mm or less",
+            "0.08 mm is too large for the assumption of small displacements around a pin of 1.2 mm in radius; "
+            "give a clearance of 0.06 mm or less",
             ('solid.clearance="80 um"',),
         ),
     ],
@@ -161,7 +162,7 @@ def test_left_out_with_the_reason(words, changes):
 @pytest.mark.parametrize(
     ("width", "words"),
     [
-        (0.08, "a width of 0.08 mm, less than two elements of 0.1 mm; with a clearance of 40 µm .* solid.fineness 2.5 or more, or a smaller"),
+        (0.08, "width of 0.08 mm, less than two elements of 0.1 mm; .* clearance of 40 µm .* solid.fineness 2.5 or more, or a smaller"),
         (0.05, "Take a smaller solid.clearance"),
         (0.0, "has a width of less than an element, .* Take a smaller solid.clearance"),
     ],

@@ -161,7 +161,8 @@ def test_a_reversing_drive_is_told_of_its_tensioner():
 @pytest.mark.error
 def test_a_guide_out_of_reach_is_a_finding_and_one_too_short_a_check():
     found = run("layout", 'guides.0.centre=["160 mm", "-352 mm"]')
-    assert any(re.search(r"guides.rail: the chain does not touch this guide, it passes at a distance of [\d.]+ mm", each) for each in found.findings)
+    words = r"guides.rail: the chain does not touch this guide, it passes at a distance of [\d.]+ mm"
+    assert any(re.search(words, each) for each in found.findings)
     short = run("layout", 'guides.0.start="100 deg"', 'guides.0.end="106 deg"').check("guide.rail.reach")
     assert not short.ok and short.value < 0
 
