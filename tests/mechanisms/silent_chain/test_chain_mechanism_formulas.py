@@ -87,7 +87,7 @@ def test_a_worn_chain_closes_as_a_new_one_of_its_longer_pitch():
     assert worn["centre_distance.mean"] > run("closure")["centre_distance.mean"] + MM
     for name, value in new.values.items():
         assert worn[name] == pytest.approx(value.value, rel=1e-9), name
-    assert any("is 1 % longer" in finding for finding in worn.findings)
+    assert any("elongated by 1 %" in finding for finding in worn.findings)
 
 
 def test_both_sides_of_the_closure_are_told_apart():
@@ -173,11 +173,11 @@ def test_findings_tell_what_is_off():
     def words(*changes):
         return " ".join(run(("meshing", "layout"), *changes).findings)
 
-    assert "base pitch" not in words() and "odd number" not in words() and "driven sprocket turns" not in words()
+    assert "base pitch" not in words() and "odd number" not in words() and "has more teeth" not in words()
     assert "base pitch" in words('cutter.pitch="9.6 mm"')
     assert "odd number of links" in words("links=67") and "odd number" not in words("links=67", "plate.lacing=[2, 2]")
     other = ('meshing.apothem_reference="pin"', 'plate.flank_angle="25 deg"', 'joint.offset="0.4 mm"')
-    assert f"{400 * np.sin(np.radians(25)):.4g} um per flank" in words(*other)
+    assert f"{400 * np.sin(np.radians(25)):.4g} µm off the flanks" in words(*other)
     assert not run("meshing", 'joint.offset="-1.5 mm"').check("offset").ok
     said = run("meshing", *other, "plate.apothem=", 'plate.standard_apothem="3.7 mm"')  # the flank's place does not depend on the reading
     assert said["standard_apothem"] == pytest.approx(3.7 * MM - 0.4 * MM * np.sin(np.radians(25)), rel=1e-12)

@@ -144,10 +144,10 @@ def test_findings_say_how_fine_and_what_is_assumed():
 @pytest.mark.parametrize(
     ("words", "changes"),
     [
-        ("joints whose two pins roll", ('joint.kind="revolute"', "joint.rolling_radius=")),
-        ("joints whose two pins roll", ('roller.diameter="6 mm"', 'joint.kind="revolute"', "joint.rolling_radius=")),
-        ("write [drive]", ("drive=",)),
-        ("shorter than a revolution of the chain; give dynamics.duration more", ('dynamics.duration="10 ms"',)),
+        ("rolling joints with two pins only", ('joint.kind="revolute"', "joint.rolling_radius=")),
+        ("rolling joints with two pins only", ('roller.diameter="6 mm"', 'joint.kind="revolute"', "joint.rolling_radius=")),
+        ("add [drive]", ("drive=",)),
+        ("shorter than a revolution of the chain; increase dynamics.duration", ('dynamics.duration="10 ms"',)),
         (
             "0.08 mm is too large for the assumption of small displacements around a pin of 1.2 mm in radius; "
             "give a clearance of 0.06 mm or less",
