@@ -41,6 +41,11 @@ def label_of(meaning: str, label: str = "") -> str:
     return text[:1].upper() + text[1:]
 
 
+def in_words(name: str) -> str:
+    """A name as it is read: "coupler_point.x" -> "coupler point x"."""
+    return name.replace("_", " ").replace(".", " ")
+
+
 def label_of_key(key: str, title: str | None = None) -> str:
     """The label of a key of a spec: its title, else the key in words: "base_radius" -> "Base radius"."""
     return label_of(key.replace("_", " "), title or "")

@@ -31,8 +31,8 @@ def run(
 ) -> Result[SpecT]:
     """Result of the default analyses of a spec, of exactly those named in `only` and what they need, or of all.
 
-    `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings, an analysis of `only` among
-    the warnings.
+    `progress(done, total, name)` is called before each analysis.  What is left out is listed in the findings; an analysis of `only`, or
+    one whose own table the spec gives, among the warnings.
     `model` is the spec's own, where it has been built already.  An analysis that fails in whatever way, or that looks at a run which
     stopped, makes the outcome "partial", and a finding says why; the other analyses keep their answers.
     """
@@ -43,7 +43,7 @@ def run(
     model = mechanism.build(spec) if model is None else model
     answers = run_analyses(spec, model, selected, progress)
     left_out = {name: "".join(answer.findings[-1:]) for name, answer in answers.items() if answer.outcome == "left out"}
-    unanswered = [left_out[name] for name in only if left_out.get(name)]
+    unanswered = [left_out[name] for name in dict.fromkeys((*only, *_given_tables(spec, left_out))) if left_out.get(name)]
     warnings = tuple(dict.fromkeys([*(warning for answer in answers.values() for warning in answer.warnings), *unanswered]))
     findings = [*warnings, *getattr(spec, "readings", {}).values(), *getattr(model, "findings", ())]
     findings += [each for each in _findings(answers) if each not in unanswered]
@@ -56,6 +56,12 @@ def run(
     answers = {name: _with_stop_times(answer) for name, answer in answers.items()}
     result = _result(spec, mechanism, answers, findings, time.perf_counter() - started)
     return replace(result, warnings=warnings, left_out=left_out)
+
+
+def _given_tables(spec: SpecLike, names: Iterable[str]) -> Iterator[str]:
+    """Those of the analyses whose table of the same name in the spec is not as it is by default: the user asks for them."""
+    fields = getattr(type(spec), "model_fields", {})
+    yield from (name for name in names if name in fields and getattr(spec, name) != fields[name].get_default(call_default_factory=True))
 
 
 def run_analyses(

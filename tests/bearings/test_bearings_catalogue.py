@@ -114,7 +114,7 @@ def test_unknown_names_come_with_the_nearest():
         ('"8 mm"', "8", r"bearings\.NJ-my-205\.roller\.roller_length: a bare number"),
         ("rollers = 13", "roller = 13", r"bearings\.NJ-my-205\.roller\.roller: unknown key \(did you mean 'rollers'\?\)"),
         ('"39 mm"', '"60 mm"', r"roller\.pitch_diameter: must lie between bore and outer diameter, got 60 mm against 25 and 52 mm"),
-        ('"rollers", ', "", r"bearings\.NJ-my-205\.sources: no source names rollers; each number wants one source"),
+        ('"rollers", ', "", r"bearings\.NJ-my-205\.sources: no source names rollers; each number needs one source"),
         ('"rollers", ', '"rollers", "width", ', r"sources: a source names, but the entry lacks, width"),
         ('"rollers", ', '"rollers", "bore", ', r"sources: two sources name bore"),
         ('"read"', '"trust me"', r'sources\.0\.flag: must be one of "read"'),
@@ -130,7 +130,7 @@ def test_a_bad_file_is_named_with_its_key(own, old, new, complaint):
 
 def test_an_entry_is_one_bearing(own):
     ball = '[bearings.NJ-my-205.ball]\nballs = 9\nball_diameter = "8 mm"\npitch_diameter = "39 mm"\n[bearings.NJ-my-205.roller]'
-    with pytest.raises(SpecError, match=r"bearings\.NJ-my-205\.ball: wants one table `ball` or `roller`, has both"):
+    with pytest.raises(SpecError, match=r"bearings\.NJ-my-205\.ball: needs one table `ball` or `roller`, has both"):
         names(own(("[bearings.NJ-my-205.roller]", ball)))
 
 

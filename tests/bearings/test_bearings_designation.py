@@ -114,8 +114,8 @@ def test_unknown_designations_come_with_their_neighbours(written, message):
         ("31306", "a tapered roller bearing of a series whose dimensions are not in the table"),
         ("30206 B", "steeper contact angle than 30206, .* Give its envelope with contact_angle"),
         ("30305 DJ", "steeper contact angle than 30305"),
-        ("7208", "'7208': an angular-contact bearing wants the letters of its contact angle.*B 40 deg, e.g. 7208B"),
-        ("7208 C3", "wants the letters of its contact angle"),
+        ("7208", "'7208': an angular-contact bearing needs the letters of its contact angle.*B 40 deg, e.g. 7208B"),
+        ("7208 C3", "needs the letters of its contact angle"),
     ],
 )
 def test_known_bearings_that_cannot_be_had(written, message):
@@ -258,14 +258,14 @@ def test_what_is_estimated_is_told():
     card = entry("6306")
     (text,) = catalogue_findings("A", "6306-2RS1", card)
     assert text.startswith("bearing 'A' (6306-2RS1): deep-groove ball bearing; its inner geometry is estimated from its dimensions")
-    assert "and with it C = 29.4 kN and C0 = 16.4 kN, about which makers' ratings scatter by ±8 %" in text
+    assert "and from it C = 29.4 kN and C0 = 16.4 kN; the ratings of makers scatter about this by ±8 %" in text
     assert text.endswith("give dynamic_rating and static_rating of the maker")
     (text,) = catalogue_findings("A", "6306", card, dynamic_rating_given=True)
     assert "C0 = 16.4 kN" in text and "C = " not in text and text.endswith("give static_rating of the maker")
     (text,) = catalogue_findings("A", "6306", card, static_rating_given=True)
     assert "C = 29.4 kN" in text and "C0" not in text and text.endswith("give dynamic_rating of the maker")
     (text,) = catalogue_findings("B", "NU210", entry("NU210"), True, True)
-    assert "estimated" in text and "kN" not in text and text.endswith("follow that geometry")
+    assert "estimated" in text and "kN" not in text and text.endswith("depend on that geometry")
     (text,) = catalogue_findings("B", "NU210", entry("NU210"))
     assert "scatter by ±6 %" in text
     assert list(catalogue_findings("A", "61804", entry("61804"))) == [] and estimated_keys(entry("61804")) == ()
@@ -298,7 +298,7 @@ def test_ratings_that_contradict_the_geometry_are_told():
     assert text.startswith("bearing 'A': static_rating 30 kN is 1.9 times the 15.9 kN that ISO 76 gives")
     low, high, both = rating_findings("A", bearing, 10e3, 25e3)
     assert "dynamic_rating 10 kN is 0.34 times" in low and "static_rating 25 kN is 1.6 times" in high
-    assert both.startswith("bearing 'A': static_rating is 2.5 times dynamic_rating; of such bearings it is 0.35 to 1.4 times")
+    assert both.startswith("bearing 'A': static_rating is 2.5 times dynamic_rating; for such bearings it is 0.35 to 1.4 times")
     roller = entry("NU210").bearing
     assert list(rating_findings("A", roller, 73.5e3, 69.5e3)) == [] and len(list(rating_findings("A", roller, 73.5e3, 40e3))) == 2
     assert "0.65 to 2 times" in list(rating_findings("A", roller, 73.5e3, 40e3))[1]

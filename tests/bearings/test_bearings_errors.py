@@ -59,17 +59,17 @@ def test_force_or_displacement(given):
 @pytest.mark.parametrize("value", [[1, 2, 3], 5.0, [1, 2, 3, 4, "x"], [0, 0, np.nan, 0, 0], [0, np.inf, 0, 0, 0], np.zeros((1, 5))])
 @pytest.mark.parametrize(("name", "units"), [("force", "N, N, N, N m, N m"), ("displacement", "m, m, m, rad, rad")])
 def test_five_finite_numbers(name, units, value):
-    with pytest.raises(InputError, match=rf"{name} wants five finite numbers \[{units}\], got"):
+    with pytest.raises(InputError, match=rf"{name} needs five finite numbers \[{units}\], got"):
         solve(BEARING, **{name: value})
 
 
 def test_a_displacement_beyond_all_numbers():
-    with pytest.raises(InputError, match=r"the displacement \[1e\+200, 0, 0, 0, 0\] is beyond all numbers; it counts in m and rad"):
+    with pytest.raises(InputError, match=r"the displacement \[1e\+200, 0, 0, 0, 0\] is too large; it is in m and rad"):
         solve(BEARING, displacement=[1e200, 0, 0, 0, 0])
 
 
 def test_start_wants_five_numbers_too():
-    with pytest.raises(InputError, match="start wants five finite numbers"):
+    with pytest.raises(InputError, match="start needs five finite numbers"):
         solve(BEARING, force=np.zeros(5), start=[0, 0, 0])
 
 
@@ -88,7 +88,7 @@ def test_what_is_no_bearing():
 
 
 def test_life():
-    with pytest.raises(InputError, match="the life wants a load above 0 N, got -5"):
+    with pytest.raises(InputError, match="the life needs a load above 0 N, got -5"):
         basic_life(BEARING, -5)
     with pytest.raises(InputError, match="no dynamic rating is known for grooves of 0.52 and 0.54 ball diameters; .* Give dynamic_rating"):
         basic_dynamic_rating(BEARING.replace(outer_conformity=0.54))
@@ -142,8 +142,8 @@ def _(law, displacement, force, stiffness):
 
 def test_a_force_that_nothing_resists():
     message = (
-        r"nothing resists -z, where -7 N of the force \[10, 0, -7, 0, 0\] pushes: the inner ring moves without end. "
-        r"Push it the other way, hold it with held=\('z',\)"
+        r"nothing resists -z, where -7 N of the force \[10, 0, -7, 0, 0\] acts: the inner ring moves without limit. "
+        r"Reverse the force, hold it with held=\('z',\)"
     )
     with pytest.raises(InputError, match=message):
         solve(Rail(), force=[10, 0, -7, 0, 0])

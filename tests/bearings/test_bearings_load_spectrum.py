@@ -78,7 +78,7 @@ def test_what_cannot_fail_does_not_count():
         (lambda: mean_speed((0.5, 0.4), (1.0, 1.0)), "sum to 1, got 0.5, 0.4 with the sum 0.9"),
         (lambda: mean_speed((1.2, -0.2), (1.0, 1.0)), "at least 0"),
         (lambda: spectrum_life((), ()), "duty cycle"),
-        (lambda: mean_load((0.5, 0.5), (0.0, 0.0), (10.0, 10.0), 3), "nothing turns"),
+        (lambda: mean_load((0.5, 0.5), (0.0, 0.0), (10.0, 10.0), 3), "all speeds are 0"),
         (lambda: system_life((1.0, 0.0), (1.1, 1.1)), "a life above 0"),
         (lambda: system_life((1.0, -2.0), (1.1, 1.1)), "a life above 0"),
         (lambda: system_life((1.0,), (1.1, 1.1)), "a slope for every bearing"),

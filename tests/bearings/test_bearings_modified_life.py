@@ -224,7 +224,7 @@ def test_contamination_factors():
 @pytest.mark.interface
 def test_what_is_assumed_is_told():
     assert list(lubrication_findings(Lubrication())) == [
-        "the modified life assumes ISO VG 68, 70 degC, contamination normal-cleanliness; say it under lubrication"
+        "the modified life assumes ISO VG 68, 70 degC, contamination normal-cleanliness; give the actual values in [lubrication]"
     ]
     (one,) = lubrication_findings(Lubrication(grade="ISO VG 46", contamination_factor=0.5))
     assert "assumes 70 degC;" in one
@@ -235,9 +235,9 @@ def test_what_is_assumed_is_told():
 @pytest.mark.parametrize(
     ("keys", "words"),
     [
-        ({"viscosity": "20 mm^2/s", "grade": "ISO VG 46"}, "viscosity: stands in place of grade"),
-        ({"viscosity": "20 mm^2/s", "temperature": "60 degC", "grade": "ISO VG 46"}, "in place of grade and temperature"),
-        ({"contamination_factor": 0.5, "contamination": "slight"}, "contamination_factor: stands in place of contamination"),
+        ({"viscosity": "20 mm^2/s", "grade": "ISO VG 46"}, "viscosity: replaces grade"),
+        ({"viscosity": "20 mm^2/s", "temperature": "60 degC", "grade": "ISO VG 46"}, "replaces grade and temperature"),
+        ({"contamination_factor": 0.5, "contamination": "slight"}, "contamination_factor: replaces contamination"),
         ({"grade": "VG 46"}, "did you mean 'ISO VG 46'"),
         ({"temperature": "150.1 degC"}, "at most 150 degC"),
         ({"temperature": "-20.1 degC"}, "at least -20 degC"),

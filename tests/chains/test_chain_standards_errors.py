@@ -61,7 +61,7 @@ def test_loops():
     refused("circle 1 needs a finite centre and a radius of 0 or more", s.loop_length, [(0, NAN, 1), (5, 0, 1)])
     refused("circle 2 needs a finite centre and a radius of 0 or more", s.loop_length, [(0, 0, 1), (5, 0, -1)])
     refused(
-        "no strand fits between circle 1 and the next: their centres are 1 m apart, and it takes more than 2 m",
+        "no strand fits between circle 1 and the next: their centres are 1000 mm apart and must be more than 2000 mm apart",
         s.loop_length,
         [(0, 0, 1), (1, 0, 3)],
     )

@@ -49,11 +49,11 @@ def told(clock, kind, *steps):
 def test_the_time_that_is_left_follows_the_pace_of_this_machine(clock):
     said = told(clock, "press", ("a", BEGUN, 0), ("a", DONE, 6), ("b", BEGUN, 0), ("b", DONE, 9), ("c", BEGUN, 0), ("c", DONE, 3))
     assert said == [
-        ("compiling kernels for 'press' (first run only) 1/3, about 7 s left", 7.0),
+        ("compiling kernels for 'press' (each once, when first needed) 1/3, about 7 s left", 7.0),
         ("", 15.0),
-        ("compiling kernels for 'press' (first run only) 2/3, about 15 s left", 15.0),
+        ("compiling kernels for 'press' (each once, when first needed) 2/3, about 15 s left", 15.0),
         ("", 2.5),
-        ("compiling kernels for 'press' (first run only) 3/3, about 2 s left", 2.5),
+        ("compiling kernels for 'press' (each once, when first needed) 3/3, about 2 s left", 2.5),
         ("", 0.0),
     ]
 
@@ -73,25 +73,25 @@ def test_kernels_that_are_compiled_while_another_process_compiles_one(clock):
     """Their time is counted once, and the kernel waited for has come nearer when they are done."""
     steps = [("b", BEGUN, 0), ("a", BEGUN, 1), ("a", DONE, 2), ("b", DONE, 3)]
     assert told(clock, "press", *steps) == [
-        ("compiling kernels for 'press' (first run only) 1/3, about 7 s left", 7.0),
-        ("compiling kernels for 'press' (first run only) 1/3, about 4 s left", 4.0),
-        ("compiling kernels for 'press' (first run only) 2/3, about 2 s left", 2.0),
+        ("compiling kernels for 'press' (each once, when first needed) 1/3, about 7 s left", 7.0),
+        ("compiling kernels for 'press' (each once, when first needed) 1/3, about 4 s left", 4.0),
+        ("compiling kernels for 'press' (each once, when first needed) 2/3, about 2 s left", 2.0),
         ("", 1.0),
     ]
 
 
 def test_what_is_on_the_disk_already_is_not_waited_for(clock):
     said = told(clock, "press", ("b", FOUND, 0), ("a", BEGUN, 0), ("a", DONE, 2), ("x", BEGUN, 0))
-    assert said[0] == ("compiling kernels for 'press' (first run only) 1/2, about 3 s left", 3.0)
-    assert said[2] == ("compiling kernels for 'press' (first run only) 2/3, about 1 s left", 1.0)
+    assert said[0] == ("compiling kernels for 'press' (each once, when first needed) 1/2, about 3 s left", 3.0)
+    assert said[2] == ("compiling kernels for 'press' (each once, when first needed) 2/3, about 1 s left", 1.0)
 
 
 def test_a_kind_that_nobody_measured(clock):
     said = told(clock, "stranger", ("a", BEGUN, 0), ("a", DONE, 2), ("b", BEGUN, 0))
     assert [words for words, _ in said] == [
-        "compiling kernels for 'stranger' (first run only) 1/1",
+        "compiling kernels for 'stranger' (each once, when first needed) 1/1",
         "",
-        "compiling kernels for 'stranger' (first run only) 2/2",
+        "compiling kernels for 'stranger' (each once, when first needed) 2/2",
     ]
 
 
@@ -112,8 +112,8 @@ def test_without_a_terminal_it_is_a_line_now_and_then(clock, capsys):
     assert lines_of(
         clock, capsys, "file.toml", "press", ("a", BEGUN, 0), ("a", DONE, 2), ("b", BEGUN, 0), ("b", DONE, 9), ("c", BEGUN, 0)
     ) == [
-        "compiling kernels for 'press' (first run only) 1/3, about 7 s left",
-        "compiling kernels for 'press' (first run only) 3/3, about 2 s left",
+        "compiling kernels for 'press' (each once, when first needed) 1/3, about 7 s left",
+        "compiling kernels for 'press' (each once, when first needed) 3/3, about 2 s left",
     ]
 
 
@@ -147,8 +147,10 @@ def test_two_quick_kernels_are_not_worth_a_line(clock, capsys):
 
 def test_slow_kernels_that_nobody_measured_are_told_after_two_seconds(clock, capsys):
     steps = ("a", BEGUN, 0), ("a", DONE, 2.5), ("b", BEGUN, 0), ("b", DONE, 1)
-    assert lines_of(clock, capsys, "file.toml", "stranger", *steps) == ["compiling kernels for 'stranger' (first run only) 2/2"]
-    assert lines_of(clock, capsys, "file.toml", "", *steps) == ["compiling kernels for 'file.toml' (first run only) 2/2"]
+    assert lines_of(clock, capsys, "file.toml", "stranger", *steps) == [
+        "compiling kernels for 'stranger' (each once, when first needed) 2/2"
+    ]
+    assert lines_of(clock, capsys, "file.toml", "", *steps) == ["compiling kernels for 'file.toml' (each once, when first needed) 2/2"]
 
 
 def test_one_kernel_that_takes_long_is_told_every_ten_seconds(clock, capsys):
@@ -158,7 +160,7 @@ def test_one_kernel_that_takes_long_is_told_every_ten_seconds(clock, capsys):
     for _ in range(25):
         clock.now += 1
         lines.look()
-    assert capsys.readouterr().err.splitlines() == ["compiling kernels for 'stranger' (first run only) 1/1"] * 3
+    assert capsys.readouterr().err.splitlines() == ["compiling kernels for 'stranger' (each once, when first needed) 1/1"] * 3
 
 
 def test_a_thread_looks_while_a_kernel_is_compiled(monkeypatch, capsys):
@@ -170,7 +172,7 @@ def test_a_thread_looks_while_a_kernel_is_compiled(monkeypatch, capsys):
         while "compiling" not in err and time.monotonic() < deadline:
             time.sleep(0.05)
             err += capsys.readouterr().err
-    assert "compiling kernels for 'stranger' (first run only) 1/1" in err
+    assert "compiling kernels for 'stranger' (each once, when first needed) 1/1" in err
 
 
 @pytest.mark.parametrize("kind", ["cam", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"])
@@ -184,9 +186,9 @@ def test_a_kernel_with_two_signatures_counts_twice(clock, monkeypatch):
     monkeypatch.setattr(compilation, "usual_seconds", lambda kind: {"a": [2.0, 1.0], "b": [4.0]})
     said = told(clock, "press", ("a", BEGUN, 0), ("a", DONE, 2), ("a", FOUND, 0), ("b", BEGUN, 0))
     assert [words for words, _ in said] == [
-        "compiling kernels for 'press' (first run only) 1/3, about 7 s left",
+        "compiling kernels for 'press' (each once, when first needed) 1/3, about 7 s left",
         "",
-        "compiling kernels for 'press' (first run only) 2/2, about 4 s left",
+        "compiling kernels for 'press' (each once, when first needed) 2/2, about 4 s left",
     ]
 
 
@@ -221,5 +223,5 @@ def test_a_first_run_says_so_and_a_second_one_does_not(tmp_path):
     command = [sys.executable, "-m", "drivewright", "run", spec, "--no-figures", "--out", out]
     env = os.environ | {"XDG_CACHE_HOME": str(tmp_path / "cache")}
     said = [subprocess.run(command, capture_output=True, text=True, timeout=300, env=env, check=True).stderr for _ in range(2)]
-    assert "compiling kernels for 'seedling-pusher' (first run only) 1/" in said[0]
+    assert "compiling kernels for 'seedling-pusher' (each once, when first needed) 1/" in said[0]
     assert "compiling" not in said[1]

@@ -328,7 +328,7 @@ def test_wheel_with_play_is_solved_after_it():
         ({"drive": RollerDrive(R, interference=-1e-6)}, "interference = -1e-06 m"),
         ({"torque": 0.0}, "the torque must be finite and not 0"),
         ({"model": "welded"}, "no model 'welded'"),
-        ({"theta": [0.0, 1.0]}, "2 positions want as many ratios and sets of contacts, got 1 and 1"),
+        ({"theta": [0.0, 1.0]}, "2 positions need as many ratios and sets of contacts, got 1 and 1"),
     ],
 )
 def test_what_cannot_be_solved_is_refused(change, words):

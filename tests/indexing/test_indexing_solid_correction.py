@@ -97,7 +97,7 @@ def test_a_shaft_with_shear_is_softer_by_that_of_its_sections():
 
 
 def test_it_wants_a_line_contact_and_bodies_that_fit():
-    with pytest.raises(InputError, match="elastic bodies: their compliance stands behind a line contact"):
+    with pytest.raises(InputError, match="elastic bodies: their compliance is in series with a line contact"):
         elastic_train(wheel(), drive(pins=None), Solids(CAM))
     with pytest.raises(InputError, match=r"CamBody\.thickness = 0 must be above 0"):
         elastic_train(wheel(), drive(), Solids(CAM._replace(thickness=0.0)))

@@ -89,7 +89,7 @@ RING = WheelBody(((0.09, 0.11),), 0.2, 0.3, (0.27, 0.3))
     "solids, changes, message",
     [
         (Solids(CAM._replace(thickness=0.0)), {}, "solid check: CamBody.thickness = 0 must be above 0 and finite."),
-        (Solids(CAM._replace(poisson=0.5)), {}, "solid check: CamBody.poisson = 0.5; a solid wants -1 < nu < 0.5."),
+        (Solids(CAM._replace(poisson=0.5)), {}, "solid check: CamBody.poisson = 0.5; a solid needs -1 < nu < 0.5."),
         (
             Solids(CAM._replace(hole_diameter=0.1, bore=0.02)),
             {},
@@ -106,7 +106,7 @@ RING = WheelBody(((0.09, 0.11),), 0.2, 0.3, (0.27, 0.3))
             {"shaft": THIN},
             "solid check: a crank pin of 0.1 mm, 10 mm off the axis, does not reach the shaft of 19 mm; take a thicker one.",
         ),
-        (Solids(shaft=SHAFT), {"shaft": None}, "solid check: the solids of shaft and wheel stand at the heights of the split shaft"),
+        (Solids(shaft=SHAFT), {"shaft": None}, "solid check: solid shafts and wheels take their axial positions from the split shaft"),
         (
             Solids(wheel=RING),
             {},

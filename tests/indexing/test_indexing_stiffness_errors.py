@@ -29,9 +29,9 @@ ONE = CamContacts(np.array([0]), np.array([0.12j]), np.array([1.0 + 0j]), np.arr
         (DRIVE._replace(gear=GearMesh(0.06, 2e8, 0.35)), ("60 mm", "110 mm apart", "below half")),
         (DRIVE._replace(gear=GearMesh(0.02, 2e8, 0.35, -1e-5)), ("gear.backlash = -1e-05 m", "0 or more")),
         (DRIVE._replace(gear=GearMesh(0.02, 2e8, 20.0)), ("pressure angle", "1146 deg", "radians")),
-        (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05,))), ("places for 1 cams", "has 2")),
+        (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05,))), ("positions for 1 cams", "has 2")),
         (DRIVE._replace(shaft=SHAFT._replace(supports=(0.1, 0.025))), ("front support at 100 mm", "25 mm")),
-        (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05, 0.05))), ("50 mm", "different places")),
+        (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05, 0.05))), ("50 mm", "different positions")),
     ],
 )
 def test_parts_without_a_meaning(drive, parts):
@@ -63,7 +63,7 @@ def test_no_torque(torque):
 
 
 def test_as_many_contacts_as_positions():
-    with pytest.raises(InputError, match="2 positions want as many sets of contacts, got 1"):
+    with pytest.raises(InputError, match="2 positions need as many sets of contacts, got 1"):
         solve_torsional_stiffness(DRIVE, [0.1, 0.2], [ONE], 0.01, 100.0)
 
 

@@ -37,7 +37,7 @@ def test_walls_lie_between_holes_and_on_the_side_of_the_profile():
 def test_what_cuts_the_profile_away_is_said():
     assert [*profile_findings(pin_wheel(0.01))] == []
     (cut,) = profile_findings(pin_wheel(0.008))
-    assert cut.startswith("pins of 8 mm reach the eccentricity of 8 mm")
+    assert cut.startswith("the pin radius of 8 mm is not below the eccentricity of 8 mm")
     assert [*profile_findings(pin_wheel(0.0099, "uniform"))] == []
     (loops,) = profile_findings(pin_wheel(0.0105, "uniform"))
     assert "is 1.05, above 1" in loops
@@ -52,9 +52,7 @@ def test_a_sleeve_needs_room_around_the_shaft():
 def test_directions_without_contact():
     angle, best = np.radians([0.0, 10.0, 20.0]), np.array([[0.3, 0.5, 0.4], [np.nan, 0.2, np.nan]])
     (finding,) = contact_findings(angle, best)
-    assert finding.startswith("no pin can be pushed backward by contact at 2 of 3 positions (0, 20 deg)") and finding.endswith(
-        "acts forward"
-    )
+    assert finding.startswith("no contact can push a pin backward at 2 of 3 positions (0, 20 deg)") and finding.endswith("acts forward")
     values = {name: value.value for name, value in pressure_angle_values(np.array([0.3, 0.5, np.nan]), best).items()}
     assert values == {"pressure_angle.maximum": 0.5, "pressure_angle.forward.maximum": 0.5, "pressure_angle.backward.maximum": 0.2}
     assert pressure_angle_values(np.full(2, np.nan), np.full((2, 2), np.nan)) == {}
@@ -65,7 +63,7 @@ def test_play_has_no_maximum_where_nothing_stops_the_wheel():
     values = {name: value.value for name, value in play_values(angle, rotations, 0.12).items()}
     assert values == {"play.forward.maximum": 3e-3, "play.forward.maximum.at": pytest.approx(np.radians(10.0))}
     (finding,) = play_findings(angle, rotations)
-    assert finding.startswith("nothing stops the wheel backward at 1 of 3 input angles (10 deg)")
+    assert finding.startswith("no contact stops the wheel backward at 1 of 3 input angles (10 deg)")
 
 
 def wheel_under_torque(outcome, rotation):
@@ -88,7 +86,7 @@ def test_stiffness_is_that_of_the_positions_that_carry():
     after = wheel_under_torque((CARRIED, CARRIED, CARRIED, FREE), [1e-3, 1e-3, 2e-3, np.nan])
     (finding,) = stiffness_findings(angle, found, after)
     assert finding.startswith("no stiffness at 2 of 4 input angles (10, 30 deg) against 100 N m")
-    assert "At 1 of them a contact takes it after the play" in finding
+    assert "At 1 of them a contact carries it after the play" in finding
 
 
 def test_loads_without_a_rating_have_no_life():

@@ -42,7 +42,7 @@ def rows(header="torque [N m],angle [arcmin]", count=10):
         (rows("torque [N m,angle [arcmin]"), r"no column 'torque \[N m\]'.*the bracket of 'torque \[N m' is not closed"),
         (rows("torque [N m],angle [furlong]"), "column 'angle': 'furlong' is no unit known here"),
         (rows("torque [N m],angel [arcmin]"), r"no column 'angle \[arcmin\]' in the first line .*did you mean 'angel'"),
-        (rows("moment [N m],angle [arcmin]"), r"no column 'torque \[N m\]' or 'force \[N\]'"),
+        (rows("load [N m],angle [arcmin]"), r"no column 'torque \[N m\]' or 'force \[N\]'"),
         (rows("torque [N m],angle [rad],angle [arcmin]"), "column 'angle' is there twice"),
         ("torque [N m],force [N],angle [deg]\n1,2,3\n", "has both a torque and a force; keep one"),
         (rows("force [N],angle [deg]"), "test.csv: the load is a force; give the length of its arm as well"),
@@ -84,7 +84,7 @@ def test_a_file_is_read_in_its_units_whatever_the_order_of_its_columns(tmp_path)
         (np.full(60, 300.0), ANGLE, "the torque is 300 N m in all samples; a stiffness needs a torque that changes"),
         (TORQUE, np.full(60, 0.25), "the angle is 0.25 rad in all samples"),
         (np.where(TORQUE > 400, np.nan, TORQUE), ANGLE, "must be finite"),
-        (TORQUE, -ANGLE, "the angle falls by 1e-05 rad per N m of rising torque.*turn the sign of one of the columns"),
+        (TORQUE, -ANGLE, "the angle falls by 1e-05 rad per N m of rising torque.*change the sign of one of the columns"),
     ],
 )
 def test_readings_without_a_stiffness_are_refused(torque, angle, wanted):
@@ -123,7 +123,7 @@ def test_a_loop_that_does_not_close_is_remarked():
 
 def test_a_loop_that_runs_backwards_is_remarked():
     texts = evaluate_loop(Readings(TORQUE, 2 * TORQUE / 1e5 - ANGLE)).findings
-    assert any("the loop runs the wrong way round: 0.4 J would come out of each cycle" in text for text in texts)
+    assert any("the loop runs in the wrong direction and would gain 0.4 J in each cycle" in text for text in texts)
 
 
 def test_a_line_through_one_place_is_refused():

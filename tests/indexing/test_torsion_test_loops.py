@@ -61,9 +61,9 @@ def test_backlash_inside_the_branches_is_lost_motion_and_leaves_their_stiffness(
     test = evaluate_loop(Readings(torque, torque / K + 4e-4 * np.sign(torque)), TorsionTestSettings(rated_torque=1000.0))
     assert test.per_branch.value == closely(K) and test.shape.lost_motion == closely(8e-4 + 60 / K)
     assert test.whole_loop.value < 0.9 * K and test.inverse.value < 0.9 * K
-    assert any("taken apart" in text and "within 30 N m" in text for text in test.findings)
+    assert any("are split there" in text and "within 30 N m" in text for text in test.findings)
     straight = evaluate_loop(Readings(torque, torque / K + 4e-5 * np.sin(torque)))
-    assert not any("taken apart" in text for text in straight.findings)
+    assert not any("are split there" in text for text in straight.findings)
 
 
 def test_one_branch_gives_a_stiffness_and_says_what_is_absent():
@@ -111,7 +111,7 @@ def test_drift_between_cycles_is_removed_and_hysteresis_stays():
     assert test.drift == pytest.approx(3e-6 * (test.torque.size - 1), rel=1e-6)
     assert test.shape.backlash == pytest.approx(2 * H, rel=1e-6) and test.per_branch.value == pytest.approx(K, rel=1e-6)
     alone = evaluate_loop(parallelogram(K, H, TOP))
-    assert alone.drift is None and any("cannot be told from hysteresis" in text for text in alone.findings)
+    assert alone.drift is None and any("cannot be separated from hysteresis" in text for text in alone.findings)
 
 
 def test_named_branches_may_mean_direction_or_size_of_the_torque():

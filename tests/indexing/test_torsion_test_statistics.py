@@ -61,7 +61,7 @@ def test_the_bootstrap_is_repeatable_and_needs_three_cycles():
     for name in first:
         assert first[name][0] < getattr(test, name).value < first[name][1]
     short = evaluate_loop(Readings(noisy.torque[:240], noisy.angle[:240]))
-    assert short.bootstrap == {} and any("needs at least 3 cycles, there is 2" in text for text in short.findings)
+    assert short.bootstrap == {} and any("needs at least 3 cycles, and the test has 2" in text for text in short.findings)
 
 
 @pytest.fixture(scope="module")

@@ -64,10 +64,10 @@ def test_rounding_goes_with_the_digit_and_the_third_power_of_the_spacing(tmp_pat
 @pytest.mark.parametrize(("step", "digits", "shows"), [(6, 4, False), (1, 3, True), (1, 6, False), (6, 1, True)])
 def test_a_finding_where_the_last_digit_shows_in_the_jerk(tmp_path, step, digits, shows):
     table(tmp_path, step, digits)
-    found = [finding for finding in dw.run(spec(tmp_path), only=("motion",)).findings if "printed to" in finding]
+    found = [finding for finding in dw.run(spec(tmp_path), only=("motion",)).findings if "rounded to" in finding]
     assert bool(found) == shows
     if shows:
-        assert f"printed to {10.0**-digits:.4g} mm" in found[0] and f'band = "{0.5 * 10.0**-digits:.4g} mm"' in found[0]
+        assert f"rounded to {10.0**-digits:.4g} mm" in found[0] and f'band = "{0.5 * 10.0**-digits:.4g} mm"' in found[0]
 
 
 def test_smoothing_within_half_the_last_digit(tmp_path):
@@ -75,9 +75,9 @@ def test_smoothing_within_half_the_last_digit(tmp_path):
     rough, smooth = dw.run(spec(tmp_path), only=("motion",)), dw.run(spec(tmp_path, band="0.5 um"), only=("motion",))
     assert 0.4e-6 < smooth["smoothing.departure"] <= 0.5e-6
     assert smooth["smoothing.jerk"] < 0.2 and "smoothing.jerk" not in rough.values
-    found = [finding for finding in smooth.findings if "smoothest" in finding]
+    found = [finding for finding in smooth.findings if "is smoothed" in finding]
     assert len(found) == 1 and "within 0.0005 mm of each of its 361 rows" in found[0] and "least integral of the squared jerk" in found[0]
-    assert not any("printed to" in finding for finding in smooth.findings)
+    assert not any("rounded to" in finding for finding in smooth.findings)
     motion = smooth.tables["motion"]
     angle = motion["angle"].data
     true = 1e-3 * (-5 * np.sin(angle) - 0.4 * 27 * np.sin(3 * angle))
@@ -121,3 +121,39 @@ def test_refusals(tmp_path, segment, words):
         data = {"mechanism": "cam", "follower": {"roller_radius": "8 mm", "prime_radius": "60 mm"}, "programme": [given]}
         dw.run(from_document(data, CamSpec, folder=tmp_path), only=("motion",))
     assert all(word in str(caught.value) for word in words), str(caught.value)
+
+
+def with_gaps(folder, *missing, step=3):
+    """A table over a turn with a row every `step` degrees but those within the open intervals."""
+    degrees = [a for a in range(0, 361, step) if not any(low < a < high for low, high in missing)]
+    path = folder / "lift.csv"
+    path.write_text("angle [deg],lift [mm]\n" + "".join(f"{a},{lift(np.radians(a)):.9f}\n" for a in degrees))
+    return path
+
+
+def gap_findings(path):
+    return [each for each in law("table", file=path).findings if "are missing" in each]
+
+
+@pytest.mark.property
+def test_missing_rows_of_an_even_table_are_told(tmp_path):
+    """Eleven of 121 rows are cut out: a step of 36 deg where there is one every 3 deg."""
+    (told,) = gap_findings(with_gaps(tmp_path, (120, 156)))
+    assert "missing from 120 to 156 deg: elsewhere there is one every 3 deg" in told
+    (told,) = gap_findings(with_gaps(tmp_path, (30, 36), (90, 99)))
+    assert "missing from 30 to 36 deg, 90 to 99 deg:" in told
+    assert not gap_findings(with_gaps(tmp_path))
+    model = dw.build(spec(tmp_path) if with_gaps(tmp_path, (120, 156)) else None)
+    assert any("missing from 120 to 156 deg" in each for each in model.findings)
+
+
+@pytest.mark.property
+def test_rows_that_are_uneven_or_rounded_have_no_gaps(tmp_path):
+    """Angles of a third of a degree printed to a tenth; rows that are closer in the flanks than elsewhere."""
+    for degrees in (
+        np.round(np.linspace(0, 360, 1081), 1),
+        np.r_[0:90:5, 90:150:1, 150:361:5],
+        180 * (1 - np.cos(np.linspace(0, np.pi, 61))),
+    ):
+        radians = np.radians(degrees)
+        assert not [each for each in law("table", angle=radians, lift=lift(radians)).findings if "are missing" in each]

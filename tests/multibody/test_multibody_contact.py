@@ -347,7 +347,7 @@ def test_a_run_ends_where_its_states_fill_the_memory_of_a_run(per_step, monkeypa
     monkeypatch.setattr(importlib.import_module("drivewright.multibody.simulate"), "MOST_KEPT", 300)
     assembly = assemble(slider_crank())
     found = simulate(assembly, TURN, Settings(per_step=per_step))
-    assert found.outcome == "partial" and "fill the memory" in found.advice and "fewer turns" in found.advice
+    assert found.outcome == "partial" and "memory limit" in found.advice and "reduce turns" in found.advice
     assert sum(len(part.t) for part in found.stretches) <= 301 and found.steps == 300 // per_step
     assert simulate(assembly, TURN, samples=np.array([TURN])).outcome == "complete"  # only what is kept fills it
 

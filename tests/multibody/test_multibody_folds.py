@@ -281,7 +281,7 @@ def test_branches_that_cross_do_not_touch(name):
 @pytest.mark.parametrize("rate", [0.5, 0.9, 1.001, 0.0, -4.9, -5.01])
 def test_a_start_in_a_fold_with_the_rates_of_neither_branch_is_refused(rate):
     """Those of the parallelogram are 1, of the anti-parallelogram -5 times the crank's."""
-    with pytest.raises(DoesNotAssemble, match="those of none of its branches"):
+    with pytest.raises(DoesNotAssemble, match="fit none of its branches"):
         mb.assemble(folded(rocker=rate * TURN))
 
 

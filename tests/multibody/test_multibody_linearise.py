@@ -256,7 +256,7 @@ def test_a_mechanism_with_a_loop_swings_in_a_simulation_as_its_linearisation_say
 
 def test_a_state_out_of_balance_is_refused_with_the_coordinate_and_the_way_out():
     assembly = assemble(pendulum(0.3))
-    with pytest.raises(InputError, match=r"not in balance: coordinate 'rod.angle'.*equilibrium\(\.\.\.\)"):
+    with pytest.raises(InputError, match=r"not an equilibrium: at coordinate 'rod.angle'.*equilibrium\(\.\.\.\)"):
         linearise(assembly, assembly.state)
 
 

@@ -142,7 +142,7 @@ def test_the_difference_of_two_designs_has_a_column_and_the_page_says_to_which(d
     assert head == ["Quantity", "A", "B", "Difference"]
     named = {row[0]: row[1:] for row in rows}
     assert named["Stroke of the follower lift"] == ["20 mm", "20 mm", "0"]
-    angle = next(row for name, row in named.items() if name.startswith("Largest pressure angle, "))
+    angle = next(row for name, row in named.items() if name.startswith("Maximum pressure angle"))
     assert angle[2].startswith("−") and angle[2].endswith(" %)") and "(" not in angle[1]
     assert "Differences are B less A" in text_of(page) and "Differences are to" not in text_of(page)
 
@@ -164,8 +164,8 @@ def test_the_page_says_which_designs_are_identical(designs, tmp_path):
 
 def test_checks_are_named_by_what_they_measure(designs):
     rows = {row["name"]: row["label"] for row in comparison_content(designs[0])["checks"]}
-    assert rows["undercut"] == "Undercut, pitch/face radius" and rows["cutter"] == "Hollow radius for the cutter"
-    assert rows["bore_wall"] == "Bore wall"
+    assert rows["undercut"] == "Undercut, pitch/face radius" and rows["cutter"] == "Concave radius for the cutter"
+    assert rows["bore_wall"] == "Wall between bore and profile"
 
 
 def test_a_later_comparison_replaces_the_earlier_one_and_nothing_else(designs, tmp_path):

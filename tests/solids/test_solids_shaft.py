@@ -252,14 +252,14 @@ def test_the_table_of_the_deformed_surface():
 @pytest.mark.parametrize(
     "changes, message",
     [
-        ({"bands": SEATS[:1]}, "solid check: 1 bearing; it wants two or more, for bands hold mean displacements and no tilt"),
+        ({"bands": SEATS[:1]}, "solid check: 1 bearing; it needs two or more, since bands hold mean displacements but no tilt"),
         ({"bands": (SEATS[0], (0.3395, 0.002, 3e7))}, "band 1 reaches from 338.5 to 340.5 mm, beyond the shaft of 0 ... 340 mm"),
         ({"bands": (SEATS[0], (0.1, 0.0, 3e7))}, "band 1 at 100 mm has width 0 mm and stiffness 3e+07 N/m; both must be positive"),
         ({"bands": (SEATS[0], (0.1, 0.01, -1.0))}, "band 1 at 100 mm has width 10 mm and stiffness -1 N/m"),
         ({"bands": (SEATS[0], (0.0575, 0.002, 3e7))}, "the bands at 56.5 and 57.5 mm overlap; make them narrower"),
         ({"stations": (0.0, 0.4)}, "a station at 400 mm is off the shaft of 0 ... 340 mm"),
         ({"stations": ()}, "no station; give at least one position to load"),
-        ({"poisson": 0.5}, "Poisson's ratio 0.5; a solid wants E > 0 and -1 < nu < 0.5"),
+        ({"poisson": 0.5}, "Poisson's ratio 0.5; a solid needs E > 0 and -1 < nu < 0.5"),
         ({"modulus": 0.0}, "modulus 0 Pa"),
         ({"max_size": 0.0}, "max_size 0 mm; elements want a positive size"),
         ({"sections": [(0.34, 0.02, 0.02, 0.02)]}, "shaft: ring 0 has length 340 mm, diameters 20 and 20 mm, bore 20 mm"),

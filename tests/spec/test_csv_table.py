@@ -50,6 +50,14 @@ FILES = {
     "minus sign and exponents": "angle [deg],lift [mm]\n"
     + body(",").replace("3.25", "3.25E+00").replace("60,", "6.0e1,").replace("0,0\n", "\u22120,0\n"),
     "lift in micrometres": "angle [deg];lift [µm]\n" + "".join(f"{a};{s * 1000:.1f}\n" for a, s in ROWS),
+    "German compounds": "Nockenwellenwinkel [deg];Ventilhub [mm]\n" + body(";", ","),
+    "German, other words": "Drehwinkel [°];Erhebung [mm]\n" + body(";", ","),
+    "French": "Angle de came [deg];Levée [mm]\n" + body(";", ","),
+    "Italian, accents as two characters": "Angolo camma (deg);Alzata valvola (mm)\n" + body(";", ","),
+    "Spanish": "A\u0301ngulo de leva [deg];Elevacio\u0301n [mm]\n" + body(";", ","),
+    "Chinese with its own brackets": "凸轮转角（deg）,升程（mm）\n" + body(","),
+    "a crank's angle beside the cam's": "Kurbelwinkel [°];Nockenwinkel [°];Hub [mm]\n" + "".join(f"{2 * a};{a};{s}\n" for a, s in ROWS),
+    "a sentence before the headings": "lift of cam 7\nangle [deg];lift [mm]\n" + body(";", ","),
     "angle in turns": "angle [rev],lift [cm]\n" + "".join(f"{a / 360!r},{s / 10!r}\n" for a, s in ROWS),
 }
 
@@ -93,6 +101,19 @@ REFUSED = {
     "two angles": ("wheel angle [deg],shaft angle [deg],lift [mm]\n0,0,0\n", ("line 1", "may both be the angle", "rename")),
     "twice": ("angle [deg],angle [rad],lift [mm]\n0,0,0\n", ("line 1: column 'angle' is there twice",)),
     "crank": ("crank angle [deg],lift [mm]\n" + body(","), ("'crank angle [deg]' is no cam angle", "half as far")),
+    "crank in German": ("Kurbelwinkel [°];Ventilhub [mm]\n" + body(";"), ("'Kurbelwinkel [°]' is no cam angle", "half as far")),
+    "crank in Italian": ("angolo di manovella [deg],alzata [mm]\n" + body(","), ("is no cam angle", "half of these")),
+    "degrees of the crank": ("Winkel [°KW];Hub [mm]\n" + body(";"), ("column 'angle'", "'°KW' may mean degrees of the crank")),
+    "mass in place of a lift": ("angle [deg];Hub [kg]\n" + body(";"), ("column 'lift': wants a length or an angle, got 'kg' (mass)",)),
+    "headings of line 3": (
+        "Messung 3; 2024\nBank 7; Halle 2\nStellung [deg];Ventilhub [mm]\n" + body(";"),
+        ("no column 'angle [deg]' in line 3 'Stellung [deg];Ventilhub [mm]'", "should read 'angle [deg];lift [mm]'"),
+    ),
+    "a sentence, other headings and a row of units": (
+        "lift of cam 7\nStellung;Ausschlag\n[deg];[mm]\n" + body(";"),
+        ("no column 'angle [deg]' in line 2 'Stellung;Ausschlag'",),
+    ),
+    "a sentence with all words": ("lift of cam\n0 0\n60 3\n", ("line 1: 'lift of cam' has 3 cells between blanks", "another number")),
     "unit in a cell": (
         "angle [deg],lift [mm]\n0,0\n60,3.25 mm\n",
         ("line 3: the lift is '3.25 mm', not a number", "units stand in the heading"),
@@ -153,6 +174,10 @@ def test_loads_of_linkages_and_force_curves_gain_too(tmp_path):
     path.write_text("displacement in um\tforce in kN\n0\t0\n12,5\t1,5\n")
     pair = read_columns(path, {"displacement": "length"}, {"force": "force"})
     assert pair.x == pytest.approx([0, 12.5e-6]) and pair.y == pytest.approx([0, 1500])
+    path.write_text("Zeit [s];Faktor\n0;1\n0,5;2,5\n", encoding="utf-8")
+    assert load_curve(path, "factor", "a pure number").curve.breaks[1:-1] == pytest.approx([0, 0.5])
+    path.write_text("曲柄转角 [deg],力矩 [N m]\n0,1\n90,3\n", encoding="utf-8")
+    assert load_curve(path, "torque", "torque").over == "angle"
     path.write_text("angle [deg],factor\n0,1\n90,3\n")
     assert load_curve(path, "factor", "a pure number").curve.breaks[1] == 0
     path.write_text("time [s],torque [N m]\n0,1\n0,2\n")

@@ -7,6 +7,7 @@ from spec_cases import FULL, ToySpec, install
 
 import drivewright as dw
 from drivewright.errors import SpecError
+from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.spec import document, from_document, load
 
 pytestmark = pytest.mark.interface
@@ -313,3 +314,14 @@ def test_a_loop_of_links_is_no_file(folder):
     (folder / "loop").symlink_to(folder / "loop")
     message, key = complaint(folder, BASE + "table = 'loop'")
     assert key == "table" and ("cannot be a file" in message or "there is no file" in message)
+
+
+@pytest.mark.error
+def test_a_list_whose_only_entry_is_wrong_is_not_too_short_besides(tmp_path):
+    """The entry is told alone; a list without entries is."""
+    document = {"mechanism": "cam", "follower": {"roller_radius": "8 mm", "prime_radius": "40 mm"}}
+    with pytest.raises(SpecError) as wrong:
+        from_document({**document, "programme": [{"angle": 180, "law": "dwell"}]}, CamSpec, folder=tmp_path)
+    assert str(wrong.value) == 'programme.0.angle: a bare number; an angle wants its unit, e.g. "180 deg"'
+    with pytest.raises(SpecError, match="^programme: must have at least 1 entries, got 0$"):
+        from_document({**document, "programme": []}, CamSpec, folder=tmp_path)

@@ -525,7 +525,9 @@ def test_the_content_of_a_data_file_is_part_of_the_study(tmp_path):
         run(tmp_path / "S", spec(table=str(tmp_path / "copy.csv"), force="3 N"))
     assert "another study; force: 2 N there, 3 N here. Give" in str(found.value)
     data.write_text("1,3\n")
-    with pytest.raises(InputError, match="holds another study; .*table"):
+    with pytest.raises(
+        InputError, match="holds another study; table: .*keeps one content, also where a file was repaired. Give another --out"
+    ):
         run(tmp_path / "S", spec(table=str(data)))
     assert (tmp_path / "S" / "data" / "table.csv").read_text() == "1,2\n"
 

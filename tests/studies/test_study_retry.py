@@ -114,6 +114,10 @@ def test_partial_cases_are_computed_once_more_where_that_is_wanted(tmp_path, mon
     on_a_day(monkeypatch.setattr, set())
     counted.clear()
     assert run(tmp_path / "S", retry="failed").counts == {"complete": 21, "partial": 2} and counted == [4]
+    words = (
+        "no case of this study has failed, so none is computed once more: 0 failed, 2 partial, which --retry incomplete computes once more"
+    )
+    assert run(tmp_path / "S", retry="failed").notices == (words,)
     again = run(tmp_path / "S", retry="incomplete")
     assert counted == [4, 8, 9] and same(again.table, fresh)
     assert again.notices == ("2 of 2 cases that were incomplete: computed once more, 2 complete now",)
@@ -250,6 +254,24 @@ def test_where_there_is_no_study_or_no_such_word(tmp_path):
         run(None, retry="failed")
     with pytest.raises(InputError, match="--retry 'bad' names no cases; take failed or incomplete"):
         run(tmp_path / "S", retry="bad")
+
+
+@pytest.mark.interface
+def test_a_retry_needs_no_plan_of_its_own(tmp_path, monkeypatch, capsys):
+    """The study in --out says what varies; a spec with a plan, or with other keys, is another study as ever."""
+    (tmp_path / "toy.toml").write_text('mechanism = "toy"\n')
+    folder = tmp_path / "S"
+    assert (
+        command(tmp_path / "toy.toml", "--vary", "size=1 mm,2 mm,3 mm,4 mm", "--out", folder) == 0 and "1 failed" in capsys.readouterr().out
+    )
+    on_a_day(monkeypatch.setattr, set())
+    assert command(tmp_path / "toy.toml", "--out", folder, "--retry", "failed") == 0
+    said = capsys.readouterr()
+    assert "1 of 1 case that had failed: computed once more, 1 complete now" in said.err and "4 complete" in said.out
+    assert command(tmp_path / "toy.toml", "--out", folder) == 2 and "nothing varies" in capsys.readouterr().err
+    assert command(tmp_path / "toy.toml", "--set", "size=7 mm", "--out", folder, "--retry", "failed") == 2
+    assert "holds another study; size:" in capsys.readouterr().err
+    assert dw.sweep(Toy(), out=folder, retry="failed", on="serial").plan.keys == ("size",)
 
 
 @pytest.mark.interface

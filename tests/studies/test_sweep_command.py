@@ -174,7 +174,10 @@ def test_a_value_with_the_name_of_a_key_that_varies():
         13e-3,
     ]
     assert (study.meaning("size"), study.meaning("value.size"), study.unit("value.size")) == ("varied", "size again", "m")
-    assert study["check.small"] == pytest.approx([4e-3, 0, -1e-3]) and study.meaning("check.small") == "margin of: it fits"
+    assert (
+        study["check.small"] == pytest.approx([4e-3, 0, -1e-3])
+        and study.meaning("check.small") == "margin to the limit (0 or more passes): it fits"
+    )
     assert sweep(Toy(), {"ratio": [1]}).value_names == ("size", "area", "root")
 
 
@@ -481,3 +484,9 @@ def test_from_python_as_the_docstrings_say(tmp_path):
 def test_json_can_say_what_a_study_is(chains):
     """What is in the metadata is text that travels."""
     assert json.loads(json.dumps({name: [chains.unit(name), chains.meaning(name)] for name in chains.table.column_names}))
+
+
+def test_the_help_of_the_table_says_what_its_checks_are(capsys):
+    with pytest.raises(SystemExit):
+        main(["table", "--help"])
+    assert "check.NAME are margins to the limits" in " ".join(capsys.readouterr().out.split())

@@ -15,7 +15,7 @@ from drivewright import runner
 from drivewright.errors import SpecError
 from drivewright.execution.case_table import CASE, STATUS
 from drivewright.execution.keys import KeyKind, key_kind
-from drivewright.execution.outputs import CHECK, OutputInfo
+from drivewright.execution.outputs import CHECK, MARGIN_OF, OutputInfo
 from drivewright.studies.plan import Block, Plan
 from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
@@ -206,7 +206,7 @@ def cases(count):
         value_names=(),
         check_names=("wall",),
         unit=about.__getitem__,
-        meaning=lambda name: "margin of: thin wall",
+        meaning=lambda name: f"{MARGIN_OF}thin wall",
     )
 
 

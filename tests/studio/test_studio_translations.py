@@ -166,7 +166,7 @@ def test_kinds_are_introduced_before_a_design_is_open():
     said = translations.texts(None)
     for kind in KINDS:
         assert CHINESE.search(said[registry.mechanism(kind).summary]) and CHINESE.search(said[kind.replace("-", " ")])
-    assert "design a" in said and "Area within the profile of a cam" not in said
+    assert "design a" in said and "Area of the cam profile" not in said
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -120,4 +120,4 @@ class _Begun(NamedTuple):
 def _how_often():
     from drivewright._jit import disk_cache  # which tells this module what it does
 
-    return "first run only" if disk_cache.is_kept() else "in every run: the user's cache folder cannot be written to"
+    return "each once, when first needed" if disk_cache.is_kept() else "in every run: the user's cache folder cannot be written to"

@@ -48,7 +48,7 @@ class Entry(Spec):
     @model_validator(mode="after")
     def _is_one_bearing(self):
         if (self.ball is None) == (self.roller is None):
-            raise SpecError("wants one table `ball` or `roller`, " + ("has none" if self.ball is None else "has both"), key="ball")
+            raise SpecError("needs one table `ball` or `roller`, " + ("has none" if self.ball is None else "has both"), key="ball")
         return self
 
     @model_validator(mode="after")
@@ -74,5 +74,5 @@ class Entry(Spec):
             ("two sources name", {key for key in named if named.count(key) > 1}),
         ):
             if keys:
-                raise SpecError(f"{complaint} {', '.join(sorted(keys))}; each number wants one source", key="sources")
+                raise SpecError(f"{complaint} {', '.join(sorted(keys))}; each number needs one source", key="sources")
         return self

@@ -40,13 +40,13 @@ class Envelope(Spec):
 
     type: BearingType = Field(description="type of the bearing", examples=["deep-groove"])
     bore: Length = Field(gt=0, description="bore of the inner ring", examples=["30 mm"])
-    outer_diameter: Length = Field(gt=0, description="outside of the outer ring", examples=["72 mm"])
-    width: Length = Field(gt=0, description="width of the bearing; of a tapered one assembled (T)", examples=["19 mm"])
+    outer_diameter: Length = Field(gt=0, description="outer diameter of the outer ring", examples=["72 mm"])
+    width: Length = Field(gt=0, description="width of the bearing; for a tapered bearing the assembled width T", examples=["19 mm"])
     contact_angle: Angle | None = Field(
-        None, gt=0, lt=RIGHT_ANGLE, description="nominal contact angle; unless given 40 deg of angular-contact, 14 deg of tapered bearings"
+        None, gt=0, lt=RIGHT_ANGLE, description="nominal contact angle; default 40 deg for angular-contact, 14 deg for tapered bearings"
     )
-    dynamic_rating: Force | None = Field(None, gt=0, description="basic dynamic load rating C; estimated unless given")
-    static_rating: Force | None = Field(None, gt=0, description="basic static load rating C0; estimated unless given")
+    dynamic_rating: Force | None = Field(None, gt=0, description="basic dynamic load rating C; default estimated")
+    static_rating: Force | None = Field(None, gt=0, description="basic static load rating C0; default estimated")
 
     @property
     def nominal_angle(self) -> float:

@@ -27,7 +27,7 @@ def basic_life(bearing: RollingBearing, load: float) -> float | None:
     P [N] is the radial load, or of a combined one its `equivalent_load`.
     """
     if not load > 0:
-        raise InputError(f"bearing: the life wants a load above 0 N, got {load:g}.")
+        raise InputError(f"bearing: the life needs a load above 0 N, got {load:g}.")
     power = life_exponent(bearing)
     if bearing.dynamic_rating is None:
         return None

@@ -21,7 +21,7 @@ def checked_shares(shares: ArrayLike) -> Floats:
     array = np.asarray(shares, dtype=float)
     if array.ndim != 1 or not len(array) or not np.all(array >= 0) or abs(array.sum() - 1) > WHOLE:
         raise InputError(
-            f"duty cycle: the shares of the time want to be at least 0 and sum to 1, got {', '.join(f'{each:.6g}' for each in array.flat)} "
+            f"duty cycle: the shares of the time must be at least 0 and sum to 1, got {', '.join(f'{each:.6g}' for each in array.flat)} "
             f"with the sum {array.sum():.6g}."
         )
     return array / array.sum()
@@ -36,7 +36,7 @@ def mean_load(shares: ArrayLike, speeds: ArrayLike, loads: ArrayLike, exponent: 
     """P_m [N] under which a bearing lasts as many revolutions: (sum q n P^p/sum q n)^(1/p); loads at least 0, p of the life."""
     weights, sizes = checked_shares(shares) * np.abs(speeds), np.asarray(loads, dtype=float)
     if not weights.sum() > 0:
-        raise InputError("duty cycle: nothing turns in it; at least one case wants a speed.")
+        raise InputError("duty cycle: all speeds are 0; give at least one case a speed.")
     peak = sizes.max()
     return float(peak * (weights @ (sizes / peak) ** exponent / weights.sum()) ** (1 / exponent)) if peak > 0 else 0.0
 
@@ -56,7 +56,7 @@ def system_life(lives: Sequence[float], slopes: Sequence[float]) -> float:
     """
     given, powers = np.asarray(lives, dtype=float), np.asarray(slopes, dtype=float)
     if given.shape != powers.shape or not np.all(given > 0):
-        raise InputError("bearing: the life of a system wants a life above 0 and a slope for every bearing.")
+        raise InputError("bearing: the life of a system needs a life above 0 and a slope for every bearing.")
     fails = np.isfinite(given)
     if not fails.any():
         return np.inf

@@ -63,49 +63,47 @@ CONTAMINATION_FACTORS: dict[str, tuple[float, float]] = {
 LARGE = 0.1  # m, pitch diameter from which a bearing counts as a large one
 
 
-GRADE, TEMPERATURE, CLEANLINESS = "ISO VG 68", 70.0, "normal-cleanliness"  # where nothing is said; the second in degC
+GRADE, TEMPERATURE, CLEANLINESS = "ISO VG 68", 70.0, "normal-cleanliness"  # where nothing is given; the second in degC
 
 
 class Lubrication(Spec):
-    """The lubricant of the bearings, and the reliability that their modified life is asked for."""
+    """The lubricant of the bearings, and the reliability of their modified life."""
 
     viscosity: KinematicViscosity | None = Field(
         None, gt=0, description="kinematic viscosity at operating temperature, in place of grade and temperature", examples=["20 mm^2/s"]
     )
     grade: Grade | None = Field(
-        None,
-        description=f"viscosity grade of the oil, or of a grease's base oil, viscosity index 95; {GRADE} unless given",
-        examples=[GRADE],
+        None, description=f"viscosity grade of the oil, or of a grease's base oil, viscosity index 95; default {GRADE}", examples=[GRADE]
     )
     temperature: Temperature | None = Field(
         None,
         ge=COLDEST,
         le=HOTTEST,
-        description=f"operating temperature of the bearing, for the grade's viscosity; {TEMPERATURE:g} degC unless given",
+        description=f"operating temperature of the bearing, for the viscosity of the grade; default {TEMPERATURE:g} degC",
         examples=[f"{TEMPERATURE:g} degC"],
     )
     contamination: Contamination | None = Field(
-        None, description=f"how clean the lubricant stays: class of ISO 281; {CLEANLINESS} unless given", examples=[CLEANLINESS]
+        None, description=f"contamination class of ISO 281; default {CLEANLINESS}", examples=[CLEANLINESS]
     )
     contamination_factor: Number | None = Field(
-        None, ge=0, le=1, description="factor e_C of ISO 281, in place of the class: 1 clean, 0 dirty", examples=[0.6]
+        None, ge=0, le=1, description="contamination factor e_C of ISO 281, in place of the class: 1 clean, 0 very dirty", examples=[0.6]
     )
-    reliability: Number = Field(0.9, ge=0.9, le=0.9995, description="probability of survival that the modified life is asked for")
+    reliability: Number = Field(0.9, ge=0.9, le=0.9995, description="probability of survival for the modified life")
 
 
 def refuse_said_twice(lubrication: Lubrication) -> None:
-    """SpecError for the first key that stands in place of others which are given too."""
+    """SpecError for the first key that replaces others which are given too."""
     for one, others in (("viscosity", ("grade", "temperature")), ("contamination_factor", ("contamination",))):
         twice = [key for key in others if getattr(lubrication, one) is not None and getattr(lubrication, key) is not None]
         if twice:
-            raise SpecError(f"stands in place of {' and '.join(twice)}, which would count for nothing; give one of the two", key=one)
+            raise SpecError(f"replaces {' and '.join(twice)}; give one of the two", key=one)
 
 
 def walther_viscosity(temperature: float, warm: float, hot: float) -> float:
     """Kinematic viscosity [m^2/s] at a temperature [K] of an oil that has `warm` at 40 and `hot` at 100 degC [m^2/s]."""
     if not warm > hot > 0 or not temperature > 0:
         raise InputError(
-            f"lubricant: wants a temperature above 0 K and a viscosity that falls from 40 to 100 degC, got {temperature:g} K and "
+            f"lubricant: needs a temperature above 0 K and a viscosity that falls from 40 to 100 degC, got {temperature:g} K and "
             f"{1e6 * warm:g}, {1e6 * hot:g} mm^2/s."
         )
     low, high = (np.log10(np.log10(1e6 * each + 0.7)) for each in (warm, hot))
@@ -136,11 +134,11 @@ def contamination_factor(lubrication: Lubrication, pitch_diameter: float) -> flo
 
 
 def lubrication_findings(lubrication: Lubrication) -> Iterator[str]:
-    """What the modified life assumes because nobody said it."""
+    """What the modified life assumes where the spec does not give it."""
     assumed = []
     if lubrication.viscosity is None:
         assumed += [GRADE] * (lubrication.grade is None) + [f"{TEMPERATURE:g} degC"] * (lubrication.temperature is None)
     if lubrication.contamination_factor is None and lubrication.contamination is None:
         assumed.append(f"contamination {CLEANLINESS}")
     if assumed:
-        yield f"the modified life assumes {', '.join(assumed)}; say it under lubrication"
+        yield f"the modified life assumes {', '.join(assumed)}; give the actual values in [lubrication]"

@@ -39,7 +39,7 @@ def reference_viscosity(speed: float, pitch_diameter: float) -> float:
     """
     rpm, diameter = abs(speed) * 30 / np.pi, 1e3 * pitch_diameter
     if not rpm > 0:
-        raise InputError("bearing: at rest no lubricant film forms, and no viscosity is enough; the modified life wants a speed.")
+        raise InputError("bearing: at rest no lubricant film forms, and no viscosity is sufficient; the modified life needs a speed.")
     return float(1e-6 * (45000 * rpm**-0.83 if rpm < 1000 else 4500 * rpm**-0.5) * diameter**-0.5)
 
 

@@ -36,11 +36,11 @@ def catalogue_findings(
     start = f"bearing {name!r} ({designation}): {entry.description}; its inner geometry is estimated from its dimensions"
     if missing:
         yield (
-            f"{start}, and with it {' and '.join(numbers[key] for key in missing)}, about which makers' ratings scatter by "
-            f"±{SCATTER[kind]} % and today's lie up to 15 % higher; give {' and '.join(missing)} of the maker"
+            f"{start}, and from it {' and '.join(numbers[key] for key in missing)}; the ratings of makers scatter about this by "
+            f"±{SCATTER[kind]} %, and present ones are up to 15 % higher; give {' and '.join(missing)} of the maker"
         )
     else:
-        yield f"{start}; its stiffness and load distribution follow that geometry"
+        yield f"{start}; its stiffness and load distribution depend on that geometry"
 
 
 def rating_findings(
@@ -75,8 +75,8 @@ def _against_each_other(name, bearing, ratio):
     least, most = RATING_RATIOS["ball" if isinstance(bearing, BallBearing) else "roller"]
     if not least <= ratio <= most:
         yield (
-            f"bearing {name!r}: static_rating is {ratio:.2g} times dynamic_rating; of such bearings it is {least:g} to {most:g} times: "
-            "check that the two are not exchanged and are of one bearing"
+            f"bearing {name!r}: static_rating is {ratio:.2g} times dynamic_rating; for such bearings it is {least:g} to {most:g} times: "
+            "check that the two are not exchanged and belong to one bearing"
         )
 
 

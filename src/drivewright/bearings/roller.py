@@ -46,13 +46,13 @@ class RollerBearing(Spec):
         description="angle of the line of contact against a plane across the axis; "
         "above 0 a tapered bearing, whose inner ring carries axial load towards +z",
     )
-    radial_clearance: Length = Field("0 mm", description="play across the diameter; below 0 a preload")
+    radial_clearance: Length = Field("0 mm", description="diametral clearance; negative for preload")
     profile: Literal["log", "none"] = Field("log", description="crown of the rollers: logarithmic after ISO/TS 16281, or none")
     laminae: Integer = Field(41, ge=1, le=1001, description="slices of a roller")
     dynamic_rating: Force | None = Field(None, gt=0, description="basic dynamic load rating C; without it there is no life")
     static_rating: Force | None = Field(None, gt=0, description="basic static load rating C0")
-    youngs_modulus: Pressure = Field("210 GPa", gt=0, description="of rings and rollers")
-    poisson_ratio: Number = Field(0.3, gt=-1, lt=0.5, description="of rings and rollers")
+    youngs_modulus: Pressure = Field("210 GPa", gt=0, description="Young's modulus of rings and rollers")
+    poisson_ratio: Number = Field(0.3, gt=-1, lt=0.5, description="Poisson's ratio of rings and rollers")
     first_element: Angle = Field("0 deg", description="angle of the first roller from +x towards +y")
 
     @model_validator(mode="after")
@@ -67,7 +67,7 @@ class RollerBearing(Spec):
         if not abs(self.radial_clearance) < self.roller_diameter:
             raise SpecError(
                 f"{1e3 * self.radial_clearance:.4g} mm is more than a roller of {1e3 * self.roller_diameter:.4g} mm is thick; "
-                "usual are some hundredths of a millimetre: check the unit.",
+                "some hundredths of a millimetre are usual: check the unit.",
                 key="radial_clearance",
             )
         return self

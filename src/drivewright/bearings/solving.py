@@ -172,11 +172,11 @@ def solve(
     there is the reaction.  start (5,): where the search begins, and where what nothing resists remains.
     """
     if (force is None) == (displacement is None):
-        raise InputError("bearing: give either force=[Fx, Fy, Fz, Mx, My] or displacement=[x, y, z, tilt_x, tilt_y], one of the two.")
+        raise InputError("bearing: give either force=[Fx, Fy, Fz, Mx, My] or displacement=[x, y, z, tilt_x, tilt_y].")
     law = law_of(bearing)
     if displacement is not None:
         if len(held) or start is not None:
-            raise InputError("bearing: held and start belong to a given force; at a given displacement nothing is left to find.")
+            raise InputError("bearing: held and start need a given force; at a given displacement there is nothing to solve.")
         return _state_of(bearing, law, _checked_vector(displacement, "displacement", "m, m, m, rad, rad"), 0)
     return _state_of(bearing, law, *_solve_force(law, _checked_vector(force, "force", "N, N, N, N m, N m"), held, start))
 
@@ -193,7 +193,7 @@ def _solve_force(law, force, held, start):
     if steps == NOT_CONVERGED:
         raise SolverError(
             f"bearing: no equilibrium with the force {_number_list(force)} after {MAX_STEPS} Newton steps. "
-            "Begin nearer with start=, or with less load.",
+            "Give a closer start=, or less load.",
             partial={"displacement": place},
         )
     return place, steps
@@ -205,8 +205,8 @@ def _refuse(law, force, place):
     way = int(np.argmax(np.abs(place) * ([1.0] * 3 + [sizes.arm] * 2)))
     name, unit, sign = FREEDOMS[way], "N" if way < 3 else "N m", "-" if place[way] < 0 else "+"
     raise InputError(
-        f"bearing: nothing resists {sign}{name}, where {force[way]:.6g} {unit} of the force {_number_list(force)} pushes: the inner ring "
-        f"moves without end. Push it the other way, hold it with held=({name!r},), or take a bearing that carries such a load."
+        f"bearing: nothing resists {sign}{name}, where {force[way]:.6g} {unit} of the force {_number_list(force)} acts: the inner ring "
+        f"moves without limit. Reverse the force, hold it with held=({name!r},), or take a bearing that carries such a load."
     )
 
 
@@ -231,7 +231,7 @@ def _state_of(bearing, law, displacement, steps):
     pressures, laminae = np.empty((sizes.elements, 2)), np.empty((sizes.elements, sizes.laminae))
     energy = _state(law, displacement, force, stiffness, loads, angles, pressures, laminae)
     if not np.isfinite(energy + loads.sum()):
-        raise InputError(f"bearing: the displacement {_number_list(displacement)} is beyond all numbers; it counts in m and rad.")
+        raise InputError(f"bearing: the displacement {_number_list(displacement)} is too large; it is in m and rad.")
     return BearingEquilibrium(bearing, displacement, force, stiffness, loads, angles, pressures, laminae, energy, int(steps))
 
 
@@ -249,7 +249,7 @@ def _checked_vector(values, name, units):
     except (TypeError, ValueError):
         array = np.empty(0)
     if array.shape != (5,) or not np.all(np.isfinite(array)):
-        raise InputError(f"bearing: {name} wants five finite numbers [{units}], got {brief(values)}.")
+        raise InputError(f"bearing: {name} needs five finite numbers [{units}], got {brief(values)}.")
     return array
 
 

@@ -20,11 +20,11 @@ def element_table(state: BearingEquilibrium, name: str) -> Table:
     n = len(state.element_loads)
     angle = 2 * np.pi * np.arange(n + 1) / n + state.bearing.first_element
     columns = (
-        Column("angle", "rad", "place of the element, from x towards y", angle),
-        Column("load", "N", "load", _closed(state.element_loads)),
+        Column("angle", "rad", "angular position of the element, from x towards y", angle),
+        Column("load", "N", "load of the element", _closed(state.element_loads)),
         Column("contact_angle", "rad", "contact angle", _closed(state.contact_angles)),
-        Column("inner_pressure", "Pa", "peak pressure at the inner race", _closed(state.pressures[:, 0])),
-        Column("outer_pressure", "Pa", "peak pressure at the outer race", _closed(state.pressures[:, 1])),
+        Column("inner_pressure", "Pa", "maximum pressure at the inner race", _closed(state.pressures[:, 0])),
+        Column("outer_pressure", "Pa", "maximum pressure at the outer race", _closed(state.pressures[:, 1])),
     )
     return Table(f"elements.{name}", f"Rolling elements of bearing {name}", columns)
 

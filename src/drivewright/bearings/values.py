@@ -20,9 +20,9 @@ NOTICED = 1.25  # ratio of the loads behind L10r and L10 from which a finding te
 SLIDING = 1e-6  # axial over radial force below which a cylindrical roller bearing counts as loaded radially alone
 # kind of life: words, symbol, what it comes from
 LIVES = {
-    "basic_life": ("basic life", "L10", "by the equivalent load P, ISO 281"),
-    "reference_life": ("reference life", "L10r", "by the load on every rolling element, ISO/TS 16281"),
-    "modified_life": ("modified life", "Lnm", "a1 a_ISO L10r by lubricant, contamination and reliability, ISO 281"),
+    "basic_life": ("basic life", "L10", "from the equivalent load P, ISO 281"),
+    "reference_life": ("reference life", "L10r", "from the load on every rolling element, ISO/TS 16281"),
+    "modified_life": ("modified life", "Lnm", "a1 a_ISO L10r with lubricant, contamination and reliability, ISO 281"),
 }
 
 
@@ -40,14 +40,22 @@ def load_values(name: str, state: BearingEquilibrium) -> dict[str, Value]:
     loaded = int(np.sum(state.element_loads > 0))
     values = {
         f"{key}.max_element_load": Value(
-            float(state.element_loads.max()), "N", f"peak element load {of}, on its most loaded rolling element"
+            float(state.element_loads.max()),
+            "N",
+            f"maximum load of a rolling element {of}",
+            label=f"Maximum element load, bearing {name!r}",
         ),
-        f"{key}.max_pressure": Value(float(state.pressures.max()), "Pa", f"Hertz pressure {of}, the largest of its contacts"),
-        f"{key}.loaded_elements": Value(float(loaded), "-", f"loaded elements {of}, number of rolling elements that carry"),
+        f"{key}.max_pressure": Value(
+            float(state.pressures.max()),
+            "Pa",
+            f"maximum Hertz pressure {of}, over all its contacts",
+            label=f"Maximum pressure in bearing {name!r}",
+        ),
+        f"{key}.loaded_elements": Value(float(loaded), "-", f"loaded elements {of}, number of rolling elements that carry load"),
     }
     if loaded:
         values[f"{key}.static_safety"] = Value(
-            state.static_safety, "-", f"static safety {of}, its load at the permissible contact pressure over its load"
+            state.static_safety, "-", f"static safety {of}, load at the permissible contact pressure over actual load"
         )
     return values | _rating_values(name, state.bearing) | _static_rating_values(name, state)
 
@@ -95,7 +103,7 @@ def life_values(
 
 def _factor_text(lives: RatingLives) -> str:
     given = lives.equivalent
-    return f"X Fr + Y Fa by {given.source}" if given is not None and given.Y else "the radial force itself"
+    return f"X Fr + Y Fa by {given.source}" if given is not None and given.Y else "equal to the radial force"
 
 
 def _life_pairs(name: str, lives: RatingLives, speed: float | None) -> dict[str, Value]:
@@ -111,9 +119,18 @@ def _life_pair(name: str, kind: str, revolutions: float, time: float | None, bas
     """One life in revolutions and, where it is known, in time [s], at a speed or over a cycle."""
     key, (words, symbol, source) = f"bearings.{name}.{kind}", LIVES[kind]
     over = f", {basis}" if basis == CYCLE else ""
-    values = {key: Value(float(revolutions), REVOLUTIONS, f"{symbol} revolutions of bearing {name!r}, {words} {source}{over}")}
+    values = {
+        key: Value(
+            float(revolutions),
+            REVOLUTIONS,
+            f"{symbol} revolutions of bearing {name!r}, {words} {source}{over}",
+            label=f"{words} {symbol}, bearing {name!r}",
+        )
+    }
     if time is not None:
-        values[f"{key}.time"] = Value(float(time), "s", f"{words} of bearing {name!r}, {symbol}h {basis}")
+        values[f"{key}.time"] = Value(
+            float(time), "s", f"{words} of bearing {name!r}, {symbol}h {basis}", label=f"{words} {symbol}h, bearing {name!r}"
+        )
     return values
 
 
@@ -142,7 +159,7 @@ def _mean_load_values(name, cases, lives):
     load = mean_load(*columns, life_exponent(cases[0].state.bearing))
     return {
         f"bearings.{name}.mean_load": Value(
-            load, "N", f"mean load of bearing {name!r}, the constant load with the basic life of the duty cycle"
+            load, "N", f"mean load of bearing {name!r}, constant load with the basic life of the duty cycle"
         )
     }
 
@@ -166,8 +183,9 @@ def system_values(bearings: Mapping[str, RollingBearing], values: Mapping[str, V
         single = [values.get(f"bearings.{name}.{kind}.time") for name in bearings]
         lives = [each.value for each in single if each is not None]
         if len(lives) == len(slopes):
-            meaning = f"{words} of all bearings together, {symbol}h by Weibull's slopes {_slope_text(slopes)}"
-            found[f"shaft.system_{kind}.time"] = Value(system_life(lives, slopes), "s", meaning)
+            meaning = f"{words} of all bearings together, {symbol}h with Weibull slopes {_slope_text(slopes)}"
+            label = f"{words} {symbol}h of all bearings"
+            found[f"shaft.system_{kind}.time"] = Value(system_life(lives, slopes), "s", meaning, label=label)
     return found
 
 
@@ -187,13 +205,13 @@ def bearing_findings(
     yield from _differing_lives(name, state, lives)
     if lives.viscosity_ratio is not None and lives.viscosity_ratio < THINNEST:
         yield (
-            f"bearing {name!r}: viscosity ratio {lives.viscosity_ratio:.2g}, below the {THINNEST:g} from which ISO 281 counts a film; its "
-            f"modified life takes a_ISO = {THINNEST:g}. Take a thicker lubricant, or judge the bearing by its static safety"
+            f"bearing {name!r}: viscosity ratio {lives.viscosity_ratio:.2g}, below {THINNEST:g}, the lower limit of ISO 281 for a film; "
+            f"its modified life uses a_ISO = {THINNEST:g}. Take a thicker lubricant, or judge the bearing by its static safety"
         )
     if state.bearing.contact_angle and state.reversed_elements:
         yield (
             f"bearing {name!r}: {state.reversed_elements} of its elements bear on the side that an angular-contact bearing does not have; "
-            "it needs more preload or axial load, or turn it round (carries)"
+            "give more preload or axial load, or reverse the bearing (carries)"
         )
 
 
@@ -203,11 +221,11 @@ def _absent_lives(name, state, lives):
     if state.bearing.dynamic_rating is None:
         yield f"life of bearing {name!r} is absent: it has no dynamic_rating"
     elif state.bearing.contact_angle > STEEPEST:
-        yield f"basic life of bearing {name!r} is absent: ISO 281 counts bearings as thrust bearings from a contact angle of 45 deg on"
+        yield f"basic life of bearing {name!r} is absent: a contact angle above 45 deg makes it a thrust bearing in ISO 281"
     if contact_of(state.bearing) == "line" and not state.bearing.contact_angle and axial > SLIDING * radial:
         yield (
             f"bearing {name!r}: the axial force of {axial:.4g} N on a cylindrical roller bearing is carried by its ribs in sliding and "
-            "counts neither in P = Fr nor in the lives; compare it with the maker's permissible axial load"
+            "enters neither P = Fr nor the lives; compare it with the maker's permissible axial load"
         )
 
 
@@ -216,8 +234,8 @@ def _differing_lives(name, state, lives):
     ratio = life_load_ratio(state, lives)
     if ratio is None or not (ratio > NOTICED or (ratio < 1 / NOTICED and contact_of(state.bearing) == "point")):
         return
-    why = "clearance, preload, tilt or a narrow zone of load" if ratio > 1 else "the contact angle under load"
+    why = "clearance, preload, tilt or a narrow load zone" if ratio > 1 else "the contact angle under load"
     yield (
-        f"bearing {name!r}: the reference life is {ratio ** -life_exponent(state.bearing):.2g} times the basic one. It knows {why}; the "
-        "factors of ISO 281 know a bearing without clearance. Trust it where the inner geometry is the bearing's own"
+        f"bearing {name!r}: the reference life is {ratio ** -life_exponent(state.bearing):.2g} times the basic life. It includes {why}; "
+        "the factors of ISO 281 assume a bearing without clearance. Prefer it where the inner geometry is that of the bearing"
     )

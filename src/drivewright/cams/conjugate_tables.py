@@ -14,13 +14,13 @@ from drivewright.cams.pressure import roller_pressure
 from drivewright.result import Column, Table
 
 QUANTITIES = {  # unit and meaning of the columns of the loads, by the last part of their names
-    "carrier_angle": ("rad", "turn of the carrier"),
-    "velocity": ("m/s", "rod velocity in the arm"),
-    "acceleration": ("m/s^2", "rod acceleration in the arm"),
-    "rod_force": ("N", "force the rod needs along its travel"),
-    "force": ("N", "normal force of the roller"),
+    "carrier_angle": ("rad", "carrier angle"),
+    "velocity": ("m/s", "velocity of the rod in the arm"),
+    "acceleration": ("m/s^2", "acceleration of the rod in the arm"),
+    "rod_force": ("N", "force on the rod along its travel"),
+    "force": ("N", "normal force"),
     "pressure": ("Pa", "Hertz pressure"),
-    "torque": ("N m", "torque of the pusher about the planet axis"),
+    "torque": ("N m", "torque about the planet axis"),
 }
 
 
@@ -29,20 +29,26 @@ def geometry_table(pair: ConjugatePair) -> Table:
     samples = [(np.linspace(low, high, SAMPLES), k) for low, high, _, k in pair.pieces]
     t = np.concatenate([angle for angle, _ in samples])
     columns = [
-        Column("carrier_angle", "rad", "turn of the carrier, one turn from the start of the push", t),
-        Column("planet_angle", "rad", "planet relative to the carrier", pair.orbit_angle(t).d0),
+        Column("carrier_angle", "rad", "carrier angle, one turn from the start of the push", t),
+        Column("planet_angle", "rad", "rotation of the planet on the carrier", pair.orbit_angle(t).d0),
     ]
     for name, cam in ((cam.name, cam) for cam in pair.cams):
         pressure_angle = np.concatenate([pair.pressure_angle(cam, angle, k).d0 for angle, k in samples])
         curvature = np.concatenate([pair.curvature(cam, angle, k) for angle, k in samples])
         pitch = np.concatenate([pair.pitch(cam, angle, k).d0 for angle, k in samples])
         columns += [
-            Column(f"{name}.pressure_angle", "rad", f"{name} cam, signed", pressure_angle),
+            Column(f"{name}.pressure_angle", "rad", f"pressure angle of the {name} cam, signed", pressure_angle),
             Column(f"{name}.curvature", "1/m", f"curvature of the {name} pitch curve, convex positive", curvature),
-            Column(f"{name}.convex_ratio", "-", f"{name} cam: roller over convex radius", curvature * cam.roller_radius),
-            Column(f"{name}.pitch_radius", "m", f"radius of the {name} pitch curve", np.abs(pitch)),
+            Column(
+                f"{name}.convex_ratio",
+                "-",
+                f"roller over convex radius, {name} cam",
+                curvature * cam.roller_radius,
+                f"roller over convex radius, {name} cam",
+            ),
+            Column(f"{name}.pitch_radius", "m", f"pitch radius of the {name} cam", np.abs(pitch)),
         ]
-    return Table("cams", "Cams over the push cycle", tuple(columns))
+    return Table("cams", "Cam geometry over the push cycle", tuple(columns))
 
 
 class DrivenMass(NamedTuple):
@@ -60,8 +66,14 @@ def load_table(pair: ConjugatePair, driven: DrivenMass) -> Table:
     """Motion of the mass, normal force and Hertz pressure of both rollers, torque about the orbit's axis: no clearance, no friction."""
     rows = [_loads(pair, driven, piece) for piece in pair.pieces]
     data = {name: np.concatenate([row[name] for row in rows]) for name in rows[0]}
-    columns = tuple(Column(name, *QUANTITIES[name.split(".")[-1]], column) for name, column in data.items())
-    return Table("load", "Loads over the push cycle", columns)
+    return Table("load", "Loads over the push cycle", tuple(_load_column(name, column) for name, column in data.items()))
+
+
+def _load_column(name: str, data: Floats) -> Column:
+    """The column "force", or that of one cam: "main.force"."""
+    cam, _, quantity = name.rpartition(".")
+    unit, meaning = QUANTITIES[quantity]
+    return Column(name, unit, f"{meaning} on the {cam} cam" if cam else meaning, data)
 
 
 def _loads(pair: ConjugatePair, driven: DrivenMass, piece: SmoothPiece) -> dict[str, Floats]:
@@ -85,9 +97,9 @@ def _loads(pair: ConjugatePair, driven: DrivenMass, piece: SmoothPiece) -> dict[
 def contact_table(run: LeverRun, start: float) -> Table:
     """Forces of both rollers and deviation of the mass in the last turn of a run with clearance, from the driving angle `start` [rad]."""
     columns = (
-        Column("carrier_angle", "rad", "turn of the carrier", start + run.angle),
+        Column("carrier_angle", "rad", "carrier angle", start + run.angle),
         Column("main.force", "N", "normal force on the main cam", run.main),
         Column("return.force", "N", "normal force on the return cam", run.back),
-        Column("rod_error", "m", "rod ahead of its programme", run.deviation),
+        Column("rod_error", "m", "deviation of the rod from its programme, positive ahead of it", run.deviation, "Rod error"),
     )
     return Table("contact", "Contact over the last simulated turn", columns)

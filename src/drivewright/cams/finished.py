@@ -105,13 +105,27 @@ def inspection_table(cycle: Cycle, contact_at: ContactAt, trimmed: Trimmed | Non
     point = contact.point.d0
     columns = (
         Column("angle", "rad", "cam angle", angle),
-        Column("polar_angle", "rad", "direction of the point at cam angle 0", np.angle(point)),
-        Column("radius", "m", "distance of the point from the cam's centre", np.abs(point)),
-        Column("x", "m", "point, x at cam angle 0", np.real(point)),
-        Column("y", "m", "point, y at cam angle 0", np.imag(point)),
-        Column("normal", "rad", "direction of the outward normal at cam angle 0", np.angle(contact.normal)),
-        Column("pitch_radius", "m", "distance of the follower's face centre from the cam's centre", np.abs(contact.pitch.d0)),
-        Column("tolerance", "m", "allowed deviation along the normal, plus and minus", np.full(angle.shape, tolerance)),
+        Column("polar_angle", "rad", "direction of the profile point from the cam centre, at cam angle 0", np.angle(point), "Polar angle"),
+        Column("radius", "m", "distance of the profile point from the cam centre", np.abs(point), "Polar radius"),
+        Column("x", "m", "x of the profile point at cam angle 0", np.real(point), "Profile x-coordinate"),
+        Column("y", "m", "y of the profile point at cam angle 0", np.imag(point), "Profile y-coordinate"),
+        Column(
+            "normal",
+            "rad",
+            "direction of the outward normal of the profile at cam angle 0",
+            np.angle(contact.normal),
+            "Direction of the outward normal",
+        ),
+        Column(
+            "pitch_radius",
+            "m",
+            "distance of the centre of the follower's face from the cam centre",
+            np.abs(contact.pitch.d0),
+            "Polar radius of the face centre",
+        ),
+        Column(
+            "tolerance", "m", "allowed deviation along the normal, plus and minus", np.full(angle.shape, tolerance), "Profile tolerance"
+        ),
     )
     return Table(name, title, columns)
 

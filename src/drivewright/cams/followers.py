@@ -414,8 +414,8 @@ class OscillatingFlat:
         _refuse_swing(psi, -np.pi / 2, np.pi / 2)
         if np.any(1 + self.sense * lift.d1 / angle.d1 <= 0):
             raise DoesNotAssemble(
-                f"oscillating flat follower: the lever turns as fast as the cam (d swing/d angle reaches {-self.sense}), and no profile "
-                "does that. Spread the motion over a larger cam angle or reduce the rise."
+                f"oscillating flat follower: the lever turns as fast as the cam (d swing/d angle reaches {-self.sense}), which no profile "
+                "can produce. Spread the motion over a larger cam angle or reduce the rise."
             )
         _refuse_crossing(self.pivot_distance * np.sin(psi) + self.face_offset)
 

@@ -112,7 +112,9 @@ def needed_stiffness(cycle: Cycle, path: LoadPath, load: FollowerLoad, speed: Nu
         hopeless = np.logical_or(hopeless, np.less_equal(x, 0) & ~settled)
         with np.errstate(divide="ignore", invalid="ignore"):  # of what is settled
             stiffness = np.where(settled | hopeless, stiffness, stiffness - np.divide(lowest.value, x))[()]
-    raise SolverError("cam spring: the stiffness did not settle; give a preload and let the stiffness be.", partial=stiffness)
+    raise SolverError(
+        "cam spring: the required stiffness did not converge; give a preload and keep the stiffness fixed.", partial=stiffness
+    )
 
 
 class Jump(NamedTuple):
@@ -142,7 +144,7 @@ def jump(cycle: Cycle, path: LoadPath, load: FollowerLoad) -> Jump:
         if not np.any(faster):
             return Jump(speed, np.where(np.isfinite(speed), lowest.angle, np.nan)[()])
         speed = np.where(faster, lower, speed)[()]
-    raise SolverError(f"cam spring: the jump speed did not settle; it is below {np.max(speed):.6g} rad/s.", partial=speed)
+    raise SolverError(f"cam spring: the jump speed did not converge; it is below {np.max(speed):.6g} rad/s.", partial=speed)
 
 
 def _separating_speed(path, load, lift):

@@ -55,10 +55,12 @@ def roller_pressure(force: Floats, pitch_curvature: Floats, radius: float, width
     return np.asarray(hertz.line_contact(force, width, 1 / np.maximum(relative, LEAST_SLACK), modulus).pressure)
 
 
-def pressure_check(name: str, pressure: float, limit: float | None, material: Material, message: str, parts: tuple[str, ...]) -> Answer:
+def pressure_check(
+    name: str, pressure: float, limit: float | None, material: Material, message: str, parts: tuple[str, ...], label: str = ""
+) -> Answer:
     """The check of a Hertz pressure [Pa] against a limit [Pa], the material's unless given; without either a finding says so."""
     allowed = material.hertz_limit if limit is None else limit
     if allowed is None:
         unknown = f"no allowable pressure is known for {material.name}; give limits.contact_pressure"
         return Answer(findings=(f"check {name} is left out: {unknown}",))
-    return Answer(checks=(Check(name, pressure, allowed, "<=", "Pa", message, parts),))
+    return Answer(checks=(Check(name, pressure, allowed, "<=", "Pa", message, parts, label=label),))

@@ -11,10 +11,19 @@ from drivewright.cams.followers import CamContact, ContactAt
 from drivewright.cams.pressure import contact_pressure
 from drivewright.cams.profile import FlatFollower, Follower, RoundFollower
 from drivewright.cams.sizing import min_flat_radius
+from drivewright.labels import LONGEST
 from drivewright.numerics.jets import Jet
 from drivewright.result import Column, Table
 
 ROUNDING = 1e-9  # of a radius
+SHORTER = (  # what a label that is too long is shortened by, step by step
+    ("aximum ", "ax. "),
+    ("inimum ", "in. "),
+    ("Cam angle at ", "Angle of "),
+    ("pitch curve", "pitch"),
+    ("film thickness", "film"),
+    ("conjugate cam", "conjugate"),
+)
 
 
 class KeptContacts:
@@ -62,14 +71,21 @@ class CamTrack:
         return f".{self.prefix[:-1]}" if self.prefix else ""
 
     @property
-    def of(self) -> str:
-        """What stands behind the meaning of its values, to tell it from the cam."""
-        return f" ({self.name})" if self.prefix else ""
+    def words(self) -> str:
+        """What it is called in a sentence."""
+        return "conjugate cam" if self.name == "conjugate" else self.name
 
     @property
-    def surface(self) -> str:
-        """What stands behind labels, to tell them from those of the cam."""
-        return f", {'second cam' if self.name == 'conjugate' else self.name}" if self.prefix else ""
+    def of(self) -> str:
+        """What stands behind the meaning of its values, to tell it from the cam."""
+        return f" ({self.words})" if self.prefix else ""
+
+    def label(self, text: str) -> str:
+        """A label of this surface, told from that of the cam: "Lost motion, conjugate cam"; shortened where it would be too long."""
+        text += f", {self.words}" if self.prefix else ""
+        for long, short in SHORTER:
+            text = text.replace(long, short) if len(text) > LONGEST else text
+        return text
 
     @property
     def curve(self) -> str:
@@ -118,29 +134,41 @@ class CamTrack:
         contact = self.contact(*cycle.sampled())
         return Table(
             f"geometry{self.suffix}",
-            f"Pressure angle and curvature{self.of}",
+            self.label("Pressure angle and curvature"),
             (
                 Column("angle", "rad", "cam angle", angle),
                 Column("pressure_angle", "rad", f"pressure angle{self.of}", contact.pressure_angle.d0 + 0 * angle),
                 Column(
-                    "curvature", "1/m", f"curvature of the {self.curve}{self.of}, convex positive", contact.pitch_curvature.d0 + 0 * angle
+                    "curvature", "1/m", f"curvature of the {self.curve}, convex positive{self.of}", contact.pitch_curvature.d0 + 0 * angle
                 ),
-                Column("pitch_radius", "m", f"distance of the {self.curve}{self.of} from the cam's centre", np.abs(contact.pitch.d0)),
-                Column("profile_x", "m", f"profile{self.of}, x at cam angle 0", contact.point.d0.real),
-                Column("profile_y", "m", f"profile{self.of}, y at cam angle 0", contact.point.d0.imag),
+                Column(
+                    "pitch_radius",
+                    "m",
+                    f"distance of the {self.curve} from the cam centre{self.of}",
+                    np.abs(contact.pitch.d0),
+                    f"Polar radius of the {self.curve}",
+                ),
+                Column("profile_x", "m", f"x of the profile at cam angle 0{self.of}", contact.point.d0.real, "Profile x-coordinate"),
+                Column("profile_y", "m", f"y of the profile at cam angle 0{self.of}", contact.point.d0.imag, "Profile y-coordinate"),
             ),
         )
 
     def undercut_table(self, cycle: Cycle) -> Table:
-        """Curvature of the pitch curve against that of the face: above 1 the profile cuts itself away."""
+        """Curvature of the pitch curve against that of the face: above 1 the profile is undercut."""
         _, angle = cycle.samples()
         ratio = self.flank * self.radius * self.contact(*cycle.sampled()).pitch_curvature.d0
         return Table(
             f"undercut{self.suffix}",
-            f"Undercut{self.of}",
+            self.label("Undercut"),
             (
                 Column("angle", "rad", "cam angle", angle),
-                Column("ratio", "-", f"face radius times curvature of the pitch curve{self.of}", ratio + 0 * angle),
+                Column(
+                    "ratio",
+                    "-",
+                    f"face radius times curvature of the pitch curve{self.of}",
+                    ratio + 0 * angle,
+                    "Face radius over pitch curve radius",
+                ),
             ),
         )
 
@@ -151,7 +179,7 @@ class CamTrack:
         surface = f"{'circumferential speed of the roller' if rolls else 'sliding speed'}{self.of}"
         return Table(
             f"contact{self.suffix}",
-            f"Contact of cam and follower{self.of}",
+            self.label("Contact of cam and follower"),
             (
                 Column("angle", "rad", "cam angle", angle),
                 Column("contact_force", "N", f"normal force{self.of}", normal_force),
@@ -166,12 +194,12 @@ class CamTrack:
         pressure = contact_pressure(normal_force, self.contact(*cycle.sampled()), self.radius, width, modulus)
         return Table(
             f"pressure{self.suffix}",
-            f"Contact pressure{self.of}",
-            (Column("angle", "rad", "cam angle", angle), Column("contact_pressure", "Pa", f"peak Hertz pressure{self.of}", pressure)),
+            self.label("Contact pressure"),
+            (Column("angle", "rad", "cam angle", angle), Column("contact_pressure", "Pa", f"maximum Hertz pressure{self.of}", pressure)),
         )
 
     def without_pressure(self, cycle: Cycle) -> str:
-        """Why a Hertz pressure has no meaning on this surface, or "": a knife edge, or a profile that cuts itself away."""
+        """Why a Hertz pressure has no meaning on this surface, or "": a knife edge, or an undercut profile."""
         if not self.flat and np.all(np.equal(self.radius, 0)):
             return "a knife edge has no contact pressure"
         return "" if self.has_pressure(cycle) else "the profile is undercut"

@@ -63,7 +63,7 @@ def periodic_response(cycle: Cycle, reach: float, speed: float, frequency: float
     if np.linalg.norm(turn * [[1.0, frequency], [1 / frequency, 1.0]], -2) < 1e-9:
         raise InputError(
             f"cam vibration: at damping_ratio {damping:.3g} the natural frequency is {frequency / speed:.6g} times the cam's "
-            "speed, a resonance without a steady state. Give some damping or another speed."
+            "speed: a resonance without a steady state. Give some damping or another speed."
         )
     start = np.linalg.solve(turn, [rest.d0[-1], rest.d1[-1]])
     # A free swing superposed on the motion from rest brings the end back to the start.
@@ -103,10 +103,10 @@ def vibration_table(cycle: Cycle, response: Response, reach: float, acceleration
     lift = reach * cycle.at(response.piece, response.angle)[1].d0
     columns = (
         Column("angle", "rad", "cam angle", response.angle),
-        Column("travel", "m", "planned travel", lift),
-        Column("actual", "m", "travel with vibration", lift + response.error.d0),
-        Column("error", "m", "deviation from the programme", response.error.d0),
-        Column("acceleration", "m/s^2", "acceleration of the follower, vibration included", acceleration.d0),
+        Column("travel", "m", "travel of the rigid follower", lift, "Prescribed travel"),
+        Column("actual", "m", "travel of the vibrating follower", lift + response.error.d0, "Travel with vibration"),
+        Column("error", "m", "deviation of the vibrating follower from its programme", response.error.d0, "Deviation from the programme"),
+        Column("acceleration", "m/s^2", "acceleration of the follower, vibration included", acceleration.d0, "Acceleration with vibration"),
     )
     return Table("vibration", "Vibration of the follower", columns)
 
@@ -168,5 +168,5 @@ def _refuse(speed, frequency, damping):
     if frequency > STIFFEST * speed:
         raise InputError(
             f"cam vibration: the natural frequency is {frequency / speed:.4g} times the cam's speed; above {STIFFEST:g} times "
-            "the follower moves as a rigid one. Leave the vibration out."
+            "the follower is practically rigid. Leave the vibration out."
         )

@@ -1,7 +1,10 @@
 """Elongation of a chain by wear of its hinges, by Archard's law.
 
 A joint turns whenever it comes onto a sprocket or off it, by the angle 2 pi/z of a tooth, under the force of the strand that it comes from
-or goes to; the pin slides in its bush by that angle times its radius.  The volume worn off pin and bush together lets the bush move
+or goes to; the pin slides in its bush by that angle times its radius.  Every body on the path bends the chain so, tensioners and guides
+too: a joint turns by the angle a between two plates that lie on the body, or by the wrap w where that is less.  (The joints on the body
+share its wrap: each bends from 0 to b and back while w/a + 1 pitches pass, so that they sum up to b max(w/a, 1) = w, b = min(w, a).)  The
+volume worn off pin and bush together lets the bush move
 along the force by the volume over the projected area d L: two circles of one diameter d that move apart by h leave a lune of h d.
 
 Pins that roll on each other do not slide: Archard's law knows no wear of theirs.
@@ -12,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats, Numbers
+from drivewright.chains.path import Balance
 from drivewright.contact.wear import extrapolate_wear, wear_volume
 
 TOOTH_RULE = 2.0  # elongation at which a worn chain climbs the teeth, times the teeth of the larger sprocket: 200/z %, recalled
@@ -45,6 +49,20 @@ def articulations(teeth: tuple[int, int], tight: float, slack: float) -> tuple[A
     return tuple(Articulation(angle, float(force)) for angle, force in zip((driver, driver, driven, driven), pulls, strict=True))
 
 
+def path_articulations(balance: Balance) -> tuple[Articulation, ...]:
+    """Those of a joint in a revolution of the chain along a path: onto each body under the force of the strand that comes to it, off it
+    under that of the strand that leaves it; by min(wrap, 2 pi/z), of a guide min(wrap, 2 atan(p/(2 R)))  [rad].
+
+    Whole forces, the centrifugal one included [N]; a strand that sags pulls with none.
+    """
+    route, pulls = balance.route, np.maximum(balance.pulls + balance.centrifugal, 0.0)
+    found = []
+    for place, (station, wrap) in enumerate(zip(route.stations, route.wraps, strict=True)):
+        angle = float(np.clip(wrap, 0.0, 2 * np.pi / station.per_turn))
+        found += [Articulation(angle, float(pulls[place - 1])), Articulation(angle, float(pulls[place]))]
+    return tuple(found)
+
+
 def sliding_per_revolution(pin_diameter: float, turns: tuple[Articulation, ...]) -> float:
     """Length that a pin slides in its bush in a revolution of the chain, d/2 times the sum of the angles  [m]."""
     return 0.5 * pin_diameter * sum(turn.angle for turn in turns)
@@ -64,8 +82,8 @@ def elongation(pitch: float, wear_per_revolution: Numbers, revolutions: float) -
     return extrapolate_wear(np.zeros(()), np.asarray(wear_per_revolution), revolutions) / pitch
 
 
-def elongation_limit(limit: float, teeth: tuple[int, int]) -> float:
-    """The elongation that ends a chain's life: the limit, or 2/z of the larger sprocket where that is less  [-]."""
+def elongation_limit(limit: float, teeth: tuple[int, ...]) -> float:
+    """The elongation that ends a chain's life: the limit, or 2/z of the largest sprocket where that is less  [-]."""
     return min(limit, TOOTH_RULE / max(teeth))
 
 

@@ -37,7 +37,10 @@ VARY_HELP = (
     "TOLERANCE as 5 %; KEY+KEY=... for keys with the same value, KEY + -KEY=... with the negative one; "
     "KEY=-2 * OTHER + 3 mm for one that follows another; instead of what the spec's [study] varies"
 )
-RETRY_HELP = "failed: compute the failed cases of the study in --out once more; incomplete: the partial ones too; all other rows stay"
+RETRY_HELP = (
+    "failed: compute the failed cases of the study in --out once more; incomplete: the partial ones too; all other rows stay. Without "
+    "--vary and [study] the study's own plan counts; or give the folder of the study in place of the spec"
+)
 METHOD_HELP = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
 StrictOption = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
 
@@ -245,7 +248,7 @@ def table(
     units: UnitsOption = None,
     out: Annotated[Path | None, typer.Option("--out", help="folder to write to; default the study's own")] = None,
 ) -> None:
-    """Write a study's cases as one table."""
+    """Write a study's cases as one table; its columns check.NAME are margins to the limits: 0 or more where the check passes."""
     from drivewright.report.tabular import write_study_table
     from drivewright.studies.sweeps import open_study
 

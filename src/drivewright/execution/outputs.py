@@ -7,7 +7,7 @@ from drivewright.labels import label_of
 from drivewright.result import ERROR, HIGH, LOW, Check, Value
 
 CHECK = "check."  # in front of the name of a check, as the name of its margin
-MARGIN_OF = "margin of: "  # in front of the message of a check, in the meaning of its margin
+MARGIN_OF = "margin to the limit (0 or more passes): "  # in front of the message of a check, in the meaning of its margin
 INTERVAL_PARTS = {LOW: "at least", HIGH: "at most", ERROR: "standard error"}
 
 

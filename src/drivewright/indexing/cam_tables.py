@@ -12,7 +12,7 @@ from drivewright.indexing.plane import PinDrive, PlaneDrive, contacts_at
 from drivewright.result import Array, Column, Table
 
 
-def profile_table(drive: PlaneDrive, name: str, chords: int = 24) -> Table:
+def profile_table(drive: PlaneDrive, name: str, title: str = "Cam profile", chords: int = 24) -> Table:
     """Points along the profile with the input angle and the pin that cuts them; curvature positive where the cam is convex."""
     t, points, curvature = _along_spans(drive.profile, chords)
     x, y = points.real, points.imag
@@ -20,13 +20,13 @@ def profile_table(drive: PlaneDrive, name: str, chords: int = 24) -> Table:
     way = np.sign(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1)))
     return Table(
         name,
-        "Trimmed profile of the cam",
+        title,
         (
-            Column("angle", "rad", "input angle at which a pin touches here", angle),
-            Column("pin", "-", "the pin", pin),
-            Column("x", "m", "from the cam's centre", x),
-            Column("y", "m", "from the cam's centre", y),
-            Column("curvature", "1/m", "of the profile, positive where the cam is convex", way * curvature),
+            Column("angle", "rad", "input angle at which a pin touches this point", angle, "Input angle at contact"),
+            Column("pin", "-", "pin that touches this point", pin, "Pin in contact"),
+            Column("x", "m", "coordinate x from the cam's centre", x, "Coordinate x"),
+            Column("y", "m", "coordinate y from the cam's centre", y, "Coordinate y"),
+            Column("curvature", "1/m", "curvature of the profile, positive where the cam is convex", way * curvature),
         ),
     )
 
@@ -42,7 +42,7 @@ def _along_spans(trimmed: Trimmed, chords: int) -> tuple[Floats, Complexes, Floa
 
 
 def least_convex_radius(drive: PlaneDrive) -> float:
-    """Least radius of the centre curve [m] where the trimmed profile is convex; nan where it never is."""
+    """Least radius of the pitch curve [m] where the trimmed profile is convex; nan where it never is."""
     curvature = drive.orientation * _along_spans(drive.profile, 256)[2]
     sharpest = float(np.max(curvature, initial=0.0))
     return 1 / sharpest + drive.pin_radius if sharpest > 0 else np.nan
@@ -85,22 +85,24 @@ def contact_points_table(angles: Floats, contacts: Sequence[CamContacts], drive:
     at = column["centre"] - pin_radius * column["normal"]
     return Table(
         "contact_points",
-        "Contacts of one cam",
+        "Contact points of one cam",
         (
             Column("angle", "rad", "input angle", np.repeat(angles, [np.sum(keep) for keep in live])),
             Column("pin", "-", "pin", column["pin"].astype(float)),
             Column("pin_forward", "-", "pin pushed forward", np.where(column["arm"] > 0, column["pin"], np.nan)),
             Column("pin_backward", "-", "pin pushed backward", np.where(column["arm"] < 0, column["pin"], np.nan)),
-            Column("x", "m", "point of contact from the wheel's axis", at.real),
-            Column("y", "m", "the same, y", at.imag),
-            Column("arm", "m", "lever of the normal, forward above 0", column["arm"]),
+            Column("x", "m", "coordinate x of the contact point from the wheel's axis", at.real, "Coordinate x of the contact point"),
+            Column("y", "m", "coordinate y of the contact point from the wheel's axis", at.imag, "Coordinate y of the contact point"),
+            Column(
+                "arm", "m", "moment arm of the contact about the wheel's axis, positive forward", column["arm"], "Moment arm of the contact"
+            ),
             Column(
                 "pressure_angle",
                 "rad",
-                "between the normal and the pin's way",
+                "pressure angle, between the normal and the motion of the pin",
                 np.arccos(np.minimum(np.abs(column["arm"]) / drive.circle_radius, 1)),
             ),
-            Column("curvature", "1/m", "of the profile, positive where the cam is convex", column["curvature"]),
+            Column("curvature", "1/m", "curvature of the profile, positive where the cam is convex", column["curvature"]),
         ),
     )
 
@@ -121,17 +123,18 @@ def contact_count_table(angles: Floats, contacts: Sequence[CamContacts], drive: 
     driving (n,) [rad] and best (2, n) [rad] as of `driving_pressure_angle` and `best_pressure_angles`.
     """
     touching, way = contact_ways(contacts, drive)
+    least = "least pressure angle of the pins that the cam can push"
     return Table(
         "contacts",
         "Pins in contact with one cam",
         (
             Column("angle", "rad", "input angle", angles),
-            Column("pins", "-", "pins that touch", touching.sum(axis=1).astype(float)),
+            Column("pins", "-", "pins in contact", touching.sum(axis=1).astype(float)),
             Column("forward", "-", "pins that the cam can push forward", np.sum(way > 0, axis=1).astype(float)),
             Column("backward", "-", "pins that the cam can push backward", np.sum(way < 0, axis=1).astype(float)),
-            Column("pressure_angle", "rad", "of the pin that accelerates the wheel best", driving),
-            Column("pressure_angle_forward", "rad", "of the pin pushed best forward", best[0]),
-            Column("pressure_angle_backward", "rad", "of the pin pushed best backward", best[1]),
+            Column("pressure_angle", "rad", "pressure angle of the driving pin", driving),
+            Column("pressure_angle_forward", "rad", f"{least} forward", best[0], "Pressure angle, forward"),
+            Column("pressure_angle_backward", "rad", f"{least} backward", best[1], "Pressure angle, backward"),
         ),
     )
 

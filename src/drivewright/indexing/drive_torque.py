@@ -72,7 +72,7 @@ def _refuse(load: TableLoad, speed: float) -> None:
         raise InputError(f"drive torque: the speed of the input is {speed:g} rad/s; it must be above 0 and finite.")
     for name, value, unit in (("inertia", load.inertia, "kg m^2"), ("friction_torque", load.friction_torque, "N m")):
         if not (np.isfinite(value) and value >= 0):
-            raise InputError(f"drive torque: {name} = {value:g} {unit}; it must be 0 or more. Friction always acts against the motion.")
+            raise InputError(f"drive torque: {name} = {value:g} {unit}; it must be 0 or more. Friction always opposes the motion.")
 
 
 def drive_table(torque: DriveTorque, speed: float) -> Table:
@@ -85,9 +85,9 @@ def drive_table(torque: DriveTorque, speed: float) -> Table:
             Column("time", "s", "time from the start of the step", torque.time),
             Column("wheel_speed", "rad/s", "speed of the wheel", torque.wheel_speed),
             Column("wheel_acceleration", "rad/s^2", "angular acceleration of the wheel", torque.wheel_acceleration),
-            Column("table_torque", "N m", "torque of the drive on the table", torque.table_torque),
+            Column("table_torque", "N m", "torque on the table", torque.table_torque),
             Column("input_torque", "N m", "torque at the input", torque.input_torque),
             Column("input_power", "W", "power at the input", torque.input_torque * speed),
-            Column("felt_inertia", "kg m^2", "reflected inertia of the table at the input", torque.felt_inertia),
+            Column("felt_inertia", "kg m^2", "reflected inertia at the input", torque.felt_inertia),
         ),
     )

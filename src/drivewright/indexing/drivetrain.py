@@ -147,20 +147,22 @@ def refuse_invalid(drive: Drivetrain, cams: int) -> None:
 
 def _check_shaft(shaft: SplitShaft, cams: int) -> None:
     if len(shaft.cams) != cams:
-        raise InputError(f"drive train: the split shaft has places for {len(shaft.cams)} cams, but the drive has {cams}; give one each.")
+        raise InputError(
+            f"drive train: the split shaft has positions for {len(shaft.cams)} cams, but the drive has {cams}; give one for each."
+        )
     front, rear = (1e3 * place for place in shaft.supports)
     if not front < rear:
         raise InputError(f"drive train: the front support at {front:g} mm must lie before the rear one at {rear:g} mm.")
     stations = sorted((shaft.gear, *shaft.cams))
     for before, after in zip(stations[:-1], stations[1:], strict=True):
         if not before < after:
-            raise InputError(f"drive train: gear and cams of a split shaft want different places; two stand at {1e3 * after:g} mm.")
+            raise InputError(f"drive train: gear and cams of a split shaft need different positions; two are at {1e3 * after:g} mm.")
 
 
 def _check_gear(gear: GearMesh, spacing: float) -> None:
     if not gear.pitch_radius < spacing / 2:
         raise InputError(
-            f"drive train: the split gears' pitch radius {1e3 * gear.pitch_radius:g} mm leaves no input gear between shafts "
+            f"drive train: the split gears' pitch radius {1e3 * gear.pitch_radius:g} mm leaves no room for the input gear between shafts "
             f"{1e3 * spacing:g} mm apart; it must be below half of that."
         )
     if not 0 <= gear.pressure_angle < np.pi / 2:

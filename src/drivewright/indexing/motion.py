@@ -98,8 +98,8 @@ def refuse_stations(pins: int, stations: int) -> None:
     fitting = [str(number) for number in (pins - pins % least, pins + -pins % least) if number >= 3]
     dividing = ", ".join(str(number) for number in range(1, pins + 1) if pins % number == 0)
     raise InputError(
-        f"stations = {stations} do not divide pins = {pins}: a step of {360 / least:.4g} deg would pass {pins / least:.4g} pins, and the "
-        "cam, which is the same after every turn, would meet no pin where one stood a step before. "
+        f"stations = {stations} does not divide pins = {pins}: a step of {360 / least:.4g} deg would pass {pins / least:.4g} pins, but it "
+        "must pass a whole number. "
         f"Take {' or '.join(fitting)} pins, or stations from {dividing}."
     )
 
@@ -123,7 +123,7 @@ def index_motion(name: str, divisions: int, motion_to_dwell: float | Literal["no
         raise InputError(f"motion_to_dwell = {motion_to_dwell}; the ratio of motion to dwell is above 0 and finite, or {NO_DWELL!r}.")
     if found.continuity < 1:
         raise InputError(
-            f"motion law {name!r}: its velocity jumps by {found.peaks().Vm:.4g}, so the wheel would be struck at the ends of the dwell. "
+            f"motion law {name!r}: its velocity jumps by {found.peaks().Vm:.4g}, which causes an impact at the ends of the dwell. "
             f'Take a law from rest to rest, as "modified-sine", or motion_to_dwell = "{NO_DWELL}".'
         )
     return IndexMotion(found, divisions, float(step_angle(name, motion_to_dwell)))
@@ -137,19 +137,17 @@ def index_motion_of_rows(rows: TableLaw, divisions: int) -> IndexMotion:
     span, step = float(rows.span or 0.0), TURN / divisions
     first, last = (float(rows(u).s) for u in (0.0, 1.0))
     if rows.lift_unit == "m":
-        raise InputError("the lift in its table is a length; the wheel turns, so the column is the wheel's angle: lift [deg].")
+        raise InputError("the lift in the table is a length, but the wheel turns; give the wheel's angle: lift [deg].")
     if abs(first) > JOINT * step:
-        raise InputError(
-            f"the wheel's angle in its table starts at {np.degrees(first):.9g} deg; it is counted from the dwell, so start at 0."
-        )
+        raise InputError(f"the wheel's angle in the table starts at {np.degrees(first):.9g} deg; start it at 0, the angle in the dwell.")
     if abs(last - step) > ROWS * step:
         raise InputError(
-            f"the wheel's angle in its table ends at {np.degrees(last):.9g} deg, but a step of {divisions} stations is "
+            f"the wheel's angle in the table ends at {np.degrees(last):.9g} deg, but a step of {divisions} stations is "
             f"{np.degrees(step):.9g} deg. Scale the column, or change stations."
         )
     if span > TURN * (1 + JOINT):
         raise InputError(
-            f"its table ends at an input angle of {np.degrees(span):.9g} deg; a step takes a turn of the input, 360 deg, at most."
+            f"the table ends at an input angle of {np.degrees(span):.9g} deg; a step takes at most one turn of the input, 360 deg."
         )
     law_of_step = MotionLaw(rows.name, rows.function.scaled(height=1 / last))
     return IndexMotion(law_of_step, divisions, min(span, TURN))
@@ -165,7 +163,7 @@ def motion_table(motion: IndexMotion, points: int = 721) -> Table:
         (
             Column("angle", "rad", "input angle", angle),
             Column("wheel", "rad", "wheel angle", phi),
-            Column("rate", "-", "speed of the wheel over that of the input", rate),
+            Column("rate", "-", "speed of the wheel over that of the input", rate, "Speed ratio, wheel to input"),
             Column("bend", "1/rad", "second derivative of the wheel angle", second),
             Column("third", "1/rad^2", "third derivative of the wheel angle", third),
         ),

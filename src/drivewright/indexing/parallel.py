@@ -53,7 +53,7 @@ class PlateCam(PlaneDrive):
         if self.centre_distance <= reach:
             raise InputError(
                 f"centre_distance = {self.centre_distance * 1e3:.4g} mm: the rollers reach {reach * 1e3:.4g} mm from the wheel's axis and "
-                f"sweep that of the cams, so nothing is left of them. Take more than {reach * 1e3:.4g} mm, and room for the shaft."
+                f"sweep over the axis of the cams, so no cam remains. Take more than {reach * 1e3:.4g} mm, plus room for the shaft."
             )
 
 

@@ -1,5 +1,6 @@
 """Hertz pressure of a pin on a profile, the contact that resists a torque best, and tables of forces on pins."""
 
+import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
@@ -15,11 +16,26 @@ FORCE_COLUMNS = {
     "cam": ("-", "cam"),
     "pin": ("-", "roller"),
     "force": ("N", "force on the roller"),
-    "arm": ("m", "lever about the wheel's axis"),
+    "arm": ("m", "moment arm about the wheel's axis"),
     "length": ("m", "length of the contact line"),
     "pressure": ("Pa", "Hertz pressure"),
 }
 """Unit and label of every column that a table of forces on pins or rollers may have."""
+WIDEST = 0.1  # half-width of a line contact over its relative radius, up to which it is small against the bodies, as Hertz's theory wants
+
+
+def relative_width(pressure: float, modulus: float) -> float:
+    """Half-width of a line contact over its relative radius, b/R = 2 p0/E*; peak pressure p0, effective modulus E* [Pa]."""
+    return 2 * pressure / modulus
+
+
+def largest_approach(radius: float) -> float:
+    """Approach [m] of a roller of this radius [m] and a flank alike in material at which the contact is as wide as `WIDEST`.
+
+    delta = F'/(pi E*) (2 ln(4 R/b) - 1) with F' = pi E* b^2/(4 R), each body compressed as a cylinder (`contact.cylinder_compression`);
+    0.016 R for b = R/10, whatever the modulus.
+    """
+    return radius * WIDEST**2 / 4 * (2 * math.log(4 / WIDEST) - 1)
 
 
 def pin_pressure(force: float, curvature: float, pin_radius: float, width: float, modulus: float) -> float:
@@ -56,9 +72,7 @@ def longest_lever_table(drive: PinDrive, angles: Floats, torque: float, width: f
             rows.append(
                 (angle, pin + drive.levels[0].pins * number, force, arm, pin_pressure(force, curvature, level.pin_radius, width, modulus))
             )
-    return contact_force_table(
-        "pin_forces", "Force on the roller with the longest lever", ("angle", "pin", "force", "arm", "pressure"), rows
-    )
+    return contact_force_table("pin_forces", "Roller force at the longest moment arm", ("angle", "pin", "force", "arm", "pressure"), rows)
 
 
 def contact_force_table(
@@ -77,11 +91,11 @@ def contact_force_table(
     return Table(name, title, tuple(made), missing=missing)
 
 
-def largest_pin_values(forces: Table) -> dict[str, Value]:
-    """Largest force and pressure of a table of pins."""
+def largest_pin_values(forces: Table, part: str = "pin") -> dict[str, Value]:
+    """Largest force and pressure of a table of forces on each `part`, a pin or a roller."""
     values = {}
     if len(forces["force"].data):
-        values["pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", "largest force on a pin")
+        values["pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", f"maximum force on a {part}")
     if np.isfinite(forces["pressure"].data).any():
-        values["pins.max_pressure"] = Value(float(np.nanmax(forces["pressure"].data)), "Pa", "largest Hertz pressure on a pin")
+        values["pins.max_pressure"] = Value(float(np.nanmax(forces["pressure"].data)), "Pa", f"maximum Hertz pressure on a {part}")
     return values

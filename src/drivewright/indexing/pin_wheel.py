@@ -73,7 +73,7 @@ def refuse_impossible(wheel: PinWheel) -> None:
     if wheel.eccentricity + wheel.pin_radius >= wheel.circle_radius:
         raise InputError(
             f"eccentricity + pin_radius = {(wheel.eccentricity + wheel.pin_radius) * 1e3:.4g} mm reaches the middle of the pin circle of "
-            f"radius {wheel.circle_radius * 1e3:.4g} mm; nothing is left of the cam. Take a larger pin circle."
+            f"radius {wheel.circle_radius * 1e3:.4g} mm, so no cam remains. Take a larger pin circle."
         )
 
 
@@ -93,16 +93,16 @@ def profile_findings(wheel: PinWheel) -> Iterator[str]:
     """Measures that cut parts of the profile away."""
     if wheel.motion.motion_angle < TURN and wheel.pin_radius >= wheel.eccentricity:
         yield (
-            f"pins of {1e3 * wheel.pin_radius:.4g} mm reach the eccentricity of {1e3 * wheel.eccentricity:.4g} mm: the tops of the lobes "
-            "that would touch in the dwell are cut away"
+            f"the pin radius of {1e3 * wheel.pin_radius:.4g} mm is not below the eccentricity of {1e3 * wheel.eccentricity:.4g} mm: "
+            "undercut removes the tops of the lobes, which would carry in the dwell; take thinner pins"
         )
     # speed of the crank's circle over that of the pins'
     ratio = wheel.eccentricity * wheel.motion.divisions / wheel.circle_radius
     if wheel.motion.law.name == "uniform" and ratio > 1:
         steps = "pins" if wheel.pins_passed == 1 else "stations"
         yield (
-            f"eccentricity times {steps} over pin_circle_radius is {ratio:.4g}, above 1: the centre curve turns back in loops; parts of "
-            "the profile are cut away"
+            f"eccentricity times {steps} over pin_circle_radius is {ratio:.4g}, above 1: the pitch curve has loops, and undercut "
+            "removes parts of the profile; take a smaller eccentricity or a larger pin circle"
         )
 
 
@@ -111,6 +111,6 @@ def sleeve_findings(eccentricity: float, bore: float, shaft_diameter: float) -> 
     if bore / 2 - eccentricity - shaft_diameter / 2 <= 0:
         yield (
             f"a bore of {1e3 * bore:.4g} mm on an eccentricity of {1e3 * eccentricity:.4g} mm leaves no sleeve around a shaft of "
-            f"{1e3 * shaft_diameter:.4g} mm (at most {1e3 * max(bore - 2 * eccentricity, 0):.4g} mm): make shaft and crank pins of one "
-            "piece"
+            f"{1e3 * shaft_diameter:.4g} mm (at most {1e3 * max(bore - 2 * eccentricity, 0):.4g} mm); "
+            "make shaft and crank pins in one piece"
         )

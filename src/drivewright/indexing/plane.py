@@ -165,8 +165,8 @@ class PlaneDrive:
             if _runs_around(found, self.family):
                 return found
         raise SolverError(
-            f"profile: the loop of the envelope around the cam is broken; with {_SAMPLES[-1]} samples a piece a crossing is missed, "
-            "as where two branches nearly touch. Change pin_radius by a thousandth."
+            f"profile: the envelope around the cam is not closed; a crossing is missed with {_SAMPLES[-1]} samples per piece, for instance "
+            "where two branches nearly touch. Change pin_radius by 0.1 %."
         )
 
     @cached_property

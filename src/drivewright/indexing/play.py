@@ -57,7 +57,7 @@ def turn_angles(drive: PinDrive, points: int = 721) -> Floats:
 
 def play_table(angle: Floats, rotations: Mapping[str, Floats]) -> Table:
     """Free rotations (n,) [rad] by direction over the input angle (n,) [rad]."""
-    columns = (Column(name, "rad", f"free rotation {name}", free) for name, free in rotations.items())
+    columns = (Column(name, "rad", f"free rotation of the wheel {name}", free, f"Play, {name}") for name, free in rotations.items())
     return Table("play", "Play of the wheel", (Column("angle", "rad", "input angle", angle), *columns))
 
 

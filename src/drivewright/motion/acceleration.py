@@ -60,9 +60,9 @@ def _twice_integrated(piece, s, v):
 
 def _normalised(function, width, rise):
     if abs(width - 1) > CLOSURE:
-        raise InputError(f"motion law: the widths of its acceleration pieces sum to {width:.9g}, not to 1. They are parts of the whole.")
+        raise InputError(f"motion law: the widths of its acceleration pieces sum to {width:.9g}; they must sum to 1.")
     if not abs(rise) > 0:
-        raise InputError("motion law: these acceleration pieces do not rise at all. Change a level or a start velocity.")
+        raise InputError("motion law: these acceleration pieces give no rise. Change a level or a start velocity.")
     function = function.scaled(width=1 / width, height=1 / rise)
     breaks = np.append(function.breaks[:-1], 1.0)
     return Piecewise(breaks, function.poly, function.amplitude, function.frequency)

@@ -53,7 +53,7 @@ class Segment:
         if reason and self.rise != 0:
             raise InputError(f"segment {self.motion_law.name!r}: a rise is given, but {reason}; leave the rise out.")
         if not reason and self.rise == 0:
-            raise InputError(f"segment {self.motion_law.name!r}: no rise is given; say how far it moves, or make it a dwell.")
+            raise InputError(f"segment {self.motion_law.name!r}: no rise is given; give one, or make it a dwell.")
 
     def placed(self, start: float, level: float) -> Piecewise:
         """Its motion as a function of the cycle's angle, beginning at angle `start` and lift `level`."""

@@ -36,8 +36,8 @@ class Ripple(NamedTuple):
         if not self.significant:
             return ""
         return (
-            f"the table's rows scatter by {self.scatter:.2g} (rms, SI) about a smooth curve, as rounded data do; the acceleration of "
-            f"the spline through them ripples by {self.acceleration:.0%}. Give the lifts with more digits, or fewer rows."
+            f"the rows of the table scatter by {self.scatter:.2g} (RMS, SI) about a smooth curve, as rounded data do; this makes a ripple "
+            f"of {self.acceleration:.0%} in the acceleration of the spline through them. Give the lifts with more digits, or fewer rows."
         )
 
 
@@ -62,8 +62,8 @@ class Smoothing(NamedTuple):
     def message(self, unit: str | None) -> str:
         """The finding in a sentence."""
         return (
-            f"the lift of the table is the smoothest (least integral of the squared jerk) within {_length(self.band, unit)} of each of its "
-            f"{self.rows} rows: it departs from them by at most {_length(self.departure, unit)}, and the rms jerk is {self.jerk:.2g} of "
+            f"the table is smoothed: its lift is the one with the least integral of the squared jerk within {_length(self.band, unit)} of "
+            f"each of its {self.rows} rows. The maximum deviation is {_length(self.departure, unit)}, the RMS jerk {self.jerk:.2g} times "
             "that of a spline through all rows"
         )
 
@@ -87,8 +87,8 @@ class Rounding(NamedTuple):
         if not self.share > LIMIT:
             return ""
         return (
-            f"the lifts of the table are printed to {_length(self.digit, unit)}: at so close rows this rounding alone makes an rms jerk "
-            f"{self.share:.2g} times that of the motion. Give more digits or fewer rows, or smooth the lifts with "
+            f"the lifts of the table are rounded to {_length(self.digit, unit)}: with rows so close, the rounding alone causes an RMS jerk "
+            f"of {self.share:.2g} times that of the motion. Give more digits or fewer rows, or smooth the lifts with "
             f'band = "{_length(0.5 * self.digit, unit)}", half the last digit'
         )
 

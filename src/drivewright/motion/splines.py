@@ -47,7 +47,7 @@ def _spline(points, degree=5, ends="clamped"):
     points = np.asarray(points, dtype=float)
     what = "motion law 'spline'"
     if points.ndim != 2 or points.shape[1] != 2 or len(points) < LEAST_POINTS:
-        raise InputError(f"{what}: wants at least {LEAST_POINTS} points (u, s), got an array of shape {points.shape}.")
+        raise InputError(f"{what}: needs at least {LEAST_POINTS} points (u, s), got an array of shape {points.shape}.")
     u, s = points.T
     refuse_disorder(u, s, what, [f"point {k + 1}" for k in range(len(u))], "u")
     if not np.allclose(u[[0, -1]], (0, 1), rtol=0, atol=CLOSURE):
@@ -56,7 +56,7 @@ def _spline(points, degree=5, ends="clamped"):
     if not np.allclose(s[[0, -1]], (first, last), rtol=0, atol=CLOSURE):
         raise InputError(
             f"{what}: s runs from {s[0]:.9g} to {s[-1]:.9g}; with {ends} ends it must run from {first:.9g} to {last:.9g}"
-            f"{'' if ends == 'periodic' else ' (how far it moves is said by the segment)'}."
+            f"{'' if ends == 'periodic' else ' (the rise is that of the segment)'}."
         )
     return through_points(np.array([0.0, *u[1:-1], 1.0]), np.array([first, *s[1:-1], last]), degree, ends, what)
 

@@ -16,14 +16,19 @@ from drivewright.motion.piecewise import CLOSURE
 from drivewright.motion.ripple import Ripple, Rounding, Smoothing, ripple, rms_jerk, rounding
 from drivewright.motion.splines import LEAST_POINTS, of_spline, refuse_disorder, through_points
 from drivewright.numerics.smoothing import smoothest_within
+from drivewright.spec import csv_words
 from drivewright.spec.csv_headings import Wanted
 from drivewright.spec.csv_table import read_csv
 from drivewright.spec.length_or_angle import AngleGiven
 
 LEAST_SMOOTHED = 7  # rows
-ANGLES = ("cam angle", "camshaft angle", "theta", "phi", "rotation", "cam", "winkel", "nockenwinkel", "drehwinkel")
-LIFTS = ("displacement", "rise", "stroke", "travel", "position", "swing", "hub", "s", "y")
-ANGLE = Wanted("angle", {"angle": "deg"}, ANGLES)
+GAP = 1.5  # times the usual step
+ROUNDED = 0.35  # of the usual step, by which rounded angles depart from it: 0.3, 0.7, 1.0 deg are thirds
+EVEN = 0.9  # part of the steps that are the usual one in an even table
+MOST_NAMED = 5  # gaps
+ANGLES = ("cam angle", "camshaft angle", "theta", "phi", "rotation", "cam", *csv_words.ANGLE, *csv_words.CAM_ANGLE)
+LIFTS = ("displacement", "rise", "stroke", "travel", "position", "swing", "s", "y", *csv_words.LIFT, *csv_words.TRAVEL)
+ANGLE = Wanted("angle", {"angle": "deg"}, ANGLES, csv_words.CRANK_ANGLE)
 LIFT = Wanted("lift", {"length": "mm", "angle": "deg"}, LIFTS)
 
 
@@ -38,7 +43,9 @@ class TableLaw(MotionLaw):
 
     @property
     def findings(self) -> Iterator[str]:
-        """What rounding does to acceleration and jerk, or what the smoothing did."""
+        """Where rows are missing; what rounding does to acceleration and jerk, or what the smoothing did."""
+        assert self.rows is not None
+        yield from missing_rows((self.span or 1.0) * self.rows[:, 0])
         if self.smoothing:
             yield self.smoothing.message(self.lift_unit)
             return
@@ -114,15 +121,35 @@ def _smoothed(law, band, degree, ends, what):
 def read_table(file: str | Path) -> Rows:
     """The `Rows` of a CSV file; columns "angle [unit]" and "lift [unit]", others are left alone."""
     table = read_csv(Path(file), (ANGLE, LIFT), (("angle",), ("lift",)))
-    if "crank" in (heading := table.columns["angle"].heading).lower():
+    if ANGLE.is_mistaken(heading := table.columns["angle"].heading) or "crank" in heading.lower():
         raise SpecError(
             f"the column {heading!r} is no cam angle: the cam of a four-stroke engine turns half as far; give the cam angle, as "
-            f"{ANGLE.heading!r}",
+            f"{ANGLE.heading!r}: half of these, or, where the cam turns with the crank, these",
             file=table.file,
         )
     unit = "m" if table.columns["lift"].dimension == "length" else "rad"
     places = [f"row {number} (line {line})" for number, line in enumerate(table.lines, 1)]
     return Rows(table.numbers("angle"), table.numbers("lift"), unit, f"table '{file}'", places, table.last_digit("lift"))
+
+
+def missing_rows(angle: Floats) -> Iterator[str]:
+    """A sentence on the gaps of otherwise even rows of angle (n,) [rad]: steps of `GAP` times the usual one or more.
+
+    Rows are even where the part `EVEN` of the steps is within `ROUNDED` of their median; of uneven ones, which have no usual step, nothing
+    is said.
+    """
+    step = np.diff(angle)
+    usual = float(np.median(step))
+    wide = np.flatnonzero(step > GAP * usual)
+    if not len(wide) or np.mean(np.abs(step - usual) <= ROUNDED * usual) < EVEN:
+        return
+    degrees = np.degrees(angle)
+    places = [f"{degrees[k]:.6g} to {degrees[k + 1]:.6g} deg" for k in wide[:MOST_NAMED]]
+    more = f" and {len(wide) - len(places)} more" if len(wide) > len(places) else ""
+    yield (
+        f"rows of the table are missing from {', '.join(places)}{more}: elsewhere there is one every {math.degrees(usual):.4g} deg. "
+        "The lift there is that of the spline, not measured; give the missing rows, or check the motion there"
+    )
 
 
 def _from_arrays(angle, lift):

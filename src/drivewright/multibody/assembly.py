@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.errors import DoesNotAssemble
+from drivewright.errors import DoesNotAssemble, InputError
 from drivewright.multibody.bodies import GROUND
 from drivewright.multibody.compile_model import compile_model, index_of, rows_and_equations
 from drivewright.multibody.joints.rows import DISTANCE
@@ -25,6 +25,9 @@ from drivewright.numerics.linear import null_space
 CLOSED = 1e-12  # largest miss of an assembled loop [rad], [lengths of the mechanism]
 WEAK = 0.05  # a coordinate that moves the loops less than this part of its own size is no good dependent one
 RANK = 1e-9  # rows that depend on one another to this accuracy are redundant
+SAME_RATE = 1e-6  # of a rate given: what a body starts with instead is another
+WEIGHTLESS = 1e-14  # of the largest kinetic energy of a motion of unit rates: that of one without inertia
+MOVES = 1e-6  # of the largest rate: what moves in it
 NUDGE = 1e-3  # how far a mechanism is moved to see whether rows depend on one another everywhere [rad], [lengths of the mechanism]
 
 
@@ -91,11 +94,12 @@ def _assemble(model, expanded, tree, system, q):
     q, rows = work.coordinates.q.copy(), len(system.rows)
     system, findings, folded = _without_redundant_rows(expanded, tree, system, work)
     work = work if len(system.rows) == rows else evaluate_at(system, q)
+    _refuse_motion_without_inertia(tree, system, work)
     system = partition_at(system, work)
     v, undecided = start_rates(expanded, tree, system, work)
     if folded:
         system = _on_branch(system, q, v, undecided, folded)
-    return Assembly(model, expanded, tree, system, Start(q, v), findings)
+    return Assembly(model, expanded, tree, system, Start(q, v), (*findings, *_impossible_rates(tree, evaluate_at(system, q), v)))
 
 
 # ---------------------------------------------------------------------------------------------------------------- position
@@ -237,10 +241,10 @@ def _drives_apart(expanded, tree, system, q, work):
         off = alone.coordinates.q[driven.coordinate] - work.coordinates.q[driven.coordinate]
         if abs(off) > CLOSED * system.sizes[driven.coordinate]:
             how = f"{np.degrees(off):.4g} deg" if driven.coordinate in turning else f"{1e3 * off:.4g} mm"
-            places.append(f"joint {name!r} would have to stand {how} away from where its drive starts")
+            places.append(f"joint {name!r} is {how} away from the start of its drive")
     return (
-        f"the drives of joints {' and '.join(map(repr, names))} fight each other: with {names[0]!r} where it starts, {', '.join(places)}. "
-        "Start the bodies where the loops close, or drive fewer joints"
+        f"the drives of joints {' and '.join(map(repr, names))} conflict at the start: with {names[0]!r} at the start of its drive, "
+        f"{', '.join(places)}. Choose start positions in which the loops close, or drive fewer joints"
     )
 
 
@@ -253,8 +257,8 @@ def _does_not_close(expanded, system, work):
     bodies = " and ".join(repr(name) for name in dict.fromkeys(joint.bodies))
     how = f"{1e3 * miss:.4g} mm" if row.ex or row.ey or row.kind == DISTANCE else f"{np.degrees(miss):.4g} deg"
     return (
-        f"joint {joint.name!r} does not close: bodies {bodies} miss each other by {how} at best. Check the lengths and axes, or give "
-        "start angles nearer to the assembly that is meant"
+        f"joint {joint.name!r} does not close: a gap of {how} remains between bodies {bodies} at best. Check the lengths and axes, or "
+        "give start angles closer to the intended assembly"
     )
 
 
@@ -277,8 +281,7 @@ def _without_redundant_rows(expanded, tree, system, work):
         if np.linalg.matrix_rank(whole[[*kept, k]], RANK) > np.linalg.matrix_rank(whole[kept], RANK):
             raise DoesNotAssemble(_held_fast(expanded, system, whole, [*kept, k], expanded.joints[system.rows[k].joint].name))
     findings = tuple(
-        f"joint '{name}' repeats a constraint that the joints before it impose already; its share of the forces is not "
-        "determined by rigid bodies"
+        f"joint '{name}' repeats a constraint of the joints before it; with rigid bodies its share of the forces is not determined"
         for name in names
     )
     return system._replace(rows=system.rows[kept]), findings, None
@@ -294,25 +297,26 @@ def _held_fast(expanded, system, jacobian, rows, joint):
     fighting = [drive.joint for drive, size in zip(expanded.drives, tied, strict=True) if size > 1e-6 * np.max(tied)]
     if len(fighting) > 1:
         return (
-            f"the drives of joints {' and '.join(map(repr, fighting))} fight each other: the loop through joint {joint!r} leaves them "
-            f"{len(fighting) - 1} freedom{'s' if len(fighting) > 2 else ''}, and each is told its own motion. Remove one of them, or give "
-            "it a motor instead of a motion"
+            f"the drives of joints {' and '.join(map(repr, fighting))} conflict: the loop through joint {joint!r} leaves them "
+            f"{len(fighting) - 1} degree{'s' if len(fighting) > 2 else ''} of freedom for {len(fighting)} prescribed motions. Remove one "
+            "drive, or give it a motor instead of a motion"
         )
     return (
-        f"the drive cannot move: joint {joint!r} holds the mechanism fast. "
+        f"the drive cannot move: joint {joint!r} locks the mechanism. "
         "Remove a joint or a drive, or free a direction (pin-slot instead of prismatic)"
     )
 
 
 def _on_branch(system, q, v, undecided, joint):
     """The system with a chart through the singular position in which it starts, along the branch to which the start rates belong."""
-    where = f"the mechanism starts in a singular position, where its loops fold and joint {joint!r} has no unique way on"
+    where = f"the mechanism starts in a singular position, where its loops fold and the motion of joint {joint!r} is not unique"
     remedy = "Start a few degrees away from it, or give the angular velocity of every body that is not driven"
     if undecided or not np.any(v):
-        raise DoesNotAssemble(f"{where}: {'nothing moves' if not np.any(v) else 'the rates given fit more than one branch'}. {remedy}")
+        reason = "all start velocities are zero" if not np.any(v) else "the given velocities fit more than one branch"
+        raise DoesNotAssemble(f"{where}: {reason}. {remedy}")
     charted = chart_through(system, q, v)
     if charted is None:
-        raise DoesNotAssemble(f"{where}, and the rates given are those of none of its branches. {remedy}, as one of the branches has them")
+        raise DoesNotAssemble(f"{where}, and the given velocities fit none of its branches. {remedy}, as on one of the branches")
     return charted
 
 
@@ -357,6 +361,25 @@ def start_rates(expanded: MultibodyModel, tree: Tree, system: System, work: Work
     return x, free.shape[1]
 
 
+def _refuse_motion_without_inertia(tree, system, work):
+    """InputError where bodies can move, drives standing still and loops closed, in a way in which nothing that moves has an inertia."""
+    fixed = np.concatenate([_driven_rates(system, work)[0], _closed_loops(system, work)[0]]) * system.sizes
+    free = system.sizes[:, None] * null_space(fixed, rcond=1e-10)
+    if not free.shape[1]:
+        return
+    ways = [getattr(work.partial_velocities, name) @ free for name in ("x", "y", "t")]
+    inertias = (system.bodies.mass, system.bodies.mass, system.bodies.inertia)
+    energies, directions = np.linalg.eigh(sum(way.T * inertia @ way for way, inertia in zip(ways, inertias, strict=True)))
+    if energies[0] > WEIGHTLESS * energies[-1]:
+        return
+    moves = np.hypot(np.hypot(ways[0] @ directions[:, 0], ways[1] @ directions[:, 0]), system.length * (ways[2] @ directions[:, 0]))[1:]
+    names = [link.body.name for link, move in zip(tree.links, moves, strict=True) if move > MOVES * np.max(moves)]
+    raise InputError(
+        f"bod{'ies' if len(names) > 1 else 'y'} {' and '.join(map(repr, names))} can move with neither mass nor inertia, so the "
+        "acceleration is undetermined: give a mass (and an inertia for rotation about the centroid), a drive, or a joint that fixes it"
+    )
+
+
 def _driven_rates(system, work):
     """Rows (matrix, right-hand side) for the rates of all coordinates: the driven ones are given."""
     driven = system.driven.coordinate
@@ -379,6 +402,24 @@ def _given_rates(expanded, tree, system, work):
             rows.append(work.partial_velocities.t[k])
             wanted.append(link.body.angular_velocity)
     return np.array(rows).reshape(-1, len(work.coordinates)), np.array(wanted)
+
+
+def _impossible_rates(tree, work, v):
+    """A finding on every body whose rates given are not those with which it starts, as joints and drives do not allow them."""
+    for k, link in enumerate(tree.links, start=1):
+        body, partial_velocities = link.body, work.partial_velocities
+        if body.velocity is not None:
+            found = np.array([partial_velocities.x[k] @ v, partial_velocities.y[k] @ v])
+            if np.max(np.abs(found - body.velocity)) > SAME_RATE * max(np.max(np.abs(body.velocity)), np.max(np.abs(found))):
+                given, left = (f"({1e3 * x:.4g}, {1e3 * y:.4g}) mm/s" for x, y in (body.velocity, found))
+                yield f"body {body.name!r} cannot start with the velocity {given}: joints and drives allow {left}"
+        if body.angular_velocity is not None:
+            found = float(partial_velocities.t[k] @ v)
+            if abs(found - body.angular_velocity) > SAME_RATE * max(abs(body.angular_velocity), abs(found)):
+                yield (
+                    f"body {body.name!r} cannot start with the angular velocity {body.angular_velocity:.4g} rad/s: joints and drives "
+                    f"allow {found:.4g} rad/s"
+                )
 
 
 def _concentric(expanded, tree, system, work):

@@ -62,7 +62,7 @@ def compile_model(model: MultibodyModel, tree: Tree) -> System:
     }
     given = [int(d["coordinate"]) for d in driven]
     if twice := [drive.joint for k, drive in enumerate(model.drives) if given[k] in given[:k]]:
-        raise InputError(f"joint {twice[0]!r} is driven twice, or with another joint about the same axis; keep one drive")
+        raise InputError(f"joint {twice[0]!r} is driven twice, or together with a joint about the same axis; keep one drive")
     stored = np.array([k for k in range(tree.size) if k not in given], dtype=np.int64)
     for body in bodies[1:]:  # parents come first
         own = [k for k in (body["turn"], body["slide"], body["free"]) if k >= 0]
@@ -186,7 +186,7 @@ def _driven(drive: JointDrive, model: MultibodyModel, tree: Tree, index: ModelIn
     if joint is None:
         raise UnknownName("driven joint", drive.joint, [j.name for j in model.joints])
     if joint.driven_motion is None:
-        raise InputError(f"joint {joint.name!r} cannot be driven; drive a revolute or a prismatic joint, or a pin in a slot")
+        raise InputError(f"joint {joint.name!r} cannot be driven; drive a revolute, prismatic or pin-slot joint")
     far = far_end(model, joint)
     first, second = joint.bodies[0], (far or joint).bodies[1]
     mover, base = (second, first) if first == GROUND else (first, second)
@@ -205,7 +205,7 @@ def _turning_alone(joint: Joint, mover: str, base: str, tree: Tree) -> Link:
     link = tree.link(mover)
     if base != GROUND or link.turn < 0 or link.inherits:
         raise InputError(
-            f"joint {joint.name!r} has play and joins two moving bodies: its rotation cannot be driven; make it ideal, "
+            f"joint {joint.name!r} has clearance and connects two moving bodies, so its rotation cannot be driven; make it ideal, "
             "or drive the joint at the ground"
         )
     return link

@@ -136,13 +136,15 @@ def _(frictions, system, work, index, t, y):
 
 
 @inner
-def begin_sliding(system: System, work: Work, t: float, y: Floats, frictions: JointFrictions) -> None:
-    """Joints with friction, those of the system, slide at the start where they move, and stick where they do not.
+def begin_sliding(system: System, work: Work, t: float, y: Floats, frictions: JointFrictions, settled: bool) -> None:
+    """Rates of the state into the scratch of the friction; joints with friction, those of the system, slide at the start where they move,
+    and stick where they do not, unless that is `settled` already.
 
     y (states,) as in `sliding_friction.rub`.
     """
     accelerations(system, work, t, y, work.friction.rates)
-    set_sliding(frictions, work, y)
+    if not settled:
+        set_sliding(frictions, work, y)
 
 
 @inner

@@ -170,6 +170,6 @@ def _check_balance(here, now, assembly, stiffness, scale, length):
     if part > BALANCED:
         worst = int(np.argmax(np.abs(force)))
         raise InputError(
-            f"linearise: the state is not in balance: coordinate {coordinate_names(assembly, here.system)[worst]!r} is pushed by "
-            f"{abs(force[worst]):.4g} N, {part:.2g} of the forces at work. Linearise about equilibrium(...).state"
+            f"linearise: the state is not an equilibrium: at coordinate {coordinate_names(assembly, here.system)[worst]!r} a force of "
+            f"{abs(force[worst]):.4g} N is unbalanced, {part:.2g} of the acting forces. Linearise about equilibrium(...).state"
         )

@@ -9,6 +9,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.errors import InputError
+from drivewright.labels import in_words
 from drivewright.multibody.bodies import GROUND, Marker
 from drivewright.multibody.drawing import positions_of, rounded
 from drivewright.scene import Drawing, Outline, Part, Point, Prism, Shape, circle, polygon
@@ -53,7 +54,7 @@ def link_plate(name: str, points: Floats, holes: Mapping[Point, float], pin_radi
     for (a, r), (b, s) in itertools.combinations(holes.items(), 2):
         if math.dist(a, b) <= r + s:
             raise InputError(
-                f"link plate {name!r}: its holes meet: radii of {1e3 * r:.4g} and {1e3 * s:.4g} mm at a distance of "
+                f"link plate {name!r}: two holes overlap: radii of {1e3 * r:.4g} and {1e3 * s:.4g} mm at a distance of "
                 f"{1e3 * math.dist(a, b):.4g} mm. Give its joints a smaller bearing_radius"
             )
     return LinkPlate(name, points, holes, EDGE * max([*holes.values(), pin_radius]), thickness)
@@ -65,7 +66,7 @@ def plate_drawing(plate: LinkPlate) -> Drawing:
     for x, y in plate.holes:
         lines = ((x - plate.edge, y), (x + plate.edge, y)), ((x, y - plate.edge), (x, y + plate.edge))
         shapes += [Shape("axis", polygon(ends, closed=False)) for ends in lines]
-    return Drawing(plate.name, f"Link plate, a proposal: {plate.name.replace('_', ' ')}", tuple(shapes), plate.thickness)
+    return Drawing(plate.name, f"Link plate of {in_words(plate.name)} (proposal)", tuple(shapes), plate.thickness)
 
 
 def stacked_parts(

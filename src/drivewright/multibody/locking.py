@@ -43,7 +43,7 @@ def locked_message(assembly: Assembly, system: System, t: float, y: Floats) -> s
     """What locks the mechanism at a state y (n,): the pose, the joint, and how much friction would let it move; "" where nothing does."""
     moving, frictions = motion(system), system.frictions
     assert isinstance(frictions, JointFrictions)
-    begin_sliding(moving.system, moving.work, t, y.copy(), frictions)
+    begin_sliding(moving.system, moving.work, t, y.copy(), frictions, True)
     scratch, table = moving.work.friction, frictions.table
     found = locking(table, scratch)
     if found is None:
@@ -52,9 +52,9 @@ def locked_message(assembly: Assembly, system: System, t: float, y: Floats) -> s
     places = drive_positions(assembly, system, moving.work)
     where = f", drive {' and '.join(places)}" if places else ""
     return (
-        f"friction locks the mechanism at t = {t:.6g} s{where}: joint {name!r} presses itself fast, so that no force of the drives "
-        f"moves it. It moves with up to {100 * found.share:.3g} % of the friction stated. Take a smaller coefficient, lengthen a guide "
-        "(bearing_length), or let forces act nearer to the joint"
+        f"friction locks the mechanism at t = {t:.6g} s{where}: joint {name!r} is self-locking, so no drive force can move it. It moves "
+        f"with up to {100 * found.share:.3g} % of the given friction. Lower the coefficient, lengthen a guide (bearing_length), or apply "
+        "the forces closer to the joint"
     )
 
 

@@ -17,6 +17,7 @@ from drivewright.multibody.drive_positions import drive_positions
 from drivewright.multibody.dynamics import FIRST_PIN, begin_sliding
 from drivewright.multibody.forces.joint_friction import JointFrictions
 from drivewright.multibody.forces.pin_contact import LASTING, penetration
+from drivewright.multibody.forces.resting_friction import balance_sticking
 from drivewright.multibody.locking import locked_message
 from drivewright.multibody.model import MultibodyModel
 from drivewright.multibody.observe import FIELDS, kernels_of_observation, observe
@@ -33,14 +34,15 @@ WARY, CAREFUL = 3.0, 0.2  # length of a leg towards a singular position, and lon
 STRETCHED = 1e-4  # smallest singular value of loops in which a drive is stuck
 MOST_STATES = 1_500_000  # that are kept of kinematics: about a kilobyte each with all that is observed of them
 MOST_KEPT = 750_000  # that are kept of a run with freedom, whose ensemble is observed side by side: about three kilobytes
-FULL = f"{MOST_KEPT / 1e6:g} million states of it fill the memory that a run may have; ask for fewer turns, or loosen its tolerances"
+FULL = f"{MOST_KEPT / 1e6:g} million states reach the memory limit of a run; reduce turns, or raise the tolerances"
 ROUNDING = 1e-12  # of the number of turns
-GRID = 720  # samples of a turn where the drives leave no freedom and so no steps to report
+SAMPLES = 720  # states of a turn where the drives leave no freedom and so no steps to report
 
 
 @dataclass(frozen=True)
 class Settings:
-    """How to integrate.  `max_step` [s] None: a hundredth of a turn of the drive.  method: "dopri5", or "radau" for heavy damping.
+    """How to integrate.  `max_step` [s] None: a hundredth of a turn of the drive, without one so short that the run has `samples` states.
+    `samples`: states of a turn, or of a run without turns, where drives leave no freedom.  method: "dopri5", or "radau" for heavy damping.
 
     "rk4" takes `max_step` for every step, which contacts in pins need well below a thousandth of a turn, and disregards rtol and atol.
     """
@@ -53,6 +55,7 @@ class Settings:
     method: str = "dopri5"
     per_step: int = 1
     singular: str = "smooth"  # or "stop": end the run in the first singular position
+    samples: int = SAMPLES
 
 
 class Leg(NamedTuple):
@@ -111,7 +114,8 @@ def simulate(
     """
     if assembly.freedom == 0:
         turns = max(duration * fastest_drive_speed(assembly) / (2 * np.pi), 1.0)
-        count = counted(np.ceil(GRID * turns * (1 - ROUNDING)), MOST_STATES, "states of the run", "ask for fewer turns, or a shorter run")
+        states = np.ceil(settings.samples * turns * (1 - ROUNDING))
+        count = counted(states, MOST_STATES, "states of the run", "reduce turns, samples_per_turn or duration")
         grid = np.linspace(start, start + duration, 1 + count)
         times = grid if samples is None else np.asarray(samples, float)
         return _driven(assembly, times, start + duration, settings, samples is None)
@@ -126,10 +130,11 @@ def simulate(
 def _legs(assembly, t, end, y, settings, samples):
     """The `Run` of a mechanism with freedom, leg by leg: to where the coordinates are split anew, or a chart leads across a fold."""
     system, leg = assembly.system, _leg(assembly.system, t, y, end)
+    longest = (end - t) * settings.per_step / settings.samples  # of a run without turns
     stretches, impacts, passages, steps = [], [np.zeros((0, 3))], [], 0
     while True:
         inside = None if samples is None else samples[(samples <= leg.until) & ((samples > t) | (not stretches))]
-        run = _integrate(system, t, leg, y, settings, steps, inside, fastest_drive_speed(assembly))
+        run = _integrate(system, t, leg, y, settings, steps, inside, fastest_drive_speed(assembly), longest)
         goes_on = run.outcome == "event" or (not run.advice and run.t_end < end)
         kept = slice(None, -1) if goes_on and samples is None else slice(None)  # the next stretch begins with the state at the end
         stretches.append(Stretch(system, run.t[kept], run.y[kept], run.t_end, run.y_end))
@@ -209,12 +214,12 @@ def stop_advice(time: float, settings: Settings) -> str:
     """Advice of a run that ends in a singular position."""
     if settings.singular == "stop":
         return (
-            f"the mechanism comes to a singular position at t = {time:.6g} s, where the run was to stop; "
-            'take simulate.singular = "smooth" to go through it'
+            f'the mechanism reaches a singular position at t = {time:.6g} s, where simulate.singular = "stop" ends the run; '
+            'set simulate.singular = "smooth" to pass through it'
         )
     return (
-        f"the mechanism comes to a singular position at t = {time:.6g} s, where the forces in its joints grow without bound, and their "
-        "friction with them. Take the friction out of the ideal joints, give the pins play, or end the run before"
+        f"the mechanism reaches a singular position at t = {time:.6g} s, where the joint forces and their friction grow without bound. "
+        "Remove the friction of the ideal joints, give the pins clearance, or end the run before that time"
     )
 
 
@@ -246,13 +251,15 @@ def rubbing(system: System, t: float, y: Floats) -> Floats:
     """A state whose joints with friction slide where they move, and stick where they do not, unless it remembers whether they do."""
     frictions = system.frictions
     if isinstance(frictions, JointFrictions) and not np.any(y[[*frictions.table.sliding, *frictions.table.relaxation]]):
-        begin_sliding(*motion(system), t, y, frictions)
+        moving = motion(system)
+        begin_sliding(*moving, t, y, frictions, False)
+        balance_sticking(moving, t, y, frictions)
     return y
 
 
-def _integrate(system, t, leg, y, settings, steps, samples, speed):
+def _integrate(system, t, leg, y, settings, steps, samples, speed, longest):
     most = settings.max_steps if samples is not None else min(settings.max_steps, MOST_KEPT // settings.per_step)
-    longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else np.inf))
+    longest = min(leg.max_step, settings.max_step or (2 * np.pi / speed / 100 if speed else longest))
     return integrate(
         motion(system),
         t,
@@ -367,10 +374,11 @@ def _stuck(assembly, t, end):
     if t <= 0.0:
         return (
             f"the mechanism starts in a singular position, drive {' and '.join(positions)}: links of the loop through joint"
-            f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} stand in line there, and nothing says to which side they "
-            "bend. Start a few degrees away"
+            f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} are collinear there, and the side to which they fold is "
+            "undetermined. Start a few degrees away"
         )
     return (
         f"the mechanism cannot go on beyond t = {t:.6g} s of {end:.6g} s, drive {' and '.join(positions)}: the loop through joint"
-        f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} does not close there. Change a length, or drive over less"
+        f"{'s' if len(joints) > 1 else ''} {', '.join(map(repr, joints))} does not close there. Change a length, or reduce "
+        "the range of the drive"
     )

@@ -96,7 +96,7 @@ def equilibrium(assembly: Assembly, state: Floats | None = None, time: float = 0
 def balance(assembly: Assembly, state: Floats | None = None, time: float = 0.0) -> Floats:
     """Torque or force (drives,) with which each drive holds the mechanism at rest at `time`; what is free is in equilibrium."""
     if not assembly.model.drives:
-        raise InputError("statics: the mechanism has no drive whose torque could be asked for; give it one, or ask for its equilibrium")
+        raise InputError("statics: the mechanism has no drive, so there is no holding torque; add a drive, or compute the equilibrium")
     rest = equilibrium(assembly, state, time)
     return reduced_equations(place_at_rest(assembly, rest.state, time)).drives
 
@@ -258,7 +258,7 @@ def _restless(assembly, here, force, residual):
     name = coordinate_names(assembly, here.system)[worst]
     gone = np.max(np.abs(here.y - state_at_rest(assembly.system, assembly.state)))
     return (
-        f"statics: no equilibrium found in {TRIES} steps. Coordinate {name!r} is still pushed by {abs(force[worst]):.4g} N, "
-        f"{residual:.2g} of the forces at work, after a way of {gone:.3g} rad or m. A mechanism that a load drives on for ever has no "
-        "equilibrium: add a spring or a stop, or drive that coordinate; otherwise start nearer to where it rests"
+        f"statics: no equilibrium found in {TRIES} steps. At coordinate {name!r} a force of {abs(force[worst]):.4g} N is unbalanced, "
+        f"{residual:.2g} of the acting forces, after a displacement of {gone:.3g} rad or m. A mechanism that a load drives without end has "
+        "no equilibrium: add a spring or a stop, or drive that coordinate; otherwise start closer to the equilibrium"
     )

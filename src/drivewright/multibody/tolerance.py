@@ -76,8 +76,8 @@ def posture(assembly: Assembly, markers: Mapping[str, Marker], sources: Sequence
     """
     if assembly.freedom:
         raise InputError(
-            f"tolerances: the drives leave the mechanism {assembly.freedom} degrees of freedom, so that its place is not a "
-            "matter of its dimensions alone; drive them, or hold them by joints"
+            f"tolerances: the drives leave the mechanism {assembly.freedom} degrees of freedom, so its dimensions do not determine its "
+            "position; add drives or joints"
         )
     system, work = _at_drive_angle(assembly, angle)
     return Posture(
@@ -96,7 +96,7 @@ def _at_drive_angle(assembly, angle):
             stop = np.degrees(start + continuation.reached * (angle - start))
             raise DoesNotAssemble(
                 f"tolerances: the mechanism does not close beyond {stop:.2f} deg of the drive, on the way from "
-                f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle that it reaches"
+                f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle within its range"
             )
     return system, work_at_state(system, 0.0 if angle is None else 1.0, y)
 

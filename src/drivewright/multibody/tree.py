@@ -131,8 +131,8 @@ def _chosen(model: MultibodyModel, driven: Collection[str]) -> list[PointJoint]:
         elif joint.name in driven:
             others = ", ".join(repr(other.name) for other in chosen if other.name in driven)
             raise InputError(
-                f"the drives of joints {others} and {joint.name!r} fight each other: the first move the bodies of {joint.name!r} already. "
-                "Remove one of them, or give it a motor instead of a motion"
+                f"the drives of joints {others} and {joint.name!r} conflict: the first ones already move the bodies of {joint.name!r}. "
+                "Remove one drive, or give it a motor instead of a motion"
             )
     return chosen
 

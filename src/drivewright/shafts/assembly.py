@@ -207,7 +207,7 @@ def refuse_unbalanced(model: ShaftSystem, force: Floats) -> None:
     if abs(axial) > 1e-9 * np.abs(nodes[:, :3]).sum() and not any(carries_axially(m.support, way) for m in model.mounts):
         raise InputError(
             f"shaft: an axial force of {axial:.6g} N, and no bearing that takes a force to the "
-            f"{'right' if way > 0 else 'left'}; give a bearing an axial_stiffness, or turn a real one round (carries)"
+            f"{'right' if way > 0 else 'left'}; give a bearing an axial_stiffness, or reverse a rolling bearing (carries)"
         )
     if abs(torque) > 1e-9 * np.abs(nodes[:, TWIST]).sum():
         raise InputError(f"shaft: the torques do not balance: their sum is {torque:.6g} N m; add the torque of the driven or driving end")

@@ -34,7 +34,7 @@ def buckling_factor(loaded: LoadedShaft) -> float | None:
         factors = scipy.linalg.eigh(-geometric, stiff, eigvals_only=True)
     except np.linalg.LinAlgError:
         raise SolverError(
-            "shaft: beside its bearings the shaft is so soft that its buckling is lost in rounding; check the units of "
+            "shaft: the shaft is so soft compared with its bearings that its buckling load is lost in rounding; check the units of "
             "diameters, bores and Young's modulus"
         ) from None
     return float(1 / factors[-1]) if factors[-1] > 0 else None

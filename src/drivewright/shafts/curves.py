@@ -59,7 +59,7 @@ def tabulated(displacement: ArrayLike, force: ArrayLike) -> RadialCurve:
 
     r, f = np.asarray(displacement, float), np.asarray(force, float)
     if len(r) < 2 or r[0] != 0 or f[0] != 0 or np.any(np.diff(r) <= 0) or np.any(np.diff(f) < 0):
-        raise InputError("a bearing's table wants at least two rows that start at displacement 0 and force 0 and rise from row to row")
+        raise InputError("a bearing's table needs at least two rows that start at displacement 0 and force 0 and rise from row to row")
     curve = PchipInterpolator(r, f)
     pieces = curve.c[::-1].T
     last = [f[-1], float(curve(r[-1], 1)), 0.0, 0.0]

@@ -73,7 +73,7 @@ def solve(model: ShaftSystem, force: Floats) -> ShaftEquilibrium:
         v, held = v + share * change, held + share * more
         if not np.all(np.isfinite(v)):
             raise InputError(
-                "shaft: it, or its bearings, are so soft that the displacements are beyond all numbers; check the units of "
+                "shaft: the shaft or its bearings are so soft that the displacements overflow; check the units of "
                 "stiffnesses, diameters and Young's modulus"
             )
         if _is_balanced(model, v, held, load):
@@ -82,8 +82,8 @@ def solve(model: ShaftSystem, force: Floats) -> ShaftEquilibrium:
         _refuse_runaway(model, v)
     raise SolverError(
         f"shaft: no equilibrium after {MAX_STEPS} steps of Newton's method; the last one moved the shaft by "
-        f"{1e3 * np.abs((model.basis @ change)[: model.beam.size]).max():.3g} mm. Look at clearances, and for loads far "
-        "beyond the bearings"
+        f"{1e3 * np.abs((model.basis @ change)[: model.beam.size]).max():.3g} mm. Check the clearances, and whether "
+        "the loads are far more than the bearings carry"
     )
 
 
@@ -106,7 +106,7 @@ def _refuse_runaway(model, v):
         way = "right" if axial.sum() > 0 else "left"
         raise InputError(
             f"shaft: its bearings push it to the {way}, and none of them takes an axial force to the {way}; "
-            "turn one of two round (carries), give more preload, or give a bearing an axial_stiffness"
+            "reverse one of two (carries), give more preload, or give a bearing an axial_stiffness"
         )
 
 
@@ -155,8 +155,8 @@ def solve_saddle_point(hessian: Floats, constraints: Floats, compliance: Floats,
         return (np.linalg.solve(scale[:, None] * whole * scale, right).T * scale).T
     except np.linalg.LinAlgError:
         raise SolverError(
-            "shaft: shaft and bearings are singular to rounding; a rolling bearing, a table or a spring behind a clearance "
-            "is so much stiffer than the shaft that the shaft is lost beside it: check the units of diameters and of "
+            "shaft: the equations of shaft and bearings are singular to rounding; a rolling bearing, a table or a spring behind a "
+            "clearance is too stiff relative to the shaft: check the units of diameters and of "
             "Young's modulus; a spring above 1e15 N/m does not differ from rigid"
         ) from None
 

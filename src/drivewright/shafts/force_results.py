@@ -15,9 +15,12 @@ def tooth_values(name: str, forces: ToothForces) -> dict[str, Value]:
     """The `ToothForces` of the gear of this name."""
     key = f"gears.{name}"
     return {
-        f"{key}.tangential_force": Value(float(forces.tangential), "N", f"tangential tooth force on gear {name!r}, signed as its torque"),
-        f"{key}.radial_force": Value(float(forces.radial), "N", f"radial tooth force on gear {name!r}, towards its axis"),
-        f"{key}.axial_force": Value(float(forces.axial), "N", f"axial tooth force on gear {name!r}, positive to the right"),
+        f"{key}.{way}_force": Value(float(force), "N", f"{way} tooth force on gear {name!r}", convention=convention)
+        for way, force, convention in (
+            ("tangential", forces.tangential, "same sign as the torque"),
+            ("radial", forces.radial, "positive towards the axis"),
+            ("axial", forces.axial, "positive to the right"),
+        )
     }
 
 
@@ -26,14 +29,15 @@ def seat_values(name: str, equilibrium: ShaftEquilibrium, load: ShaftLoad, face_
     key, of = f"gears.{name}", f"of the shaft at gear {name!r}"
     move, slope = equilibrium.displacement_at(load.position), equilibrium.slope_at(load.position)
     across = slope_in_plane_of_action(slope, load)
-    meaning = f"mesh slope of gear {name!r}, in the plane of action, positive where it gives way to the right"
+    meaning = f"mesh slope of gear {name!r}, in the plane of action"
+    sense = "positive where the deflection along the tooth force grows to the right"
     values = {
         f"{key}.deflection": Value(float(np.hypot(*move)), "m", f"deflection {of}, magnitude"),
         f"{key}.slope": Value(float(np.hypot(*slope)), "rad", f"slope {of}, magnitude"),
-        f"{key}.mesh_slope": Value(across, "rad", meaning),
+        f"{key}.mesh_slope": Value(across, "rad", meaning, convention=sense),
     }
     if face_width:
-        meaning = f"face misalignment of gear {name!r}, in the plane of action, by this shaft alone"
+        meaning = f"face misalignment of gear {name!r}, in the plane of action, from this shaft alone"
         values[f"{key}.misalignment"] = Value(abs(across) * face_width, "m", meaning)
     return values
 
@@ -54,5 +58,5 @@ def vector_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     """The forces as vectors in the plane across the axis: x and y as everywhere, z towards the eye."""
     if "force_vectors" in tables:
         names, title = tuple(column.name for column in tables["force_vectors"].columns[1:]), "Forces across the shaft"
-        meaning = "seen from the right end of the shaft: x to the right, y up, z towards the eye"
+        meaning = "seen from the right end of the shaft: x to the right, y up, z towards the viewer"
         yield Plot("force_vectors", title, "force_vectors", "x", names, equal=True, whole=True, meaning=meaning)

@@ -47,8 +47,8 @@ def strength_values(rows: Sequence[SectionStrength]) -> dict[str, Value]:
         return {}
     weakest = min(stressed, key=lambda row: row.safety)
     values = {
-        "strength.min_safety": Value(weakest.safety, "-", f"least safety of the shaft, at {weakest.name}"),
-        "strength.min_safety.at": Value(weakest.position, "m", f"place of the least safety, at {weakest.name}"),
+        "strength.min_safety": Value(weakest.safety, "-", f"minimum safety of the shaft, at {weakest.name}"),
+        "strength.min_safety.at": Value(weakest.position, "m", f"position of the minimum safety, at {weakest.name}"),
         **_safeties("strength", "of the shaft", *(min(getattr(row, name) for row in stressed) for name in _SAFETIES)),
     }
     for row in stressed:
@@ -76,7 +76,7 @@ def haigh_table(rows: Sequence[SectionStrength], strength: Strength) -> Table:
     groups = [
         ("weakest", f"weakest section, {weakest.name}", *_points([weakest])),
         ("notches", "other notches", *_points([row for row in others if row.kind != "smooth"])),
-        ("smooth", "smooth places", *_points([row for row in others if row.kind == "smooth"])),
+        ("smooth", "smooth sections", *_points([row for row in others if row.kind == "smooth"])),
         ("goodman", "Goodman line", goodman, limit * (1 - goodman / strength.tensile)),
         ("yield", "yield line", langer, strength.yield_strength - langer),
     ]

@@ -25,8 +25,8 @@ def whirl_values(modes: WhirlModes, damped: bool) -> dict[str, Value]:
             key, meaning = f"whirl.{name}.{n}", f"{name} whirl frequency {n}, {words}, {at}"
             values[key] = Value(float(modes.frequency[number]), "rad/s", meaning)
             if damped:
-                meaning = f"log decrement of {name} whirl {n}, {at}: above 0 the whirl decays"
-                values[f"{key}.log_decrement"] = Value(float(modes.log_decrement[number]), "-", meaning)
+                meaning, sense = f"log decrement of {name} whirl {n}, {at}", "above 0 the whirl decays"
+                values[f"{key}.log_decrement"] = Value(float(modes.log_decrement[number]), "-", meaning, convention=sense)
     return values
 
 
@@ -46,9 +46,9 @@ def critical_values(critical: Sequence[CriticalSpeed], damped: bool) -> dict[str
 def stability_values(modes: WhirlModes, threshold: float | None) -> dict[str, Value]:
     """The least logarithmic decrement at the speed [-], and the speed [rad/s] from which a whirl grows, where there is one."""
     least = float(modes.log_decrement.min())
-    values = {"stability.log_decrement": Value(least, "-", "smallest log decrement, of all whirls at the speed of the shaft")}
+    values = {"stability.log_decrement": Value(least, "-", "minimum log decrement, of all whirls at the speed of the shaft")}
     if threshold is not None:
-        values["stability.threshold_speed"] = Value(threshold, "rad/s", "stability threshold speed, above which a whirl grows by itself")
+        values["stability.threshold_speed"] = Value(threshold, "rad/s", "stability threshold speed, above which a whirl is unstable")
     return values
 
 
@@ -114,7 +114,7 @@ def resonance_finding(orbits: Orbits) -> str:
     """What is said where `Orbits` at one speed are `resonant`."""
     return (
         f"the unbalance response at {orbits.speeds[0] * 30 / np.pi:.6g} rpm is absent: the speed is a natural frequency that no support "
-        f"damps (response over {RESONANCE:.0f} times that at rest); give the bearings a radial_damping, or move the speed"
+        f"damps (response over {RESONANCE:.0f} times that at rest); give the bearings a radial_damping, or change the speed"
     )
 
 

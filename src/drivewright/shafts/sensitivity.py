@@ -61,12 +61,12 @@ def _of_parts(shaft: Shaft, flexibility: Flexibility) -> Iterator[FlexibilitySlo
     shares = dict(zip(flexibility.names, flexibility.shares, strict=True))
     elastic = [support.name for support in shaft.supports if is_elastic(support)]
     inside = [share for name, share in shares.items() if name in ("bending", "shear", "tension")]
-    yield FlexibilitySlope("youngs_modulus", "shear modulus in proportion; bearings held", -np.sum(inside, axis=0))
+    yield FlexibilitySlope("youngs_modulus", "shear modulus in proportion, bearings held", -np.sum(inside, axis=0))
     if elastic:
         together = -np.sum([shares[name] for name in elastic], axis=0)
         yield FlexibilitySlope("bearings.stiffness", "all bearings with their housings in proportion", together)
     for name in elastic if len(elastic) > 1 else ():
-        yield FlexibilitySlope(f"bearings.{name}.stiffness", "with its housing; all else held", -shares[name])
+        yield FlexibilitySlope(f"bearings.{name}.stiffness", "with its housing, all else held", -shares[name])
 
 
 def is_elastic(support: Support) -> bool:
@@ -128,7 +128,7 @@ def _of_distances(loaded: _UnitStates) -> Iterator[FlexibilitySlope]:
         if two.position > one.position:
             yield FlexibilitySlope(
                 f"distance.{one.name}-{two.name}",
-                "all other distances held, what is right of it moves along",
+                "all other distances held, parts to the right move along",
                 _delta_rate(loaded, _stretch(loaded.beam, one.position, two.position)),
             )
 

@@ -168,11 +168,11 @@ def _refuse(sections: Floats, modulus: float, poisson: float, bands: Sequence[Ba
     """InputError for what has no solution or cannot be meshed."""
     length = sections[:, 0].sum()
     if not (np.isfinite(modulus) and modulus > 0 and -1 < poisson < 0.5):
-        raise InputError(f"solid check: modulus {modulus:g} Pa and Poisson's ratio {poisson:g}; a solid wants E > 0 and -1 < nu < 0.5")
+        raise InputError(f"solid check: modulus {modulus:g} Pa and Poisson's ratio {poisson:g}; a solid needs E > 0 and -1 < nu < 0.5")
     if max_size is not None and not max_size > 0:
-        raise InputError(f"solid check: max_size {MM * max_size:g} mm; elements want a positive size, or None for half the diameter")
+        raise InputError(f"solid check: max_size {MM * max_size:g} mm; elements need a positive size, or None for half the diameter")
     if len(bands) < 2:
-        raise InputError(f"solid check: {len(bands)} bearing; it wants two or more, for bands hold mean displacements and no tilt")
+        raise InputError(f"solid check: {len(bands)} bearing; it needs two or more, since bands hold mean displacements but no tilt")
     if not len(stations):
         raise InputError("solid check: no station; give at least one position to load")
     for number, band in enumerate(bands):
@@ -215,7 +215,7 @@ def _mesh(pieces: Sequence[Frustum], bands: Sequence[Band], max_size: float) -> 
         f"try another max_size than {MM * max_size:g} mm, or move stations, steps and the edges of bearings that lie close together "
         "further apart"
     )
-    with translated_errors(SolverError, "solid check: the mesher gave up", advice, PURPOSE):
+    with translated_errors(SolverError, "solid check: the shaft could not be meshed", advice, PURPOSE):
         shape = occ.Glue([frustum_solid(occ, piece, "shaft", quarter=True) for piece in pieces])
         for face in shape.faces:
             face.name, piece = _name(face, pieces)

@@ -27,19 +27,17 @@ def diagram_table(along: Diagram, direction: Floats) -> Table:
         ("shear", along.shear, "N", "shear force"),
         ("moment", along.moment, "N m", "bending moment"),
     ):
-        columns.append(Column(name, unit, f"{meaning}, along the unit loads", data @ direction, f"{meaning} along the unit loads"))
+        columns.append(Column(name, unit, f"{meaning} along the unit loads", data @ direction))
         across = data @ [direction[1], -direction[0]]
-        columns.append(
-            Column(f"{name}_across", unit, f"{meaning}, across the unit loads (90° clockwise)", across, f"{meaning} across the unit loads")
-        )
+        columns.append(Column(f"{name}_across", unit, f"{meaning} across the unit loads, 90° clockwise from them", across))
     columns += [
         Column("axial", "N", "axial force, tension positive", along.axial),
         Column("torque", "N m", "torque", along.torque),
-        Column("bending_stress", "Pa", "nominal stress by bending and tension", along.bending),
-        Column("torsion_stress", "Pa", "nominal shear stress by torsion", along.torsion),
+        Column("bending_stress", "Pa", "nominal stress from bending and tension", along.bending),
+        Column("torsion_stress", "Pa", "nominal shear stress from torsion", along.torsion),
         Column("stress", "Pa", "von Mises stress, nominal", along.von_mises),
     ]
-    return Table("diagram", "The loaded shaft along its length", tuple(columns))
+    return Table("diagram", "Loaded shaft along its length", tuple(columns))
 
 
 def reaction_table(equilibrium: ShaftEquilibrium) -> Table:
@@ -64,7 +62,7 @@ def unit_load_table(equilibrium: ShaftEquilibrium, flexibility: Flexibility, nam
         for name, unknowns in zip(names, each.unknowns.T, strict=True):
             deflection = unit_deflection(at_rest, unknowns, z, direction)
             columns.append(Column(f"{name}{suffix}", "m/N", f"force at {name!r}{words}", deflection))
-    return Table("unit_load", "Deflection by a unit force at a station", tuple(columns))
+    return Table("unit_load", "Deflection under unit force at a station", tuple(columns))
 
 
 def station_pairs(names: Sequence[str]) -> list[tuple[int, int]]:
@@ -111,7 +109,7 @@ def limit_table(limits: Mapping[str, Sequence[LimitLoad]], shock_factor: float) 
         Column("part", "-", "part at its limit", np.array([limit.part for _, limit, _ in rows])),
         Column("load", "N", "force at the limit", force),
         Column("steady_load", "N", "steady force, over the shock factor", force / shock_factor),
-        Column("first", "-", "first to fail, 1 where it is", np.array([first for _, _, first in rows], float)),
+        Column("first", "-", "first to fail, 1 if so", np.array([first for _, _, first in rows], float)),
     )
     return Table("failure", "Limit loads at the stations", columns)
 

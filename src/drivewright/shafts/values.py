@@ -26,13 +26,14 @@ def station_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str
     for station in equilibrium.model.beam.shaft.stations:
         move, slope = equilibrium.displacement_at(station.position), equilibrium.slope_at(station.position)
         name, at = f"stations.{station.name}", f"of station {station.name!r}"
-        along = f"deflection of {station.name!r} along unit loads, positive with the load"
+        along = f"deflection of {station.name!r} along unit loads"
+        rising = "positive where the deflection grows with z"
         values |= {
-            f"{name}.deflection": Value(float(np.dot(direction, move)), "m", along),
+            f"{name}.deflection": Value(float(np.dot(direction, move)), "m", along, convention="positive with the load"),
             f"{name}.displacement": Value(float(np.hypot(*move)), "m", f"deflection {at}, magnitude"),
             f"{name}.deflection_x": Value(float(move[0]), "m", f"deflection {at} along x"),
-            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {at} along y, up"),
-            f"{name}.slope": Value(float(np.dot(direction, slope)), "rad", f"slope {at}, positive where the deflection grows with z"),
+            f"{name}.deflection_y": Value(float(move[1]), "m", f"deflection {at} along y", convention="positive up"),
+            f"{name}.slope": Value(float(np.dot(direction, slope)), "rad", f"slope {at}", convention=rising),
         }
     return values
 
@@ -46,17 +47,22 @@ def support_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str
         slope, along = float(np.hypot(*equilibrium.slope_at(support.position))), f"of {support.name!r} along unit loads"
         radial, displacement = -float(np.dot(direction, reaction[:2])), float(np.dot(direction, moved[:2]))
         values |= {
-            f"{name}.reaction": Value(radial, "N", f"reaction {along}, on the shaft, positive against the load"),
+            f"{name}.reaction": Value(radial, "N", f"reaction {along}, on the shaft", convention="positive against the load"),
             f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} along x, on the shaft"),
             f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} along y, on the shaft"),
             f"{name}.radial_force": Value(float(np.hypot(*reaction[:2])), "N", f"radial force {at}, magnitude"),
             f"{name}.displacement": Value(
-                displacement, "m", f"displacement in bearing {support.name!r}, of the shaft against the seat, positive with the load"
+                displacement,
+                "m",
+                f"displacement in bearing {support.name!r}, of the shaft against the seat",
+                convention="positive with the load",
             ),
             f"{name}.slope": Value(slope, "rad", f"slope {inside}, magnitude"),
         }
         if abs(reaction[2]) > 0:
-            values[f"{name}.axial_force"] = Value(reaction[2], "N", f"axial reaction {at}, on the shaft, positive to the right")
+            values[f"{name}.axial_force"] = Value(
+                reaction[2], "N", f"axial reaction {at}, on the shaft", convention="positive to the right"
+            )
         if np.any(np.abs(reaction[3:]) > NO_MOMENT * (1 + np.abs(reaction[:2]).max())):
             values[f"{name}.moment"] = Value(float(np.hypot(*reaction[3:])), "N m", f"moment {at} on the shaft, magnitude")
     return values
@@ -66,25 +72,25 @@ def extreme_values(along: Diagram) -> dict[str, Value]:
     """The largest deflection [m], bending moment [N m] and stress [Pa] along the shaft, and where [m] they are."""
     values = {}
     for name, data, unit, what, more in (
-        ("max_deflection", np.hypot(*along.deflection.T), "m", "largest deflection", " along the shaft"),
-        ("max_moment", np.hypot(*along.moment.T), "N m", "largest bending moment", ""),
-        ("max_stress", along.von_mises, "Pa", "largest von Mises stress", ", nominal: without notches"),
+        ("max_deflection", np.hypot(*along.deflection.T), "m", "maximum deflection", " along the shaft"),
+        ("max_moment", np.hypot(*along.moment.T), "N m", "maximum bending moment", ""),
+        ("max_stress", along.von_mises, "Pa", "maximum von Mises stress", ", nominal: without notches"),
     ):
         at = int(np.argmax(data))
         values[f"shaft.{name}"] = Value(float(data[at]), unit, what + more)
-        values[f"shaft.{name}.at"] = Value(float(along.z[at]), "m", f"place of the {what}")
+        values[f"shaft.{name}.at"] = Value(float(along.z[at]), "m", f"position of the {what}")
     return values
 
 
 def stiffness_values(name: str, stiffness: SupportStiffness) -> dict[str, Value]:
     """The `SupportStiffness` of the support of this name, with the load behind it; nothing where there is no load."""
     rows = (
-        ("load", stiffness.load, "N", f"operating load of bearing {name!r}, the radial force at which its stiffness holds"),
+        ("load", stiffness.load, "N", f"operating load of bearing {name!r}, the radial force to which its stiffness belongs"),
         (
             "tangent",
             stiffness.tangent,
             "N/m",
-            f"tangent stiffness of bearing {name!r}, radial: change of force over displacement, all else held",
+            f"tangent stiffness of bearing {name!r}, radial: change of force over change of displacement, all else held",
         ),
         ("secant", stiffness.secant, "N/m", f"secant stiffness of bearing {name!r}, radial: force over displacement from the seat's axis"),
         ("axial", stiffness.axial, "N/m", f"axial stiffness of bearing {name!r}, tangent"),
@@ -120,8 +126,8 @@ def flexibility_arrays(found: Flexibility, stations: tuple[str, ...], supports: 
 def limit_values(station: str, limits: Sequence[LimitLoad], shock_factor: float) -> dict[str, Value]:
     """The least of the `LimitLoad`s of a force at a station of this name, and the steady force [N] that is allowed there."""
     first = min(limits, key=lambda limit: limit.force)
-    name, at_limit = f"stations.{station}", f"limit force at {station!r}, acting alone, by {first.part}"
-    allowed = f"allowed force at {station!r}, steady and acting alone, with the shock factor {shock_factor:g}"
+    name, at_limit = f"stations.{station}", f"limit force at {station!r}, acting alone, limited by {first.part}"
+    allowed = f"allowable force at {station!r}, steady and acting alone, with the shock factor {shock_factor:g}"
     return {
         f"{name}.limit_load": Value(first.force, "N", at_limit),
         f"{name}.allowed_load": Value(first.force / shock_factor, "N", allowed),
@@ -130,14 +136,32 @@ def limit_values(station: str, limits: Sequence[LimitLoad], shock_factor: float)
 
 def sensitivity_values(slopes: Iterable[FlexibilitySlope], names: Sequence[str]) -> dict[str, Value]:
     """Every finite entry of `relative_flexibility_slopes` [-], by pair of stations and parameter."""
-    return {
-        f"sensitivity.{names[i]}.{names[j]}.{parameter}": Value(
-            float(slope[i, j]), "-", f"sensitivity {names[i]}/{names[j]} to {parameter}, relative change over relative change; {held}"
-        )
-        for parameter, held, slope in slopes
-        for i, j in station_pairs(names)
-        if np.isfinite(slope[i, j])
-    }
+    values = {}
+    for parameter, held, slope in slopes:
+        short, words = _parameter_words(parameter)
+        for i, j in station_pairs(names):
+            if np.isfinite(slope[i, j]):
+                pair = f"at {names[i]}" if i == j else f"{names[i]}/{names[j]}"
+                meaning = f"relative change of flexibility {names[i]}/{names[j]} over relative change of {words}; {held}"
+                values[f"sensitivity.{names[i]}.{names[j]}.{parameter}"] = Value(
+                    float(slope[i, j]), "-", meaning, label=f"Sensitivity {pair}, {short}"
+                )
+    return values
+
+
+def _parameter_words(parameter: str) -> tuple[str, str]:
+    """A parameter of a `FlexibilitySlope` for a label and in words: "bearings.A.stiffness" -> "bearing A", "stiffness of bearing A"."""
+    table, _, rest = parameter.partition(".")
+    name = rest.rpartition(".")[0]
+    if table == "distance":
+        return rest, f"distance {rest}"
+    if table == "stations":
+        return f"station {name}", f"position of station {name}"
+    if table == "segments":
+        return f"segment {int(name) + 1}", f"diameter of segment {int(name) + 1}"
+    if table == "bearings":
+        return (f"bearing {name}", f"stiffness of bearing {name}") if name else ("all bearings", "stiffness of all bearings")
+    return "Young's modulus", "Young's modulus"
 
 
 def frequency_values(
@@ -176,4 +200,7 @@ def massless_findings(frequencies: Floats, modes: Modes, stations: Sequence[Stat
     along = first_mode_along(modes, direction)
     if along is not None and not any(station.diametral for station in stations):
         error = frequencies[0] / modes.frequencies[along] - 1
-        yield f"leaving out the shaft's own mass (K = inverse of the flexibility) puts mode {along + 1} off by {100 * error:+.1f} %"
+        yield (
+            "neglecting the shaft's own mass (K = inverse of the flexibility) changes the frequency of "
+            f"mode {along + 1} by {100 * error:+.1f} %"
+        )

@@ -8,6 +8,7 @@ commented_template  the commented template of a spec
 csv_columns         two columns of a CSV file by name, each with its unit in brackets in the header
 csv_table           tables in CSV files, whoever wrote them: separators, decimal signs, comments, rows of units
 csv_headings        headings of their columns: names and units in several spellings
+csv_words           names of quantities in headings of other languages
 csv_numbers         numbers in their cells, and the digits they were printed to
 csv_text            CSV files as text: read within limits, and texts that no spreadsheet takes for a formula
 designs             many designs in one spec

@@ -8,19 +8,22 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.errors import SpecError
+from drivewright.spec import csv_words
 from drivewright.spec.csv_headings import PURE, Wanted
 from drivewright.spec.csv_table import CsvTable, read_csv
 from drivewright.units import BY_NAME
 
 __all__ = ["PURE", "ColumnPair", "read_columns"]
 OTHER_NAMES = {  # of columns, as others write them
-    "angle": ("theta", "phi", "rotation", "crank", "winkel"),
-    "time": ("t",),
-    "speed": ("angular velocity", "angular speed", "omega", "rotational speed", "n"),
-    "torque": ("moment",),
-    "force": ("load",),
-    "travel": ("displacement", "position", "stroke", "x"),
-    "displacement": ("travel", "deflection", "x"),
+    "angle": ("theta", "phi", "rotation", "crank", *csv_words.ANGLE, *csv_words.CRANK_ANGLE),
+    "time": ("t", *csv_words.TIME),
+    "speed": ("angular velocity", "angular speed", "omega", "rotational speed", "n", *csv_words.SPEED),
+    "velocity": csv_words.VELOCITY,
+    "torque": ("moment", *csv_words.TORQUE),
+    "force": ("load", *csv_words.FORCE),
+    "travel": ("displacement", "position", "stroke", "x", "Hub", *csv_words.TRAVEL),
+    "displacement": ("travel", "deflection", "x", *csv_words.TRAVEL),
+    "factor": csv_words.FACTOR,
 }
 
 

@@ -5,15 +5,23 @@ own below the headings.
 """
 
 import re
+import unicodedata
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from drivewright.errors import SpecError, UnitError, brief, nearest
-from drivewright.units import unit_factor
+from drivewright.units import BY_NAME, unit_factor
 
 PURE = "a pure number"
 TEXT = "a text"
-TWO_MEANINGS = {"grad": "degrees or gons; write 'deg'", "gradian": "degrees or gons; write 'deg'", "Mm": "megametres; write 'mm'"}
+OF_CRANK = "degrees of the crank, of which a four-stroke cam turns half; write 'deg' with the angle of the part that the heading names"
+TWO_MEANINGS = {
+    "grad": "degrees or gons; write 'deg'",
+    "gradian": "degrees or gons; write 'deg'",
+    "Mm": "megametres; write 'mm'",
+    **dict.fromkeys(("°kw", "grad kw", "deg kw", "°ca", "deg ca"), OF_CRANK),
+}
+WIDE_BRACKETS = str.maketrans("（）［］", "()[]")  # of Chinese fonts
 OPEN_BRACKET = re.compile(r"[\[(][^\])]*$")
 BRACKETS = r"[\[({<]\s*([^\[\](){}<>]*(?:\([^()]*\))?)\s*[\])}>]"
 
@@ -27,17 +35,25 @@ BEHIND = (
 
 
 class Wanted(NamedTuple):
-    """A column that a reader looks for: its name, what it may be ({dimension: unit for the message}), other names of it."""
+    """A column that a reader looks for: its name, what it may be ({dimension: unit for the message}), other names of it.
+
+    mistaken: names of another quantity that people give in its place, found where no better column is there: the reader refuses them.
+    """
 
     name: str
     units: Mapping[str, str]
     also: tuple[str, ...] = ()
+    mistaken: tuple[str, ...] = ()
 
     @property
     def heading(self) -> str:
         """How it is written: "lift [mm]"."""
         unit = next(iter(self.units.values()))
         return f"{self.name} [{unit}]" if unit else self.name
+
+    def is_mistaken(self, heading: str) -> bool:
+        """Whether a heading is one of the names of another quantity."""
+        return bool({_plain(name) for name in self.mistaken} & {each.name for each in readings(heading)})
 
 
 class Heading(NamedTuple):
@@ -49,7 +65,7 @@ class Heading(NamedTuple):
 
 def readings(cell: str) -> Iterator[Heading]:
     """The ways to take a heading apart, the likeliest first."""
-    text = " ".join(cell.replace("\ufeff", "").strip().strip("\"'").split())
+    text = " ".join(cell.replace("\ufeff", "").translate(WIDE_BRACKETS).strip().strip("\"'").split())
     if match := re.fullmatch(rf"(.*?)\s*{BRACKETS}\s*", text):
         yield Heading(_plain(match[1]), match[2].strip())
         return
@@ -60,7 +76,9 @@ def readings(cell: str) -> Iterator[Heading]:
 
 
 def _plain(name):
-    return " ".join(re.sub(r"[_\-.:]+", " ", name.lower()).split())
+    """A name without capitals, accents and signs between its words."""
+    letters = (each for each in unicodedata.normalize("NFKD", name.lower()) if not unicodedata.combining(each))
+    return " ".join(re.sub(r"[_\-.:]+", " ", "".join(letters)).split())
 
 
 class CsvColumn(NamedTuple):
@@ -109,8 +127,11 @@ def _places(header, each):
 
 
 def _rank(cell, each):
-    """0 where a heading is the name, 1 another name of it, 2 ends in the name, as "cam angle" does; 9 where it is another column."""
+    """0 where a heading is the name, 1 another name of it, 2 ends in the name, as "cam angle" does, 3 is mistaken for it; 9 where it is
+    another column."""
     others = {_plain(name) for name in each.also}
+    if each.is_mistaken(cell):
+        return 3
     for name, _ in readings(cell):
         for rank, fits in enumerate((name == each.name, name in others, name.split()[-1:] == [each.name])):
             if fits:
@@ -156,7 +177,9 @@ def _unit(unit, kinds, each, file):
     try:
         return last, _factor(unit, last)
     except UnitError as error:
-        raise error.located(key=f"column '{each.name}'", file=file) from None
+        every = " or ".join(BY_NAME[kind].described for kind in kinds)
+        message = error.message.replace(f"wants {BY_NAME[last].described}", f"wants {every}", 1)
+        raise UnitError(message, key=f"column '{each.name}'", file=file) from None
 
 
 def _factor(unit, dimension):
@@ -172,16 +195,16 @@ def _factor(unit, dimension):
         raise
 
 
-def no_column(wanted: Sequence[Wanted], header: Sequence[str], line: int, all_wanted: Sequence[Wanted]) -> str:
-    """What to say where none of some columns is in a header."""
+def no_column(wanted: Sequence[Wanted], header: Sequence[str], line: int, text: str, all_wanted: Sequence[Wanted], separator: str) -> str:
+    """What to say where none of some columns is in the header at a line, of which `text` is what the file says."""
     expected = " or ".join(repr(each.heading) for each in wanted)
     names = [heading.name for cell in header for heading in readings(cell)]
-    example, first = ",".join(each.heading for each in all_wanted), "the first line" if line == 1 else f"line {line}"
+    example, first = separator.join(each.heading for each in all_wanted), "the first line" if line == 1 else f"line {line}"
     hint = nearest(wanted[0].name, names)
     unclosed = next((cell.strip() for cell in header if OPEN_BRACKET.search(cell)), None)
     if unclosed:
         hint += f"; the bracket of {brief(unclosed)} is not closed"
-    return f"no column {expected} in {first} {brief(','.join(header))}{hint}; it should read {example!r}"
+    return f"no column {expected} in {first} {brief(text)}{hint}; it should read {example!r}"
 
 
 def says_units(cells: Sequence[str], places: Sequence[int]) -> bool:

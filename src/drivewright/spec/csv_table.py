@@ -119,8 +119,8 @@ def _with_header(lines, notes, groups, file):
     lines = lines[1:] if said else lines
     for separator in (said[1],) if said else SEPARATORS:
         rows = list(_rows(lines[:SEARCHED], separator, file))
-        for row in rows:
-            if _has_all(row, groups):
+        for place, row in enumerate(rows, 1):
+            if _has_all(row, groups) and (separator != " " or said or _as_wide(row, rows[place : place + 1])):
                 below = [each for each in lines if each[0] > row.end]
                 return separator, row, list(_rows(below, separator, file))
         for note in _rows(notes[:SEARCHED], separator, file):
@@ -129,22 +129,52 @@ def _with_header(lines, notes, groups, file):
     raise SpecError(_no_header(lines, groups, file), file=file)
 
 
+def _as_wide(row, below):
+    """Whether the row below has as many cells; words of a sentence are no columns."""
+    return not below or len(below[0].cells) == len(row.cells)
+
+
 def _has_all(row, groups):
-    return len(row.cells) > 1 and all(any(has_column(row.cells, each) for each in group) for group in groups)
+    return len(row.cells) > 1 and _columns_in(row, groups) == len(groups)
 
 
 def _no_header(lines, groups, file):
-    """What to say of a file in which no line has the wanted headings."""
+    """What to say of a file in which no line has the wanted headings: of the line that looks most like them."""
     example = ",".join(group[0].heading for group in groups)
     if not lines:
         return f"is empty; the first line wants the columns, e.g. {example}"
-    line, text = lines[0]
-    separator = next((each for each in SEPARATORS if each in text.strip()), ",")
-    cells = next(iter(_rows(lines[:1], separator, file))).cells
-    if all(NUMBER.fullmatch(cell.strip().replace(",", ".")) for cell in cells if cell.strip()):
+    first = next((number for number, (_, text) in enumerate(lines[:SEARCHED]) if _has_numbers_alone(text, file)), len(lines))
+    if first == 0:
+        line, text = lines[0]
         return f"line {line}: {brief(text)} has numbers alone; the first line wants the columns with their units, e.g. {example}"
-    missing = next((group for group in groups if not any(has_column(cells, each) for each in group)), groups[0])
-    return no_column(missing, cells, line, [group[0] for group in groups])
+    separator = _separator(lines[min(first, len(lines) - 1)][1])
+    above = list(_rows(lines[:first], separator, file)) if first < len(lines) else list(_rows(lines[:1], _separator(lines[0][1]), file))
+    header = max(above, key=lambda row: (len(row.cells) > 1, _columns_in(row, groups), not _in_brackets(row.cells), row.line))
+    text = dict(lines)[header.line].strip()
+    missing = next((group for group in groups if not any(has_column(header.cells, each) for each in group)), None)
+    if missing is None:
+        return f"line {header.line}: {brief(text)} has {len(header.cells)} cells between blanks, but the row below it has another number"
+    return no_column(missing, header.cells, header.line, text, [group[0] for group in groups], ";" if separator == ";" else ",")
+
+
+def _has_numbers_alone(text, file):
+    """Whether a line is a row of numbers."""
+    cells = next(iter(_rows([(1, text)], _separator(text), file))).cells
+    return all(NUMBER.fullmatch(cell.strip().replace(",", ".")) for cell in cells if cell.strip())
+
+
+def _separator(text):
+    return next((each for each in SEPARATORS if each in text.strip()), ",")
+
+
+def _columns_in(row, groups):
+    """How many of the groups of columns a row has."""
+    return sum(any(has_column(row.cells, each) for each in group) for group in groups)
+
+
+def _in_brackets(cells):
+    """Whether a row has units in brackets alone."""
+    return all(cell.strip()[:1] in "[(" for cell in cells if cell.strip())
 
 
 def _rows(lines: Sequence[tuple[int, str]], separator: str, file: str) -> Iterator[Row]:

@@ -1,5 +1,6 @@
 """Validation errors of pydantic as `SpecError`: the dotted key, the value, what would be right."""
 
+from collections.abc import Sequence
 from typing import Any
 
 from pydantic import ValidationError
@@ -33,13 +34,23 @@ MAX_COMPLAINTS = 6  # complaints in one message
 def spec_error_of(error: ValidationError, model: type[Any]) -> SpecError:
     """One SpecError naming the first wrong key; the others follow in the message."""
     # Unknown keys first: a misspelt one explains a missing one.
-    details = sorted(error.errors(include_url=False), key=lambda item: item["type"] != "extra_forbidden")
+    details = sorted(_own_faults(error.errors(include_url=False)), key=lambda item: item["type"] != "extra_forbidden")
     items = [_complaint(item, model) for item in details[:MAX_COMPLAINTS]]
     short = [(key, message.partition("; known here")[0]) for key, message in items[1:]]
     rest = "".join(f"\n  {key}: {message}" if key else f"\n  {message}" for key, message in short)
     more = f"\n  ... and {len(details) - MAX_COMPLAINTS} more" if len(details) > MAX_COMPLAINTS else ""
     missing = any(isinstance(item.get("ctx", {}).get("error"), MissingFile) for item in details)
     return (MissingFile if missing else SpecError)(items[0][1] + rest + more, key=items[0][0] or None)
+
+
+def _own_faults(items: Sequence[ErrorDetails]) -> list[ErrorDetails]:
+    """The errors without those of lists that are too short only because their entries are wrong: pydantic counts the good ones."""
+    places = [item["loc"] for item in items]
+
+    def has_wrong_entry(own):
+        return any(len(place) > len(own) and place[: len(own)] == own for place in places)
+
+    return [item for item in items if item["type"] != "too_short" or not has_wrong_entry(item["loc"])]
 
 
 def number_text(value: Any, field: Any) -> str:

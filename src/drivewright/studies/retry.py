@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,10 +12,13 @@ from numpy.typing import NDArray
 from drivewright._typing import Ints
 from drivewright.errors import InputError, brief
 from drivewright.execution.case_table import CASE, STATUS
+from drivewright.result import SpecT
+from drivewright.spec import load
 from drivewright.studies.parts import Part
 from drivewright.studies.plan import Plan
 from drivewright.studies.store import joined
 from drivewright.studies.study_folder import Folder
+from drivewright.studies.study_reading import SPEC
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -29,6 +33,11 @@ def statuses_to_retry(retry: str | None) -> tuple[str, ...]:
     if retry not in RETRIES:
         raise InputError(f"--retry {brief(retry)} names no cases; take {' or '.join(RETRIES)}")
     return RETRIES[retry]
+
+
+def with_plan_of(spec: SpecT, folder: str | Path) -> SpecT:
+    """A spec without a [study] with that of the study in a folder, so that a retry need not say again what varies."""
+    return spec if spec.study is not None else spec.model_copy(update={"study": load(Path(folder) / SPEC).study})
 
 
 class Chosen:
@@ -64,6 +73,7 @@ class Retry:
         self._rows: dict[Part, list[pa.Table]] = {part: [] for part in self._missing}
         self._seconds = dict.fromkeys(self._missing, 0.0)
         self._complete = self._written = 0
+        self._partial = sum(_count(kept.part_rows(part), "partial") for part in kept.parts()) if not self._missing else 0
         self.cases = Chosen(plan, np.array(sorted(number for numbers in self._missing.values() for number in numbers), dtype=np.int64))
 
     def add(self, first: int, table: pa.Table, seconds: float) -> None:
@@ -85,18 +95,23 @@ class Retry:
         rows = joined(self._rows.pop(part))
         self._kept.rewrite(part, merged(self._kept.part_rows(part), rows), self._seconds[part])
         self._written += rows.num_rows
-        self._complete += rows[STATUS].to_pylist().count("complete")
+        self._complete += _count(rows, "complete")
         del self._missing[part]
 
     def outcome(self) -> str:
         """What became of the chosen cases, in a sentence."""
         had, are = ("is incomplete", "that were incomplete") if "partial" in self._statuses else ("has failed", "that had failed")
         if not len(self.cases):
-            return f"no case of this study {had}, so none is computed once more"
+            partial = f": 0 failed, {self._partial} partial, which --retry incomplete computes once more" if self._partial else ""
+            return f"no case of this study {had}, so none is computed once more{partial}"
         cases = "case" if len(self.cases) == 1 else "cases"
         told = f"{self._written} of {len(self.cases)} {cases} {are}: computed once more, {self._complete} complete now"
         left = len(self.cases) - self._written
         return f"{told}; the same command computes the other {left}" if left else told
+
+
+def _count(table: pa.Table, status: str) -> int:
+    return table[STATUS].to_pylist().count(status)
 
 
 def _numbers(table: pa.Table, statuses: tuple[str, ...]) -> list[int]:

@@ -25,7 +25,7 @@ def describe_differences(spec_file: str | Path, spec: MechanismSpec, known: Mapp
 
 def _row(name, there, here):
     if all(isinstance(each.get(name), str) and Path(each[name]).is_file() for each in (there, here)):
-        return f"{name}: the content of the file is not that of the study's copy"
+        return f"{name}: the content of the file is not that of the study's copy; a study keeps one content, also where a file was repaired"
     return f"{name}: {there.get(name, 'not given')} there, {here.get(name, 'not given')} here"
 
 

@@ -18,7 +18,7 @@ from drivewright.spec import MechanismSpec
 from drivewright.spec.serialisation import canonical_text
 from drivewright.studies.parts import damage_text
 from drivewright.studies.plan import Plan, make_plan
-from drivewright.studies.retry import Retry, statuses_to_retry
+from drivewright.studies.retry import Retry, statuses_to_retry, with_plan_of
 from drivewright.studies.store import Memory, Store
 from drivewright.studies.study import Study
 from drivewright.studies.study_folder import Folder
@@ -51,13 +51,13 @@ def sweep(
     what is there, `interrupted`.
 
     `retry` "failed" computes the cases of a study in `out` once more that have failed, "incomplete" the partial ones too, and then what is
-    not there yet; all other rows stay.  A notice says what became of them.
+    not there yet; all other rows stay.  A spec without a [study] takes that of the folder.  A notice says what became of them.
     """
     spec = spec if vary is None else with_variation(spec, vary)
     check_location(workers, on)
     statuses = statuses_to_retry(retry)
     if statuses:
-        _refuse_nothing(out)
+        spec = with_plan_of(spec, _with_study(out))
     plan = make_plan(spec)
     if len(plan) > MANY and not confirmed:
         raise InputError(f"{len(plan)} cases are more than {MANY}; say --yes if you mean it, or take fewer levels or samples")
@@ -74,10 +74,11 @@ def sweep(
         return replace(study, notices=(*study.notices, again.outcome()))
 
 
-def _refuse_nothing(folder: str | Path | None) -> None:
-    """InputError where there is no study whose cases could be computed once more."""
+def _with_study(folder: str | Path | None) -> str | Path:
+    """The folder; InputError where there is no study in it whose cases could be computed once more."""
     if folder is None or not is_study(folder):
         raise InputError(f"{folder or 'a study in memory'}: holds no study yet, so it has no case to retry; leave --retry out to begin it")
+    return folder
 
 
 def compute_study(

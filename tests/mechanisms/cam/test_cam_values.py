@@ -210,7 +210,7 @@ def test_jumps_of_the_parabolic_law():
     # In the middle of the rise the acceleration jumps from its peak to the opposite one.
     assert result.check("continuity.acceleration").value == pytest.approx(2.0, rel=1e-12)
     assert not result.check("continuity.acceleration").ok
-    assert any("jerk are infinite" in finding for finding in result.findings)
+    assert any("jerk is infinite" in finding for finding in result.findings)
     assert result["max_acceleration"] == pytest.approx(4 * 0.01 / (2 * np.pi / 3) ** 2 * TURN**2, rel=1e-12)
 
 

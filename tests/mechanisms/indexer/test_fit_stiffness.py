@@ -167,7 +167,7 @@ def test_positions_of_the_crank_and_the_model_beside_them(fit, bench):
 
 
 def test_errors_of_several_positions_are_independent():
-    found = estimate_values("k", "stiffness", [Estimate(10.0, 1.0, 8.0, 13.0), Estimate(14.0, 1.0, 12.0, 17.0)] * 2, 0.9)
+    found = estimate_values("k", "k", "stiffness", [Estimate(10.0, 1.0, 8.0, 13.0), Estimate(14.0, 1.0, 12.0, 17.0)] * 2, 0.9)
     numbers = {name: value.value for name, value in found.items()}
     assert numbers == pytest.approx({"k": 12.0, "k.uncertainty": 0.5, "k.low": 11.0, "k.high": 13.5})
     assert "90 % interval" in found["k.low"].meaning and "mean of 4 positions" in found["k"].meaning
@@ -175,10 +175,10 @@ def test_errors_of_several_positions_are_independent():
 
 def test_a_stiffness_carries_its_interval_of_95_percent():
     estimates = [Estimate(10.0, 1.0, 8.0, 13.0)]
-    found = estimate_values("k", "stiffness", estimates, 0.95)
+    found = estimate_values("k", "k", "stiffness", estimates, 0.95)
     assert (found["k"].low, found["k"].high, found["k"].interval) == (8.0, 13.0, "fit")
     assert (found["k.low"].value, found["k.high"].value) == (8.0, 13.0)
-    assert estimate_values("k", "stiffness", estimates, 0.9)["k"].interval == ""
+    assert estimate_values("k", "k", "stiffness", estimates, 0.9)["k"].interval == ""
 
 
 @pytest.mark.parametrize(
@@ -187,7 +187,7 @@ def test_a_stiffness_carries_its_interval_of_95_percent():
         (["--rated-torque", "1000"], '--rated-torque: a bare number; a torque wants its unit, e.g. "1000 N m"'),
         (["--rated-torque", "1000 N m/rad"], "--rated-torque: wants a torque, got '1000 N m/rad' (rotational stiffness); write N m"),
         (["--rated-torque", "0 N m"], "--rated-torque: must be greater than 0"),
-        (["--support-uncertainty", "1 N m/rad"], "--support-uncertainty: is the uncertainty of a stiffness that is not given"),
+        (["--support-uncertainty", "1 N m/rad"], "--support-uncertainty: needs support_stiffness, whose uncertainty it is"),
         (["--support-stiffness", "1e5 N m/rad"], "series correction: 1/k = 1/300000 - 1/100000 rad/(N m) = -6.67e-06 is not positive"),
         (["--confidence", "1"], "--confidence: must be less than 1"),
         (["--arm", "1 m"], "the load is a torque already"),

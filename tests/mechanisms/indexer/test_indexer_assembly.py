@@ -1,5 +1,6 @@
 """The analysis `assembly` of an indexer, and its option of elastic bodies."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -37,7 +38,7 @@ def test_it_runs_on_request_only():
     ("given", "reason"),
     [
         (lambda: spec("load.torque="), "load.torque is not given"),
-        (lambda: spec(*UNSIZED), "no body has a size: crank_bearings.bearing tells the holes of the cams and the crank pins"),
+        (lambda: spec(*UNSIZED), "no body has a size: give crank_bearings.bearing, which sets the holes of the cams and the crank pins"),
         (lambda: dw.load(PRESETS["barrel"]), "kind 'barrel' has no cams on cranks"),
     ],
 )
@@ -83,6 +84,30 @@ def test_with_bodies_of_the_lumped_model_it_adds_nothing():
     assert answer.values["assembly.undefined_fraction"].value == pytest.approx(2 / 9)
 
 
+APART = (("stations=6",), ("stations=4", "pin_phase=0.3"), ("pins=24", "stations=8", "cams=3", 'pin_radius="4 mm"'))
+
+
+@pytest.mark.parametrize("changes", APART)
+def test_with_stations_apart_from_pins_the_same_bodies_add_nothing(monkeypatch, changes):
+    """Every pin of every cam stands where the lumped model has it, whatever the number of pins that a step passes."""
+    monkeypatch.setattr(IndexerModel, "solids", solid.Solids())
+    loaded = assembly.load(build(spec(*changes)), positions=5)
+    for model in ("unilateral", "bonded"):
+        assert np.isfinite(loaded.solids[model].secant).any()
+        assert loaded.solids[model].secant == pytest.approx(loaded.lumped[model].secant, rel=1e-6, nan_ok=True)
+
+
+def test_pins_of_the_lumped_model_are_told_to_yield_as_they_do():
+    """Pins that stick close no gap and yield (F/K_l)^0.9 + F/k; put into the wheel's share, sum F^2/(k T^2) gives k back."""
+    _, loaded, answer = rigid_assembly()
+    own, line = loaded.solids["bonded"], 8.06e10 * spec().cam_width ** (8 / 9)
+    dents = np.array([np.sum(np.abs(forces) ** 1.9) for forces in own.pin_forces]) / line**0.9
+    series = own.shares["pin"] - dents / own.torque**2
+    moved = replace(own, shares=own.shares | {"wheel": series})
+    assert tables.equivalent_pin_stiffness(moved) == pytest.approx(spec().contact.pin_stiffness, rel=1e-6)
+    assert np.isnan(tables.equivalent_pin_stiffness(own)) and not any("yield like" in text for text in answer.findings)
+
+
 def test_shares_add_up():
     _, loaded, answer = rigid_assembly()
     own = loaded.solids["unilateral"]
@@ -124,6 +149,8 @@ def test_the_prototype():
     assert result["assembly.stiffness.minimum"] < result["assembly.stiffness.mean"] < result["assembly.bonded.stiffness.mean"]
     assert sum(result[f"assembly.added.{name}"] for name in tables.BODIES) == pytest.approx(1.0, rel=1e-9)
     assert result["assembly.added.cam"] > 0.3 and abs(result["assembly.added.gear"]) < 0.02
+    (told,) = [text for text in result.findings if "yield like contact.pin_stiffness" in text]
+    assert told.endswith("the lumped model has 5e+08 N/m")
     for body in ("cam", "shaft", "wheel"):
         moved = result.tables[f"assembly_{body}"]["displacement"].data
         assert 1e-5 < moved.max() < 1e-3 and len(moved) % 3 == 0

@@ -72,8 +72,8 @@ def test_ratings_of_the_motor_are_checked():
 
 
 def test_table_that_asks_for_more_than_the_judged_torque_is_told():
-    assert any("the table asks up to" in each for each in run("globoidal", *TABLE, "load.torque=20 N m").findings)
-    assert not any("the table asks up to" in each for each in run("globoidal", *TABLE).findings)
+    assert any("the table needs up to" in each for each in run("globoidal", *TABLE, "load.torque=20 N m").findings)
+    assert not any("the table needs up to" in each for each in run("globoidal", *TABLE).findings)
 
 
 @pytest.mark.parametrize(

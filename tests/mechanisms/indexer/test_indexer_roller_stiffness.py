@@ -6,7 +6,10 @@ import numpy as np
 import pytest
 
 import drivewright as dw
+from drivewright import contact
 from drivewright.errors import SpecError
+from drivewright.indexing.pin_pressure import WIDEST, largest_approach, relative_width
+from drivewright.mechanisms.indexer.stress import PRESSURES
 
 pytestmark = pytest.mark.interface
 
@@ -94,7 +97,7 @@ def test_gears_that_are_not_given_neither_yield_nor_have_play():
     assert np.nanmax(with_gear.tables["stiffness"]["gear"].data) > 0
     assert np.nanmax(np.abs(without.tables["stiffness"]["gear"].data)) == 0.0
     assert without["stiffness.mean"] > with_gear["stiffness.mean"]
-    words = "[gear] is not given: the split shafts are held where their gears would sit"
+    words = "[gear] is not given: the split shafts are held at the gear positions"
     assert any(words in each for each in without.findings) and not any(words in each for each in with_gear.findings)
 
 
@@ -102,7 +105,7 @@ def test_gears_that_are_not_given_neither_yield_nor_have_play():
 @pytest.mark.parametrize(
     ("kind", "change", "key", "words"),
     [
-        ("parallel", "housing.support_stiffness=1e9 N/m", "housing.support_stiffness", "take cam_stiffness for the bearings of its cam"),
+        ("parallel", "housing.support_stiffness=1e9 N/m", "housing.support_stiffness", "give cam_stiffness for the bearings of its cam"),
         ("default", "housing.cam_stiffness=1e9 N/m", "housing.cam_stiffness", "is for parallel, barrel and globoidal"),
         ("default", "housing.input_torsion=1e5 N m/rad", "housing.input_torsion", "is for parallel, barrel and globoidal"),
         ("default", "contact.interference=5 um", "contact.interference", "is for parallel, barrel and globoidal"),
@@ -118,5 +121,69 @@ def test_keys_of_other_kinds_are_refused(kind, change, key, words):
 
 @pytest.mark.error
 def test_contacts_that_stick_have_no_interference():
-    with pytest.raises(SpecError, match="contacts that stick need none"):
+    with pytest.raises(SpecError, match="bonded contacts need no interference"):
         dw.build(load("parallel", "contact.interference=5 um", "contact.model=bonded"))
+
+
+@pytest.mark.property
+@pytest.mark.parametrize("change", ["contact.interference=0 um", "contact.interference=20 um"])
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_check_of_the_pressure_takes_the_largest_that_the_run_knows(kind, change):
+    """Of statics, of the load shared by stiffness and of the dwell; an interference presses rollers by far more than the torque does."""
+    found = run(kind, *LOAD, change, only=("stress", "stiffness"))
+    known = {name: found[name] for name in PRESSURES if name in found.values}
+    (check,) = [each for each in found.checks if each.name == "contact_pressure"]
+    assert check.value == max(known.values()) and known[next(name for name in known if PRESSURES[name] == check.message)] == check.value
+    if "20 um" in change:
+        assert known["shared.max_pressure"] > 1.5 * known["pins.max_pressure"] and not check.ok
+
+
+@pytest.mark.property
+def test_the_pressure_in_the_dwell_counts_for_cams_on_cranks():
+    found = run("default", only=("stiffness",))
+    (check,) = [each for each in found.checks if each.name == "contact_pressure"]
+    assert check.value == max(found["pins.max_pressure"], found["dwell.pins.max_pressure"])
+
+
+@pytest.mark.analytical
+def test_interference_alone_presses_opposed_rollers_by_the_law_of_the_contact():
+    """In the dwell two rollers hold the cam between them; all else is rigid, and next to no torque is on the wheel.  The interference d
+    is then the approach of either line contact: F = K_l d^(10/9), p0 = sqrt(F E*/(pi L R))."""
+    found = run("globoidal", "load.torque=1 N m", "contact.interference=5 um", "load.angle=300 deg")
+    table = found.tables["shared_forces"]
+    force = 8.06e10 * table["length"].data ** (8 / 9) * 5e-6 ** (10 / 9)
+    np.testing.assert_allclose(table["force"].data, force, rtol=0.02)
+    assert len(set(table["cam"].data)) == 2
+
+
+def test_statics_alone_do_not_judge_an_interference():
+    found = run("globoidal", *LOAD, "contact.interference=5 um", only=("stress",))
+    assert not [each for each in found.checks if each.name == "contact_pressure"]
+    assert any("contact_pressure is not checked" in each and "contact.interference" in each for each in found.findings)
+    assert "contact_pressure" in [each.name for each in run("globoidal", *LOAD, only=("stress",)).checks]
+
+
+def test_a_contact_wider_than_theory_holds_is_told():
+    found = run("globoidal", *LOAD, "contact.interference=150 um", only=("stress", "stiffness"))
+    (finding,) = [each for each in found.findings if "Hertz's theory holds up to" in each]
+    assert finding.startswith("shared.max_pressure = ") and not found.ok
+    assert not any("Hertz's theory holds up to" in each for each in run("globoidal", *LOAD, only=("stress", "stiffness")).findings)
+
+
+@pytest.mark.error
+def test_an_interference_beyond_contact_theory_is_refused():
+    with pytest.raises(SpecError, match=r"1 mm is 8\.\d+ % of the roller's radius; beyond 0\.\d+ mm .*try \"5 um\"") as told:
+        dw.build(load("globoidal", "contact.interference=1 mm"))
+    assert told.value.key == "contact.interference"
+
+
+@pytest.mark.analytical
+def test_the_largest_approach_is_that_of_two_cylinders():
+    """Twice the compression of a cylinder whose line contact is a tenth of the radius wide, of any modulus."""
+    radius, modulus, poisson = 0.012, 210e9, 0.3
+    effective = modulus / (2 * (1 - poisson**2))
+    force = np.pi * effective * (WIDEST * radius) ** 2 / (4 * radius)
+    made = contact.line_contact(force, 1.0, radius, effective)
+    assert made.half_width == pytest.approx(WIDEST * radius) and relative_width(made.pressure, effective) == pytest.approx(WIDEST)
+    each = contact.cylinder_compression(force, 1.0, made.half_width, radius, modulus, poisson)
+    assert largest_approach(radius) == pytest.approx(2 * each, rel=1e-12)

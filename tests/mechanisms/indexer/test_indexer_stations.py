@@ -148,9 +148,13 @@ def without_ratio(*changes):
 @pytest.mark.parametrize(
     ("changes", "key", "words"),
     [
-        (("stations=5",), "stations", "stations = 5 do not divide pins = 8: .* pass 1.6 pins.*Take 5 or 10 pins, or stations from 1, 2"),
-        (("pin_phase=1.3",), "pin_phase", "1.3: the place of a pin in the dwell is from 0 to below 1 pitch.*0.3 is the same place"),
-        (("pin_phase=-0.25",), "pin_phase", "0.75 is the same place"),
+        (("stations=5",), "stations", "stations = 5 does not divide pins = 8: .* pass 1.6 pins.*Take 5 or 10 pins, or stations from 1, 2"),
+        (
+            ("pin_phase=1.3",),
+            "pin_phase",
+            "1.3 is out of range; the position of a pin in the dwell is from 0 to below 1 pitch.*0.3 is the same position",
+        ),
+        (("pin_phase=-0.25",), "pin_phase", "0.75 is the same position"),
         (("motion.law=spline",), "motion.points", "is missing: law = 'spline' needs it"),
         (("motion.points=[[0, 0], [0.4, 0.5], [1, 1]]",), "motion.points", "is for law = 'spline'; the law is 'modified-sine'"),
         (("motion.degree=3",), "motion.degree", "is for law = 'table' or 'spline'"),
@@ -167,7 +171,7 @@ def test_what_cannot_be_is_refused_by_key(changes, key, words):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda text: text.replace("lift [deg]", "lift [mm]"), "lift in its table is a length"),
+        (lambda text: text.replace("lift [deg]", "lift [mm]"), "lift in the table is a length"),
         (lambda text: text.replace("180,45", "180,40"), "ends at 40 deg, but a step of 8 stations is 45 deg"),
         (lambda text: text.replace("180,45", "400,45"), "ends at an input angle of 400 deg"),
         (lambda text: "\n".join([text.split("\n")[0], "0,0.5", *text.split("\n")[2:]]), "starts at 0.5 deg"),

@@ -28,7 +28,10 @@ def parallel(pins=8, circle=0.06, pin=9e-3, distance=0.085):
         (wheel(pins=2), "pins = 2: a wheel needs at least 3 pins"),
         (wheel(eccentricity=0.115), "eccentricity + pin_radius = 123 mm reaches the middle of the pin circle of radius 120 mm"),
         (parallel(pin=0.025), "pin_radius = 25 mm: the pins overlap, their centres are 45.92 mm apart. Take less than 22.96 mm"),
-        (parallel(distance=0.065), "centre_distance = 65 mm: the rollers reach 69 mm from the wheel's axis and sweep that of the cams"),
+        (
+            parallel(distance=0.065),
+            "centre_distance = 65 mm: the rollers reach 69 mm from the wheel's axis and sweep over the axis of the cams",
+        ),
         (parallel(distance=0.03), "Take more than 69 mm"),
     ],
 )

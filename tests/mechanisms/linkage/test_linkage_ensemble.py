@@ -77,7 +77,7 @@ def test_a_statistic_without_rest_is_told_and_is_no_headline():
     found = slider('joints.wrist.clearance="0.1 mm"', "simulate.turns=3", "simulate.discard=1", "simulate.ensemble=2")
     assert not check(found, "settled").ok
     assert not found.values["slider.turn_peak_mean"].settled
-    assert any(finding.startswith("not settled, and so no headline values: slider.") for finding in found.findings)
+    assert any(finding.startswith("not settled, therefore not among the headline values: slider.") for finding in found.findings)
 
 
 def test_the_exponent_has_an_interval():

@@ -55,8 +55,8 @@ CASES = [
     ("bodies.crank.points.A", ["40 mm", "0 kg"], "bodies.crank.points.A.1", "wants a length, got '0 kg' (mass)"),
     ("bodies.crank.points.A", ["40 mm"], "bodies.crank.points.A.1", "is missing"),
     ("bodies.crank.mas", "1 kg", "bodies.crank.mas", "unknown key (did you mean 'mass'?)"),
-    ("bodies.crank.points.centroid", ["0 mm", "0 mm"], "bodies.crank.points.centroid", "every body has a point of this name"),
-    ("bodies.ground", {}, "bodies.ground", "kept for what stands still"),
+    ("bodies.crank.points.centroid", ["0 mm", "0 mm"], "bodies.crank.points.centroid", "every body already has this point"),
+    ("bodies.ground", {}, "bodies.ground", "reserved for the fixed frame"),
     ("bodies.two words", {}, 'bodies."two words"', "is no name here"),
     ("bodies", {}, "bodies", "must have at least 1 entries, got 0"),
     ("bodies", 7, "bodies", "must be a table, got 7"),
@@ -68,23 +68,28 @@ CASES = [
     ("joints.A.connects", ["crank.A", "coupler"], "joints.A.connects.1", 'no point of it; write e.g. "coupler.A"'),
     ("joints.A.connects", ["crank.A", "crank.O2"], "joints.A.connects", "connects 'crank' with itself"),
     ("joints.A.connects", ["ground.O2", "ground.O4"], "joints.A.connects", "connects 'ground' with itself"),
-    ("joints.A.name", "B", "joints.2.name", "'B' is there twice among joints"),
+    ("joints.A.name", "B", "joints.2.name", "two joints are called 'B'"),
     ("joints.A.name", "B.1", "joints.1.name", "'B.1' is no name here: letters, digits, _ and - only"),
     ("joints.A.kind", "revolut", "joints.1.kind", "(did you mean 'revolute'?)"),
     ("joints.A.axis", [0, 1], "joints.A.axis", "a revolute joint has no axis in the plane"),
-    ("joints.A.axis", [0, 0], "joints.A.axis", "points nowhere"),
-    ("joints.B.kind", "prismatic", "joints.B.model", "a prismatic joint has no model 'dry'"),
-    ("joints.A.kind", "gear", "joints.A.connects.0", "wants a body only, got 'crank.A'; write 'crank'"),
-    ("joints.A.kind", "rolling", "joints.A.radius", "is missing: 'rolling' wants it (rolling: of the wheel)"),
-    ("joints.A.model", "massless-link", "joints.A.clearance", "is missing: 'massless-link' wants it (play: radius of the bearing less"),
-    ("joints.A.model", "bushing", "joints.A.stiffness", "is missing: 'bushing' wants it"),
+    ("joints.A.axis", [0, 0], "joints.A.axis", "[0, 0] has no direction"),
+    ("joints.B.kind", "prismatic", "joints.B.model", "a prismatic joint cannot have model 'dry'"),
+    ("joints.A.kind", "gear", "joints.A.connects.0", "must be a body without a point, got 'crank.A'; write 'crank'"),
+    ("joints.A.kind", "rolling", "joints.A.radius", "is missing: 'rolling' requires it (rolling: radius of the wheel)"),
+    (
+        "joints.A.model",
+        "massless-link",
+        "joints.A.clearance",
+        "is missing: 'massless-link' requires it (radial clearance: bearing radius minus",
+    ),
+    ("joints.A.model", "bushing", "joints.A.stiffness", "is missing: 'bushing' requires it"),
     ("joints.B.restitution", 0, "joints.2.restitution", "must be greater than 0, got 0"),
     ("joints.B.restitution", 1.01, "joints.2.restitution", "must be at most 1, got 1.01"),
     ("joints.B.friction", -0.1, "joints.2.friction", "must be at least 0, got -0.1"),
     ("joints.B.friction_law", "ambrosia", "joints.2.friction_law", "did you mean 'ambrosio'"),
     ("joints.B.normal", "flores", "joints.2.normal", "did you mean 'flores-2011'"),
-    ("joints.B.normal", "kelvin-voigt", "joints.B.stiffness", "wants a linear stiffness of the contact"),
-    ("joints.B.clearance", "10 mm", "joints.B.clearance", "10 mm leaves no journal in a bearing of radius 10 mm"),
+    ("joints.B.normal", "kelvin-voigt", "joints.B.stiffness", "requires a linear contact stiffness"),
+    ("joints.B.clearance", "10 mm", "joints.B.clearance", "10 mm must be less than the bearing radius, 10 mm"),
     (
         "joints.B.link_damping",
         "0.1 N s/rad",
@@ -95,10 +100,10 @@ CASES = [
     ("joints.B.viscosity", "40 mm^2/s", "joints.2.viscosity", "wants a viscosity, got '40 mm^2/s' (kinematic viscosity); write Pa s"),
     ("joints.B.diametral_clearance", "0.2 mm", "joints.2.diametral_clearance", "unknown key; known here: name, kind, "),
     ("drive.joint", "o4", "drive.joint", "no joint is called 'o4' (did you mean 'O4'?); there are: O2, A, B, O4"),
-    ("drive.speed", "0 rpm", "drive.speed", "never turns"),
+    ("drive.speed", "0 rpm", "drive.speed", "must not be 0"),
     ("drive.speed", "5 1/s", "drive.speed", "a frequency counts events"),
-    ("drive", {"joint": "O2"}, "drive.speed", "give one of speed, profile and motor, got none"),
-    ("simulate.discard", 6, "simulate.discard", "6 turns are all of the run of 6"),
+    ("drive", {"joint": "O2"}, "drive.speed", "give exactly one of speed, profile and motor, got none"),
+    ("simulate.discard", 6, "simulate.discard", "6 turns must be fewer than those of the run, 6"),
     ("simulate", {}, "simulate.turns", 'is missing: give turns, or duration = "0.5 s"'),
     ("outputs.0.body", "rockre", "outputs.swing.body", "no body is called 'rockre' (did you mean 'rocker'?)"),
     ("outputs.0.point", "A", "outputs.swing.point", "no point of 'rocker' is called 'A'"),
@@ -107,8 +112,8 @@ CASES = [
     ("wear", {"joint": "X", "cycles": 10}, "wear.joint", "no joint is called 'X'"),
     ("springs", [{"connects": ["rocker.B", "ground.C"]}], "springs.0.connects.1", "no point of 'ground' is called 'C'"),
     ("springs", [{"connects": ["rocker.B", "ground.O2"], "stiffness": "1 N m/rad"}], "springs.0.stiffness", "wants a stiffness"),
-    ("torques", [{"body": "rocker", "on": "rocker", "torque": "1 N m"}], "torques.0.on", "acts on 'rocker' from 'rocker' itself"),
-    ("torques", [{"body": "rocker", "name": "load"}], "torques.load.torque", "give either torque or file"),
+    ("torques", [{"body": "rocker", "on": "rocker", "torque": "1 N m"}], "torques.0.on", "body and reaction body are both 'rocker'"),
+    ("torques", [{"body": "rocker", "name": "load"}], "torques.load.torque", "give torque or file, exactly one of them"),
     ("torques", [{"body": "ground", "torque": "1 N m"}], "torques.0.body", "no body is called 'ground'"),
     ("forces", [{"body": "rocker", "point": "C", "force": ["1 N", "0 N"]}], "forces.0.point", "no point of 'rocker' is called 'C'"),
     ("rotational_springs", [{"body": "rocker", "damping": "0.1 N s/rad"}], "rotational_springs.0.damping", "write N m s/rad"),
@@ -132,7 +137,7 @@ def test_a_pivot_inertia_below_the_mass_s_own_share_is_refused():
 
 def test_a_link_of_zero_length_is_refused_and_a_block_on_a_slide_is_not():
     key, message = complaint(("bodies.coupler.points.B", ["0 mm", "0 mm"]))
-    assert key == "bodies.coupler.points" and "'A' and 'B' are at one place: a link of zero length" in message
+    assert key == "bodies.coupler.points" and "joints 'A' and 'B' are at the same point, so this link has zero length" in message
     assert spec_with(("bodies.coupler.points.B", ["0 mm", "0 mm"]), ("joints.A.kind", "prismatic"))
 
 
@@ -154,7 +159,7 @@ def test_turns_want_a_constant_speed(tmp_path):
     (tmp_path / "motor.csv").write_text("speed [rpm],torque [N m]\n0,5\n3000,0\n")
     motor = ("drive", {"joint": "O2", "motor": "motor.csv"})
     key, message = complaint(motor, folder=tmp_path)
-    assert key == "simulate.turns" and "wants a drive at constant speed" in message and "give duration instead" in message
+    assert key == "simulate.turns" and "requires a drive at constant speed" in message and "give duration instead" in message
     key, message = complaint(motor, ("simulate", {"duration": "1 s", "discard": 1}), folder=tmp_path)
     assert key == "simulate.discard" and "leave it out" in message
     timed = ("simulate", {"duration": "1 s"})
@@ -170,7 +175,7 @@ def test_speed_and_motor_together_or_on_a_slide_are_refused(tmp_path):
     key, message = complaint(("joints.O2.kind", "prismatic"))
     assert key == "drive.speed" and "give a profile of its travel" in message
     key, message = complaint(("joints.O2.kind", "pin-slot"))
-    assert key == "drive.speed" and "is a pin in a slot: give a profile" in message
+    assert key == "drive.speed" and "is a pin-slot joint: give a profile" in message
     key, message = complaint(("joints.O2.kind", "rolling"), ("joints.O2.radius", "30 mm"))
     assert key == "drive.joint" and "is a rolling joint" in message
 
@@ -197,8 +202,8 @@ SWEEP = {"over": "joints.B.clearance", "start": "0.01 mm", "stop": "0.5 mm", "ou
     [
         ({"over": "joints.C.clearance"}, "bifurcation.over", "no joint is called 'C'"),
         ({"over": "bodies.crnk.mass"}, "bifurcation.over", "no body is called 'crnk' (did you mean 'crank'?)"),
-        ({"over": "joints.B.clerance"}, "bifurcation.over", "is no key of this spec"),
-        ({"turns": 200}, "bifurcation.discard", "200 turns are all of the 200"),
+        ({"over": "joints.B.clerance"}, "bifurcation.over", "is not a key of this spec"),
+        ({"turns": 200}, "bifurcation.discard", "200 turns must be fewer than those of a run, 200"),
         ({"steps": 1}, "bifurcation.steps", "must be at least 2"),
         ({"output": "swnig"}, "bifurcation.output", "did you mean 'swing'"),
     ],
@@ -241,4 +246,4 @@ def test_a_lift_must_run_over_a_turn(tmp_path):
     cam = [("joints.A.kind", "cam"), ("joints.A.connects", ["crank", "coupler.A"]), ("joints.A.lift", "lift.csv")]
     rows = "".join(f"{angle},{angle * (180 - angle) / 1000}\n" for angle in range(0, 181, 20))
     (tmp_path / "lift.csv").write_text("angle [deg],lift [mm]\n" + rows)
-    assert "the angle runs over 180 deg; a cam's lift is given over 360 deg" in complaint(*cam, folder=tmp_path)[1]
+    assert "the angle covers 180 deg; give the cam's lift over 360 deg" in complaint(*cam, folder=tmp_path)[1]

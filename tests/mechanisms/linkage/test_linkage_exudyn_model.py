@@ -246,8 +246,8 @@ def test_friction_has_its_arm():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"offset": 0.0}, r"'wrist' starts 0 m off centre with a play of 0.0005 m"),
-        ({"offset": -6e-4}, r"'wrist' starts 0.0006 m off centre .* half the play"),
+        ({"offset": 0.0}, r"'wrist' starts 0 m off centre with a clearance of 0.0005 m"),
+        ({"offset": -6e-4}, r"'wrist' starts 0.0006 m off centre .* half the clearance"),
         ({"hysteresis": 1.6}, r"'wrist' has a hysteresis of 1.6; .* below 1.5"),
         ({"cylinder": True}, r"'wrist' has the cylinder law"),
         ({"friction": Friction("coulomb", 0.1)}, r"'wrist' has friction 'coulomb' with a dead speed of 0 m/s.*'ambrosio'"),
@@ -270,7 +270,7 @@ def test_the_distance_off_centre_knows_how_bodies_stand():
     ("part", "message"),
     [
         ({"joints": (Revolute("pin", Marker("a"), Marker(GROUND), MasslessLink(1e-4)),)}, r"joint 'pin' is a MasslessLink"),
-        ({"joints": (Gear("mesh", "a", "b", -2.0),)}, r"no Gear \('mesh'\)"),
+        ({"joints": (Gear("mesh", "a", "b", -2.0),)}, r"does not support Gear \('mesh'\)"),
         ({"forces": (AppliedTorque("motor", "a", LoadCurve(line(1.0, 2.0), "speed")),)}, r"'motor' is not constant"),
         (
             {

@@ -349,7 +349,7 @@ def test_solids_are_the_plates_at_the_start_one_above_the_other(drawn):
 
 def test_holes_that_meet_are_refused():
     spec = dw.load(EXAMPLES / "slider_crank_clearance.toml", ["joints.wrist.bearing_radius=115 mm"])
-    told = r"link plate 'rod': its holes meet: radii of 5 and 115 mm at a distance of 120 mm.*smaller bearing_radius"
+    told = r"link plate 'rod': two holes overlap: radii of 5 and 115 mm at a distance of 120 mm.*smaller bearing_radius"
     with pytest.raises(InputError, match=told):
         LINKAGE.drawings(build(spec))
 

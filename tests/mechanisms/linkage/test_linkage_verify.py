@@ -73,7 +73,7 @@ def test_a_wrong_acceleration_leaves_newton_and_euler_unsatisfied():
     seen = list(independent_check._observed_states(bar))
     assert differing(independent_check._newton_euler(bar, seen)) == []
     wrong = [(system, observed._replace(bodies=observed.bodies * np.where(np.arange(12) == 8, 1 + 1e-4, 1))) for system, observed in seen]
-    assert "Newton and Euler for every body: largest remainder, over the largest force" in differing(
+    assert "Newton-Euler equations: maximum residual, relative to the largest force" in differing(
         independent_check._newton_euler(bar, wrong)
     )
 
@@ -84,7 +84,7 @@ def test_a_joint_that_gapes_is_noticed():
         (system, observed._replace(bodies=observed.bodies + 1e-6 * (np.arange(12) == 2) * (np.arange(4) == 2)[:, None]))
         for system, observed in independent_check._observed_states(bar)
     ]
-    assert differing(independent_check._closed_joints(bar, seen)) == ["joints without play, revolute: largest gap"]
+    assert differing(independent_check._closed_joints(bar, seen)) == ["ideal joints, revolute: maximum gap"]
 
 
 @pytest.mark.needs_peers
@@ -98,9 +98,9 @@ def test_exudyn_notices_another_restitution():
 @pytest.mark.parametrize(
     ("change", "missing"),
     [
-        ('joints.wrist.model="massless-link"', "the law of a joint with play"),
-        ("joints.wrist.friction=0.1", "the law of a joint with play"),
-        ('joints.wrist.normal="cylinder"', "the law of a joint with play"),
+        ('joints.wrist.model="massless-link"', "the law of a joint with clearance"),
+        ("joints.wrist.friction=0.1", "the law of a joint with clearance"),
+        ('joints.wrist.normal="cylinder"', "the law of a joint with clearance"),
         ('bodies.crank.inertia="0 kg m^2"', "bodies without mass or inertia"),
     ],
 )
@@ -108,7 +108,7 @@ def test_what_exudyn_does_not_know_is_left_out_with_the_reason(change, missing):
     assert independent_check._missing_in_exudyn(model("slider_crank_clearance")) == ""
     assert independent_check._missing_in_exudyn(model("slider_crank_clearance", change)) == missing
     (left,) = independent_check._exudyn_rows(model("slider_crank_clearance", change))
-    assert left == ("the linkage in Exudyn", f"its model in Exudyn does not know {missing}", "")
+    assert left == ("the linkage in Exudyn", f"its Exudyn model does not support {missing}", "")
 
 
 def test_without_exudyn_its_rows_are_left_out_and_the_extra_is_named(monkeypatch):

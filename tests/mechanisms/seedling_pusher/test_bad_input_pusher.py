@@ -36,8 +36,8 @@ def computed(*changes, only=("cams",)):
 @pytest.mark.parametrize(
     ("change", "key", "words"),
     [
-        ('events.take="gate"', "events.gate_point", 'missing, though events.take is "gate"'),
-        ('events.take="angle"', "events.take_angle", 'missing, though events.take is "angle"'),
+        ('events.take="gate"', "events.gate_point", 'is missing: events.take = "gate" needs it'),
+        ('events.take="angle"', "events.take_angle", 'is missing: events.take = "angle" needs it'),
         ("train.axis_ratio=0", None, "must be greater than 0, got 0"),
         ("train.axis_ratio=-0.5", None, "must be greater than 0, got -0.5"),
         ("train.axis_ratio=1.000001", None, "must be at most 1, got 1"),

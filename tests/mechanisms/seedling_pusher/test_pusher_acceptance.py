@@ -107,7 +107,7 @@ def test_rod_and_needle_lie_together_only_where_the_pivot_orbits_as_the_train_tu
         check = found.check("rod_at_needle")
         assert (1e3 * found["rod.needle_distance"], 1e3 * check.value) == pytest.approx((distance, distance), abs=1e-9)
         assert check.ok == (distance < 5) == (found is result)
-    assert any("everything mirrored" in finding for finding in mirrored.findings)
+    assert any("only in the mirror image" in finding for finding in mirrored.findings)
     assert not any("mirrored" in finding for finding in result.findings)
 
 

@@ -279,7 +279,7 @@ def test_notches_without_a_meaning_are_refused(notch, told):
 
 @pytest.mark.error
 def test_a_lubricant_says_each_thing_once():
-    with pytest.raises(SpecError, match=r"lubrication\.viscosity: stands in place of grade"):
+    with pytest.raises(SpecError, match=r"lubrication\.viscosity: replaces grade"):
         dw.build(shaft(lubrication={"viscosity": "20 mm^2/s", "grade": "ISO VG 68"}))
 
 
@@ -288,10 +288,10 @@ def test_what_strength_lacks_is_said():
     found = dw.run(shaft(material={"youngs_modulus": "206 GPa"}))
     assert any("'strength'" in finding and "tensile strength" in finding for finding in found.findings)
     by_yield = dw.run(shaft(material={"yield_strength": "355 MPa"}), only=("strength",))
-    assert any("stands for it" in finding and "tensile_strength" in finding for finding in by_yield.findings)
+    assert any("is used instead" in finding and "tensile_strength" in finding for finding in by_yield.findings)
     whole = dw.run(shaft(material={"yield_strength": "355 MPa", "tensile_strength": "510 MPa"}), only=("strength",))
     assert by_yield["strength.fatigue_safety"] < whole["strength.fatigue_safety"]
-    assert not any("stands for it" in finding for finding in whole.findings)
+    assert not any("is used instead" in finding for finding in whole.findings)
 
 
 # -- rotors --------------------------------------------------------------------------------------------------------------------
@@ -383,9 +383,9 @@ def test_a_beam_with_rotary_inertia_lies_between_the_other_two():
     [
         ({"radial_stiffness": None, "stiffness_xx": "1e6 N/m"}, r"stiffness_yy: is missing beside stiffness_xx"),
         ({"stiffness_xx": "1e6 N/m", "stiffness_yy": "1e6 N/m"}, "radial_stiffness and stiffness_xx; give one of"),
-        ({"radial_stiffness": "rigid", "stiffness_xy": "1e5 N/m"}, "stiffness_xy: goes with a radial_stiffness"),
+        ({"radial_stiffness": "rigid", "stiffness_xy": "1e5 N/m"}, "stiffness_xy: needs a radial_stiffness"),
         ({"radial_damping": "-3 N s/m"}, "radial_damping"),
-        ({"damping_xx": "1 N s/m", "damping_yy": "2 N s/m"}, "radial_damping: counts for nothing beside"),
+        ({"damping_xx": "1 N s/m", "damping_yy": "2 N s/m"}, "radial_damping: has no effect beside"),
     ],
 )
 def test_supports_without_a_meaning_are_refused(keys, told):
@@ -395,7 +395,8 @@ def test_supports_without_a_meaning_are_refused(keys, told):
 
 @pytest.mark.error
 @pytest.mark.parametrize(
-    "duty, told", [([{"share": 0.5}], r"duty: the shares of the time sum to 0\.5"), ([{"share": 1.0, "speed": "0 rpm"}], "nothing turns")]
+    "duty, told",
+    [([{"share": 0.5}], r"duty: the shares of the time sum to 0\.5"), ([{"share": 1.0, "speed": "0 rpm"}], "all speeds are 0")],
 )
 def test_duty_cycles_without_a_meaning_are_refused(duty, told):
     with pytest.raises(SpecError, match=told):
@@ -425,7 +426,7 @@ def test_the_largest_load_of_a_duty_cycle_is_judged():
     assert found["strength.min_safety"] == pytest.approx(alone["strength.min_safety"], rel=1e-9)
     for name in "AB":
         assert found.check(f"static_safety.{name}").value == pytest.approx(alone.check(f"static_safety.{name}").value, rel=1e-6)
-    assert any("largest loads of the duty cycle, 3 times" in finding for finding in found.findings)
+    assert any("maximum loads of the duty cycle, 3 times" in finding for finding in found.findings)
     assert found.tables["duty.A"]["case"].data.tolist() == ["1", "over"]
     mild = dw.run(shaft(duty=[{"share": 1.0, "load": 0.5}]), only=("rolling", "strength"))
     given = dw.run(shaft(), only=("rolling", "strength"))
@@ -478,7 +479,7 @@ def test_a_bearing_of_another_bore_is_told():
 def test_a_shaft_that_nothing_locates_is_told():
     spur = [{key: value for key, value in gear.items() if key != "helix_angle"} for gear in GEARBOX["gears"]]
     loose = changed(GEARBOX, "bearings", 0, bearing="NU206") | {"gears": spur}
-    assert any("nothing holds the shaft along its axis" in finding for finding in dw.run(shaft(loose), only=("rolling",)).findings)
+    assert any("no bearing locates the shaft along its axis" in finding for finding in dw.run(shaft(loose), only=("rolling",)).findings)
     assert not any("along its axis" in finding for finding in dw.run(shaft(gears=spur), only=("rolling",)).findings)
 
 

@@ -43,7 +43,7 @@ def test_life_by_the_closed_form():
     pull = result["strand.tight_force"] + result["strand.slack_force"] + 2 * result["strand.centrifugal_force"]
     length = 12.57e-3 + 2 * 2.42e-3
     depth = np.pi * 1e-16 * pull * (1 / 19 + 1 / 38) / (2 * length)
-    assert result["wear.depth"] == pytest.approx(depth, rel=1e-12)
+    assert result["wear.depth"] == pytest.approx(depth, rel=1e-12, abs=0)
     turn = 100 * 19.05e-3 / result["chain.speed"]
     assert result["wear.life"] == pytest.approx(0.03 * 19.05e-3 / depth * turn, rel=1e-12)
     assert result.values["wear.life"].unit == "s" and result["wear.sliding"] == pytest.approx(5.94e-3 * 2 * np.pi * (1 / 19 + 1 / 38))
@@ -106,7 +106,7 @@ def test_rolling_pins_do_not_wear_by_sliding():
     hinge = {**tables, "joint": {"kind": "revolute", "pin_diameter": "3 mm"}}
     found = dw.run(from_document(hinge), only=("wear", "contact"))
     tight = found["strand.tight_force"] + found["strand.slack_force"] + 2 * found["strand.centrifugal_force"]
-    assert found["wear.depth"] == pytest.approx(np.pi * 1e-16 * tight * (1 / 35 + 1 / 37) / 2e-3, rel=1e-12), "the fewer plates bear"
+    assert found["wear.depth"] == pytest.approx(np.pi * 1e-16 * tight * (1 / 35 + 1 / 37) / 2e-3, rel=1e-12, abs=0), "the fewer plates bear"
 
 
 @pytest.mark.error
@@ -148,6 +148,15 @@ def test_the_makers_rating_counts():
     assert run("chain=12B-2", "rating.rated_power=5 kW", "rating.strand_factor=1.8", only=("rating",))[
         "rating.rated_power"
     ] == pytest.approx(9000)
+
+
+@pytest.mark.error
+def test_a_table_that_is_written_and_left_out_is_a_warning():
+    def warned(*changes):
+        return [each for each in dw.run(spec("wear=", "drive=", "chain=12B", *changes)).warnings if "'rating'" in each]
+
+    assert not warned() and not warned("rating.service_factor=1")
+    assert len(warned("rating.service_factor=1.5")) == 1
 
 
 @pytest.mark.error

@@ -8,8 +8,11 @@ from places import EXAMPLES, ROOT
 
 import drivewright as dw
 from drivewright import registry, units
+from drivewright.chains.explicit.turning import turning
+from drivewright.chains.path import route
+from drivewright.chains.wear import path_articulations
 from drivewright.errors import InputError, SpecError
-from drivewright.mechanisms.silent_chain.chain_drive import chain_drive
+from drivewright.mechanisms.silent_chain.chain_drive import bare_drive, chain_drive
 from drivewright.runner import build
 
 pytestmark = pytest.mark.analytical
@@ -82,7 +85,7 @@ def whole():
 
 def test_every_check_of_the_example_passes(whole):
     assert whole.outcome == "complete" and whole.ok
-    assert {"running.overspeed", "running.slack", "running.jumped_teeth", "tensioner.idler.travel", "guide.rail.reach", "settled"} <= {
+    assert {"running.tooth_contacts", "running.slack", "running.jumped_teeth", "tensioner.idler.travel", "guide.rail.reach", "settled"} <= {
         check.name for check in whole.checks
     }
 
@@ -112,6 +115,52 @@ def test_tables_and_plots_are_those_of_a_tensioner(whole):
     assert set(table["tensioner"].data) == {"idler"}
     shown = {plot.name for plot in registry.mechanism("silent-chain").plots(whole)}
     assert {"tensioners", "motion_spectrum", "rigid_travel"} <= shown and "spectrum" not in shown
+
+
+# ---------------------------------------------------------------------------------------------------------------- its wear
+
+WEAR = 'wear.coefficient="2e-7 mm^3/(N m)"'
+
+
+@pytest.mark.parametrize("changes", [(), ("guides=[]", "sprockets.0.teeth=10"), ("guides=[]", 'driven.centre_distance="319 mm"')])
+def test_a_joint_turns_as_much_as_in_the_rigid_chain_that_is_followed_over_a_tooth(changes):
+    """All joints of the chain over one tooth are one joint over a revolution; in the last two the idler is wrapped by less than a tooth."""
+    model = build(load(*changes))
+    drive = bare_drive(model)
+    found = turning(drive, -np.linspace(0.0, 2 * np.pi / model.teeth[0], 401), model.balance)
+    angles = found.plates[:, :, 2]
+    bends = np.angle(np.exp(1j * (np.roll(angles, -1, axis=1) - angles)))
+    turned = np.sum(np.abs(np.diff(bends, axis=0)))
+    rigid = model.balance._replace(route=route(drive, model.balance.route.stations, np.mean(found.q[1:], axis=0)))
+    assert turned == pytest.approx(sum(turn.angle for turn in path_articulations(rigid)), rel=3e-3)
+
+
+def test_wear_counts_the_tensioner_and_the_rail():
+    found = run(("layout", "wear"), WEAR)
+    assert found.outcome == "complete" and found["layout.wrap.idler"] > 2 * np.pi / 15
+    model = build(load())
+    rail = 2 * np.arctan(0.5 * 9.525e-3 / (300e-3 + model.roller_link.end_radius))  # between two plates that lie on it
+    angles = np.array([2 * np.pi / 19, 2 * np.pi / 15, 2 * np.pi / 38, rail])
+    assert found["wear.sliding"] == pytest.approx(3.28e-3 * np.sum(angles), rel=1e-12)
+    pulls = np.array([found[f"layout.pull.{name}"] for name in ("drive", "idler", "driven", "rail")]) + model.balance.centrifugal
+    depth = 2e-16 * np.sum(angles * (pulls + np.roll(pulls, 1))) / (2 * 8.5e-3)
+    assert found["wear.depth"] == pytest.approx(depth, rel=1e-12, abs=0)
+
+
+@pytest.mark.parametrize("only", ["layout", "closure", "contact", "wear"])
+def test_wear_without_a_running_time_leaves_the_chain_as_it_is(only):
+    worn, new = run(only, WEAR), run(only)
+    assert worn.outcome == "complete" or only == "closure"
+    for name, value in new.values.items():
+        assert worn[name] == pytest.approx(value.value, rel=1e-12, abs=0), name
+
+
+def test_the_forces_of_the_strands_are_those_of_the_worn_chain():
+    worn = run(("layout", "contact", "wear"), WEAR, 'wear.running_time="500 h"')
+    assert worn["wear.elongation"] > 1e-4
+    assert worn["strand.tight_force"] == pytest.approx(worn["layout.pull.rail"], rel=1e-12)
+    assert worn["layout.tensioner.idler.travel"] > 1.05 * run("layout")["layout.tensioner.idler.travel"]
+    assert worn["wear.depth"] == pytest.approx(run("wear", WEAR)["wear.depth"], rel=1e-12, abs=0)
 
 
 # ------------------------------------------------------------------------------------------------------------------- a blade
@@ -174,7 +223,11 @@ def test_a_guide_out_of_reach_is_a_finding_and_one_too_short_a_check():
         (("links=104",), r"104 links are [\d.]+ links \([\d.]+ mm\) too long: sprocket 'idler' moves by 15 mm"),
         (("links=94",), r"94 links are .* too short.*Take 2 more links"),
         (('sprockets.0.centre=["130 mm", "95 mm"]', 'sprockets.0.travel="1 mm"'), "too long|does not reach"),
-        (('sprockets.0.side="inside"',), "does not reach sprocket 'idler'|too long|too short"),
+        (('sprockets.0.side="inside"',), "sprocket 'idler' does not t.*: it lies inside the loop.* take side = 'outside'"),
+        (
+            ('driven.centre_distance="100 mm"',),
+            "driving sprocket and the driven sprocket overlap|no strand fits between sprocket 'idler' and the",
+        ),
     ],
 )
 def test_what_does_not_fit_is_said_in_links_and_millimetres(changes, words):
@@ -207,6 +260,43 @@ def test_a_preload_beside_a_fixed_centre_distance_is_told_to_be_idle():
     assert any("drive.preload has no effect" in each for each in build(load('drive.preload="100 N"')).findings)
 
 
+BELOW = ('sprockets.0.centre=["130 mm", "-46 mm"]', 'sprockets.0.direction="90 deg"', "guides=[]")
+
+
+@pytest.mark.error
+def test_a_strand_that_would_have_to_push_fails_a_check_once_and_is_no_overspeed():
+    found = run(("layout", "contact", "wear"), *BELOW, WEAR)
+    taut = [check for check in found.checks if check.name == "strand.taut"]
+    assert len(taut) == 1 and not taut[0].ok
+    assert taut[0].value == pytest.approx(found["strand.slack_force"], rel=1e-12) and taut[0].value < -50.0
+    assert not any(check.name == "chain.overspeed" for check in found.checks) and "layout.limit_speed" not in found.values
+    assert found.outcome == "complete" and "chain.mean_static_safety" not in found.values
+    assert sum("the slack strand would be compressed" in each for each in found.warnings) == 1
+    assert run(("layout", "contact")).check("strand.taut").ok
+
+
+@pytest.mark.error
+@pytest.mark.parametrize("only", ["layout", "contact", "wear"])
+def test_the_preload_at_which_the_slack_strand_begins_to_pull_is_told(only):
+    changes = ("driven.centre_distance=", "sprockets=[]", "guides=[]", WEAR)
+    loose = run(only, *changes, 'drive.preload="100 N"')
+    assert not loose.check("strand.taut").ok
+    words = next(each for each in loose.warnings if "would be compressed" in each)
+    least = float(re.search(r"A drive.preload above ([\d.]+) N", words)[1])
+    slope = np.sqrt(1 - (19 * 9.525e-3 / (2 * np.pi) / run("layout", *changes, 'drive.preload="1 kN"')["layout.centre_distance"]) ** 2)
+    assert least == pytest.approx(8.0 * 2 * np.pi / (38 * 9.525e-3) * slope, rel=1e-3)
+    assert run(only, *changes, f'drive.preload="{1.001 * least} N"').check("strand.taut").ok
+
+
+@pytest.mark.error
+def test_a_chain_longer_than_its_path_hangs_in_the_slack_strand_up_to_a_limit():
+    fixed = ("sprockets=[]", "guides=[]")
+    hangs = run("layout", *fixed, 'driven.centre_distance="319 mm"').check("chain.slack")
+    assert hangs.ok and hangs.limit == pytest.approx(0.02 * 0.319)
+    assert not run("layout", *fixed, 'driven.centre_distance="310 mm"').check("chain.slack").ok
+    assert not any(check.name == "chain.slack" for check in run("layout").checks)
+
+
 # ------------------------------------------------------------------------------------------------------------- how a run fails
 
 
@@ -230,10 +320,26 @@ def test_a_load_beyond_the_preload_is_slack_or_jumps():
 
 
 @pytest.mark.error
+def test_a_run_that_goes_slack_says_which_check_fails_and_by_how_much():
+    found = run("dynamics", 'sprockets.0.force="12 N"', 'sprockets.0.stiffness="0 N/mm"', 'drive.speed="1500 rpm"', "guides=[]", *SHORT)
+    slack = found.check("running.slack")
+    assert found.outcome == "partial" and not slack.ok
+    words = next(each for each in found.findings if each.startswith("the run failed and its statistics are left out: "))
+    assert f"running.slack is {slack.value:.3g} and must be at most 0.05 (share of time" in words
+    assert "Raise the preload or the tensioner's force" in words
+
+
+def test_what_the_tensioner_does_is_among_the_first_values(whole):
+    shown = registry.headlines(registry.mechanism("silent-chain"), whole.values)
+    assert {f"layout.tensioner.idler.{name}" for name in ("travel", "force")} < set(shown)
+    assert {f"dynamics.tensioner.idler.{name}" for name in ("travel.mean", "force")} < set(shown)
+
+
+@pytest.mark.error
 def test_overspeed_is_a_check_of_the_run_and_of_the_layout():
     changes = ('drive.speed="30000 rpm"', 'dynamics.settling="10 ms"', 'dynamics.duration="10 ms"', "dynamics.ensemble=1")
     fast = dw.run(dw.load(EXAMPLES / "roller_chain.toml", changes), only="dynamics")
-    lifted = fast.check("running.overspeed")
+    lifted = fast.check("running.tooth_contacts")
     assert not lifted.ok and "overspeed" in lifted.message
     tight = ("sprockets=[]", "guides=[]", 'driven.centre_distance="320.5 mm"', 'drive.load_torque="0 N m"')
     still = run("layout", *tight)

@@ -90,8 +90,8 @@ def force_values(runs: Ensemble) -> dict[str, Value]:
 
 
 def touching_flanks(runs: Ensemble) -> Value:
-    """Mean number of flanks in contact."""
-    return Value.of(runs.estimate(mean_of(lambda run: run.column("contacts"))), "-", "mean number of flanks in contact")
+    """Mean number of tooth contacts."""
+    return Value.of(runs.estimate(mean_of(lambda run: run.column("contacts"))), "-", "mean number of tooth contacts")
 
 
 def _tension(run: Motion) -> Floats:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.chains.model import ChainDrive, Guide
+from drivewright.chains.model import ChainDrive, Guide, Sprocket
 from drivewright.chains.path.order import clearance, met
 from drivewright.chains.path.route import Route, bodies, body_name, mean_link, route, way_at
 from drivewright.errors import DoesNotAssemble, InputError, SolverError
@@ -219,6 +219,9 @@ def _fitted(model: ChainDrive, movers: Sequence[int], q: Floats) -> Floats:
             q[number] = _root(excess, before, here)
             return q
         before, tried = here, found
+    q[number] = before
+    if tried < 0 and (tried < first or met(model, q).place(number) is None):  # outward it makes the path no longer
+        raise DoesNotAssemble(_to_no_effect(model, q, number, -tried))
     raise DoesNotAssemble(_misfit(model, number, tried, before))
 
 
@@ -243,15 +246,37 @@ def _root(excess, before, here):
 
 def _misfit(model, number, excess, place):
     """What to say of a chain that does not fit at the last place that was tried."""
-    pitch, links = mean_link(model).pitch, abs(excess)
-    longer, name = ("short", body_name(model, number)) if excess > 0 else ("long", body_name(model, number))
-    even = 2 * int(np.ceil(0.5 * links))
-    change = f"take {even} more links" if excess > 0 else f"take {even} fewer links"
+    count, links, name = model.chain.count, abs(excess), body_name(model, number)
+    longer, more = ("short", "more") if excess > 0 else ("long", "fewer")
+    change = int(np.ceil(links))
+    change += (count + change) % 2
     return (
-        f"chain drive: {model.chain.count} links are {links:.3g} links ({1e3 * links * pitch:.4g} mm) too {longer}: {name} moves by "
-        f"{1e3 * place:.4g} mm, where the path needs {model.chain.count + excess:.4g} links. {change.capitalize()}, give it more travel, "
-        "or move its centre."
+        f"chain drive: {count} links are {_links(model, links)} too {longer}: {name} moves by {1e3 * place:.4g} mm, where the path "
+        f"needs {count + excess:.4g} links. Take {change} {more} links, give it more travel, or move its centre. (An even number of links "
+        "needs no offset link.)"
     )
+
+
+def _to_no_effect(model, q, number, links):
+    """What to say of a tensioner that does not tighten the chain: at the end of its travel, which is at q, or on its way there."""
+    body, name = bodies(model)[number], body_name(model, number)
+    inside = not body.outside if isinstance(body, Sprocket) else body.side == "inside"
+    lies, other = ("inside", "outside") if inside else ("outside", "inside")
+    if met(model, q).place(number) is None:
+        what = (
+            f"does not touch the chain: it lies {lies} the loop, and {1e3 * q[number]:.4g} mm along its direction the nearest strand "
+            f"passes {1e3 * clearance(model, q, number):.4g} mm away"
+        )
+    else:
+        what = f"does not tighten the chain: it lies {lies} the loop, and its direction leads it away from the strand that it touches"
+    return (
+        f"chain drive: {name} {what}. The {model.chain.count} links remain {_links(model, links)} too long. Move its centre towards the "
+        f"strand, turn its direction towards the strand, or take side = {other!r}."
+    )
+
+
+def _links(model, links):
+    return f"{links:.3g} links ({1e3 * links * mean_link(model).pitch:.4g} mm)"
 
 
 def _refuse_unmet(model, found, q, preloaded):

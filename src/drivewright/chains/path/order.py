@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._typing import Complexes, Floats
 from drivewright.chains.model import ChainDrive, Guide
 from drivewright.chains.path.route import Route, Station, bodies, centres, route, stations
 from drivewright.errors import InputError
@@ -32,6 +32,7 @@ def met(model: ChainDrive, q: Floats, without: Sequence[int] = ()) -> Route:
     """
     every = stations(model)
     chosen = [every[0], every[_second(model)]]
+    _refuse_overlap(chosen[0], chosen[1], centres(model, q))
     waiting = [s for s in every if s not in chosen and s.body not in without]
     count = len(model.sprockets)
     for group in ([s for s in waiting if s.body < count], [s for s in waiting if s.body >= count]):
@@ -58,6 +59,16 @@ def _second(model):
     if len(inside) < 2 or inside[0] != 0:
         raise InputError("chain drive: sprocket 1 and another one must lie inside the loop; only idlers may be outside.")
     return inside[1]
+
+
+def _refuse_overlap(first: Station, second: Station, at: Complexes) -> None:
+    """InputError where the two sprockets that carry the loop overlap."""
+    apart, least = abs(at[second.body] - at[first.body]), first.radius + second.radius
+    if apart <= least:
+        raise InputError(
+            f"chain drive: {first.name} and {second.name} overlap: their centres are {1e3 * apart:.4g} mm apart, and their pitch circles "
+            f"touch at {1e3 * least:.4g} mm. Increase the centre distance, or take fewer teeth."
+        )
 
 
 def _obstacle(model: ChainDrive, now: Route, station: Station, q: Floats) -> _Obstacle:

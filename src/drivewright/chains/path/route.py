@@ -74,6 +74,8 @@ def body_name(model: ChainDrive, number: int) -> str:
     """What messages call a body."""
     count = len(model.sprockets)
     own = bodies(model)[number].name
+    if not own and number in (model.driver, model.measured):
+        return "the driving sprocket" if number == model.driver else "the driven sprocket"
     kind, place = ("sprocket", number + 1) if number < count else ("guide", number - count + 1)
     return f"{kind} {own!r}" if own else f"{kind} {place}"
 
@@ -110,7 +112,7 @@ def route(model: ChainDrive, chosen: Sequence[Station], q: Floats) -> Route:
     link = mean_link(model)
     centre = centres(model, q)[[s.body for s in chosen]]
     turns, radii = np.array([s.turn for s in chosen]), np.array([s.radius for s in chosen])
-    lengths, headings = tangents(np.column_stack([centre.real, centre.imag]), turns * radii)
+    lengths, headings = tangents(np.column_stack([centre.real, centre.imag]), turns * radii, [s.name for s in chosen])
     wraps = (turns * (headings - np.roll(headings, 1))) % (2 * np.pi)
     wraps = np.where(wraps > MOST_WRAP, wraps - 2 * np.pi, wraps)
     if abs(np.sum(turns * wraps) / (2 * np.pi) + 1) > 1e-6:

@@ -84,16 +84,22 @@ def loop_length(circles: Sequence[Given]) -> float:
     return taut_loop(circles).length
 
 
-def tangents(centres: Floats, signed: Floats) -> tuple[Floats, Floats]:
-    """Length [m] and heading [rad] of each strand between circles with centres (n, 2) and turn times radius (n,) [m]."""
+def tangents(centres: Floats, signed: Floats, names: Sequence[str] = ()) -> tuple[Floats, Floats]:
+    """Length [m] and heading [rad] of each strand between circles with centres (n, 2) and turn times radius (n,) [m].
+
+    InputError where two of them are too near, by their names where these are given.
+    """
     to_next = np.roll(centres, -1, axis=0) - centres
     rise = np.roll(signed, -1) - signed
     square = np.sum(to_next**2, axis=1) - rise**2
     if np.any(square <= 0):
         first = int(np.argmin(square))
+        one, other = (names[first], names[(first + 1) % len(names)]) if names else (f"circle {first + 1}", "the next")
+        side = "change the side of the loop on which one of them lies" if names else "check on which side (turn) each is passed"
         raise InputError(
-            f"loop: no strand fits between circle {first + 1} and the next: their centres are {np.hypot(*to_next[first]):g} m apart, and "
-            f"it takes more than {abs(rise[first]):g} m. Move them apart, or check on which side (turn) each is passed."
+            f"{'chain drive' if names else 'loop'}: no strand fits between {one} and {other}: their centres are "
+            f"{1e3 * np.hypot(*to_next[first]):.4g} mm apart and must be more than {1e3 * abs(rise[first]):.4g} mm apart. Move them "
+            f"apart, or {side}."
         )
     lengths = np.sqrt(square)
     return lengths, np.arctan2(to_next[:, 1], to_next[:, 0]) - np.arctan2(rise, lengths)

@@ -27,7 +27,7 @@ class SampledPinWheel(PinWheel):
         """The sampled envelope; InputError where no cam is left."""
         found = sample_cam(self._sizes, tabulate_law(self.motion.law), self._samples[0])
         if not len(found.nodes.a):
-            raise InputError("profile: the pins leave nothing of the cam; take smaller pins or a smaller eccentricity")
+            raise InputError("profile: the pins remove the whole cam; take smaller pins or a smaller eccentricity")
         return found
 
     @cached_property

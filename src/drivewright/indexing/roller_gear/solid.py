@@ -25,7 +25,7 @@ def cam_part(cam: RollerGear, bore: float = 0.0, name: str = "cam") -> Part:
     if lost > 0:
         raise InputError(
             f"{cam.kind} cam: {100 * lost:.3g} % of its flanks are lost to undercut, so no clean groove can be modelled. "
-            "Take thinner rollers, a larger cam or a longer motion."
+            "Take thinner rollers, a larger cam or a longer motion angle."
         )
     floor = cam.pitch_radius - groove_floor(cam)
     if not 0 <= bore / 2 < floor:

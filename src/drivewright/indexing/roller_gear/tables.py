@@ -15,19 +15,20 @@ def flank_table(flanks: CamFlanks) -> Table:
     curvature, pressure_angle = (
         np.broadcast_to(each, flanks.on_cam.shape)[flanks.on_cam] for each in (touch.cam_curvature, touch.pressure_angle)
     )
+    across = "curvature of the cam across the contact line"
     return Table(
         "profile",
         "Flanks of the cam",
         (
             Column("angle", "rad", "input angle", flanks.theta[theta]),
             Column("pin", "-", "roller", np.array(flanks.cam.rollers, float)[roller]),
-            Column("flank", "-", "1 pushes the wheel forward, -1 backward", FLANKS[flank]),
-            Column("along", "m", "along the roller from its middle", flanks.u[u]),
-            Column("x", "m", "from the cam's axis", at[:, 0]),
-            Column("y", "m", "along the cam's axis", at[:, 1]),
-            Column("z", "m", "from the cam's axis", at[:, 2]),
-            Column("curvature", "1/m", "of the cam across the contact line, positive where it is convex", curvature),
-            Column("pressure_angle", "rad", "between normal and the roller's way", pressure_angle),
+            Column("flank", "-", "flank, 1 pushes the wheel forward, -1 backward", FLANKS[flank]),
+            Column("along", "m", "position along the roller, from its middle", flanks.u[u]),
+            Column("x", "m", "coordinate x from the cam's axis", at[:, 0], "Coordinate x"),
+            Column("y", "m", "coordinate y along the cam's axis", at[:, 1], "Coordinate y"),
+            Column("z", "m", "coordinate z from the cam's axis", at[:, 2], "Coordinate z"),
+            Column("curvature", "1/m", f"{across}, positive where convex", curvature, "Curvature across the contact line"),
+            Column("pressure_angle", "rad", "pressure angle, between the normal and the motion of the roller", pressure_angle),
         ),
     )
 
@@ -35,15 +36,25 @@ def flank_table(flanks: CamFlanks) -> Table:
 def flank_values(flanks: CamFlanks) -> dict[str, Value]:
     """Undercut, radii and largest pressure angle of the finished cam; without those of a cam of which nothing is left."""
     values = {
-        "profile.undercut": Value(float(flanks.undercut), "-", "part of the contact lines that is cut away"),
-        "profile.pitch_radius": Value(float(flanks.cam.pitch_radius), "m", "least distance of the rollers' middles from the cam's axis"),
+        "profile.undercut": Value(float(flanks.undercut), "-", "share of the contact lines lost to undercut", label="Undercut"),
+        "profile.pitch_radius": Value(
+            float(flanks.cam.pitch_radius),
+            "m",
+            "minimum distance of the roller middles from the cam's axis",
+            label="Pitch radius of the cam",
+        ),
     }
     relative = flanks.mask_off_cam(flanks.contact.relative_curvature)
     if np.isfinite(relative).any():
-        values["profile.min_relative_radius"] = Value(float(1 / np.nanmax(relative)), "m", "least relative radius of roller and cam")
+        meaning = "minimum relative radius of curvature of roller and cam"
+        values["profile.min_relative_radius"] = Value(
+            float(1 / np.nanmax(relative)), "m", meaning, label="Minimum relative radius of curvature"
+        )
     if np.isfinite(flanks.pressure_angle_maximum).any():
         largest = float(np.nanmax(flanks.pressure_angle_maximum))
-        values["pressure_angle.maximum"] = Value(largest, "rad", "largest pressure angle of all contact lines")
+        values["pressure_angle.maximum"] = Value(
+            largest, "rad", "maximum pressure angle over all contact lines", label="Maximum pressure angle"
+        )
     return values
 
 
@@ -56,10 +67,10 @@ def contact_count_table(flanks: CamFlanks) -> Table:
         "Rollers in contact with the cam",
         (
             Column("angle", "rad", "input angle", flanks.theta),
-            Column("pins", "-", "rollers that touch", count.astype(float)),
+            Column("pins", "-", "rollers in contact", count.astype(float)),
             Column("forward", "-", "rollers that the cam can push forward", forward.astype(float)),
             Column("backward", "-", "rollers that the cam can push backward", backward.astype(float)),
-            Column("pressure_angle", "rad", "largest pressure angle", flanks.pressure_angle_maximum),
+            Column("pressure_angle", "rad", "maximum pressure angle", flanks.pressure_angle_maximum),
         ),
     )
 
@@ -79,7 +90,7 @@ def roller_force_table(flanks: CamFlanks, loads: RollerLoads) -> Table:
     roller, theta = roller[order], theta[order]
     return Table(
         "pin_forces",
-        "Forces of the cam on the rollers",
+        "Forces on the rollers",
         (
             Column("angle", "rad", "input angle", flanks.theta[theta]),
             Column("pin", "-", "roller", np.array(flanks.cam.rollers, float)[roller]),

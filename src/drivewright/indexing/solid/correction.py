@@ -40,7 +40,7 @@ def elastic_train(
     """
     check(solids, wheel, drive, cams)
     if drive.pins is None or drive.pins.line is None:
-        raise InputError("elastic bodies: their compliance stands behind a line contact; give the drive train one (`pin_contact`).")
+        raise InputError("elastic bodies: their compliance is in series with a line contact; give the drive train one (`pin_contact`).")
     points, normals = profile_nodes(wheel, spacing * wheel.pin_radius)
     own = BodyCompliance(
         wheel.pin_radius,

@@ -25,10 +25,10 @@ from drivewright.surface_fields import ScalarField, SurfaceBody, SurfaceFields, 
 STEPS = 3  # positions that are kept
 DRAWN = 0.02  # of the size of the largest body: the largest displacement as drawn
 BESIDE = 5.0  # widths of its strip beside a loaded contact that are left out
-MISSING = "not evaluated beside a loaded contact, where the stress is Hertz's"
+MISSING = "not evaluated beside a loaded contact, where the Hertz pressure acts"
 NOTES = (
-    "no stress within a pin's radius of a loaded contact on a cam: what acts there is the Hertz pressure of the pins",
-    "bearings and pins load the mean displacement of their seats, and corners are sharp: stress there depends on the mesh",
+    "stress on a cam is not given within a pin radius of a loaded contact, where the Hertz pressure of the pin acts",
+    "bearings and pins load the mean displacement of their seats, and corners are sharp, so stress there depends on the mesh",
     "displacements are drawn without the motion of each body as a whole",
 )
 

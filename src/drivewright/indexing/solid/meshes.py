@@ -223,4 +223,4 @@ def _check_areas(mesh, areas, what):
 
 def _mesher(what):
     advice = "try another fineness, or move steps that lie close together further apart."
-    return translated_errors(SolverError, f"solid check: the mesher gave up on {what}", advice, PURPOSE)
+    return translated_errors(SolverError, f"solid check: {what} could not be meshed", advice, PURPOSE)

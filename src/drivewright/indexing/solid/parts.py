@@ -68,7 +68,7 @@ def usual_wheel(wheel: PinWheel, drive: Drivetrain, width: float, ends: int = 2)
     the pins where the cams are not, half a pin radius away from them; with ends=1 only the one behind the last cam.
     """
     if drive.shaft is None:
-        raise InputError("solid check: a solid wheel stands at the heights of the split shaft; give the drive train one.")
+        raise InputError("solid check: a solid wheel takes its axial positions from the split shaft; give the drive train a split shaft.")
     radius, pin, way = wheel.circle_radius, wheel.pin_radius, wheel.sense
     near = radius + way * (2 * wheel.eccentricity + 0.5 * pin)
     inner, outer = sorted((near, near + 2 * way * pin))
@@ -102,7 +102,9 @@ def check(solids: Solids, wheel: PinWheel, drive: Drivetrain, cams: int) -> None
             _refuse_sizes(body)
     heights = drive.shaft.cams if drive.shaft else None
     if heights is None and (solids.shaft is not None or solids.wheel is not None):
-        raise InputError("solid check: the solids of shaft and wheel stand at the heights of the split shaft; give the drive train one.")
+        raise InputError(
+            "solid check: solid shafts and wheels take their axial positions from the split shaft; give the drive train a split shaft."
+        )
     if solids.cam is not None:
         _refuse_cam(solids.cam, drive.spacing)
     if solids.shaft is not None:
@@ -121,7 +123,7 @@ def _refuse_sizes(body):
             continue
         if key == "poisson":
             if not -1 < value < 0.5:
-                raise InputError(f"solid check: {name}.poisson = {value:g}; a solid wants -1 < nu < 0.5.")
+                raise InputError(f"solid check: {name}.poisson = {value:g}; a solid needs -1 < nu < 0.5.")
         elif key not in ("rings", "flange", "drum") and not (np.isfinite(value) and value > 0):
             raise InputError(f"solid check: {name}.{key} = {value:g} must be above 0 and finite.")
 

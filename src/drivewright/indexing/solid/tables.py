@@ -12,12 +12,12 @@ from drivewright.result import Column, Plot, Table
 from drivewright.solids.deformation import DisplacedSurface, displaced_table, exaggeration_for, field_table
 from drivewright.surface_fields import SurfaceBody, SurfaceFields
 
-NOTHING = "at some input angles the assembly carries nothing"
+NOTHING = "at some input angles the assembly carries no torque"
 WINDOW = 0.6  # of the radius: what is drawn of a wheel to both sides of a pin
 DRAWN = 0.03  # the largest displacement is drawn as about this part of the body
 BODIES = {  # label, shares of the assembly, shares of the lumped model
     "cam": ("cams", ("cam",), ()),
-    "wheel": ("pins, wheel and their contacts", ("pin", "wheel", "output", "wheel bearing"), ("pin", "wheel")),
+    "wheel": ("pins and wheel", ("pin", "wheel", "output", "wheel bearing"), ("pin", "wheel")),
     "shaft": ("shafts", ("shaft",), ("bending", "torsion")),
     "crank": ("crank bearings", ("crank",), ("crank",)),
     "support": ("support bearings", ("support",), ("support", "housing")),
@@ -26,7 +26,7 @@ BODIES = {  # label, shares of the assembly, shares of the lumped model
 SURFACES = {  # title, axes that are drawn (right, up, away) and their meanings
     "cam": ("Deformed cam", ((0, "across"), (1, "height"), (2, "along the axis"))),
     "shaft": ("Deformed split shaft", ((2, "along the axis"), (1, "height"), (0, "across"))),
-    "wheel": ("Deformed wheel, seen from the axis", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards"))),
+    "wheel": ("Deformed wheel", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards"))),
 }
 
 
@@ -44,25 +44,34 @@ def added_compliance(solid: SolidStiffness, lumped: TorsionalStiffness) -> dict[
     return {name: own[name] - np.sum([lumped.shares[group] for group in groups], axis=0) for name, (_, _, groups) in BODIES.items()}
 
 
+def equivalent_pin_stiffness(solid: SolidStiffness) -> float:
+    """Stiffness k [N/m] of a pin in its seats that would yield like the solid wheel: sum F^2/k = T^2 C, F the forces of the pins and C the
+    compliance of the wheel, both summed over the positions that carry; nan where the wheel is no solid."""
+    carried = np.isfinite(solid.secant)
+    squares = sum(float(np.sum(np.square(forces))) for forces, held in zip(solid.pin_forces, carried, strict=True) if held)
+    yielded = solid.torque**2 * float(np.sum(solid.shares["wheel"][carried]))
+    return squares / yielded if yielded > 0 else np.nan
+
+
 def assembly_table(
     angles: Floats, solids: Mapping[str, SolidStiffness], lumped: Mapping[str, TorsionalStiffness], title: str = "Stiffness of the assembly"
 ) -> Table:
     """Secant stiffness of assembly and lumped model over the input angles (p,) [rad], {"unilateral", "bonded"} each."""
-    words = {"unilateral": "pins that press only", "bonded": "pins that stick"}
+    words = {"unilateral": "unilateral pins", "bonded": "bonded pins"}
     columns = [Column("angle", "rad", "input angle", angles)]
     for model, text in words.items():
         columns.append(Column(f"lumped_{model}", "N m/rad", f"lumped model, {text}", lumped[model].secant))
         columns.append(Column(model, "N m/rad", f"assembly of solids, {text}", solids[model].secant))
     for model, text in words.items():
-        columns.append(Column(f"ratio_{model}", "-", f"assembly over lumped model, {text}", solids[model].secant / lumped[model].secant))
+        columns.append(Column(f"ratio_{model}", "-", f"solids over lumped model, {text}", solids[model].secant / lumped[model].secant))
     return Table("assembly", title, tuple(columns), missing=NOTHING)
 
 
 def share_tables(angles: Floats, solid: SolidStiffness, lumped: TorsionalStiffness) -> Iterator[Table]:
     """Compliance by bodies of the assembly, and what each adds to that of the lumped model, over the input angles (p,) [rad]."""
     for name, title, shares in (
-        ("assembly_shares", "Compliance of the assembly by bodies", compliance_by_body(solid)),
-        ("assembly_added", "Compliance that the lumped model leaves out, by bodies", added_compliance(solid, lumped)),
+        ("assembly_shares", "Compliance of the assembly by body", compliance_by_body(solid)),
+        ("assembly_added", "Compliance neglected by the lumped model", added_compliance(solid, lumped)),
     ):
         columns = [Column(body, "rad/(N m)", label, shares[body]) for body, (label, _, _) in BODIES.items()]
         yield Table(name, title, (Column("angle", "rad", "input angle", angles), *columns), missing=NOTHING)
@@ -87,9 +96,9 @@ def surface_table(solid: SolidStiffness, position: int, body: str = "cam", where
 
 
 STRESSED = {  # title, axes that are drawn (right, up, towards the viewer) and their meanings, parts of an element's edge
-    "cam": ("Von Mises stress of a cam", ((0, "across"), (1, "height"), (2, "along the axis")), 2),
-    "shaft": ("Von Mises stress of a split shaft", ((2, "along the axis"), (1, "height"), (0, "across")), 3),
-    "wheel": ("Von Mises stress of the wheel, seen from the axis", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards")), 3),
+    "cam": ("Von Mises stress, cam", ((0, "across"), (1, "height"), (2, "along the axis")), 2),
+    "shaft": ("Von Mises stress, shaft", ((2, "along the axis"), (1, "height"), (0, "across")), 3),
+    "wheel": ("Von Mises stress, wheel", ((0, "around the wheel"), (2, "along the axis"), (1, "outwards")), 3),
 }
 
 
@@ -138,14 +147,13 @@ def assembly_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     """The plots of the tables above, of those that are among the tables of a result."""
     if "assembly" in tables:
         curves = ("lumped_unilateral", "unilateral", "lumped_bonded", "bonded")
-        title = "Torsional stiffness: lumped model and assembly of solids"
+        title = "Torsional stiffness, lumped and solids"
         yield Plot("assembly", title, "assembly", "angle", curves)
     for name in ("assembly_shares", "assembly_added"):
         if name in tables:
             yield Plot(name, tables[name].title, name, "angle", tuple(BODIES), style="bars")
     if "assembly_pins" in tables:
-        title = "Forces on the pins in the assembly"
-        yield Plot("assembly_pins", title, "assembly_pins", "angle", ("force", "pressure"), style="points")
+        yield Plot("assembly_pins", tables["assembly_pins"].title, "assembly_pins", "angle", ("force", "pressure"), style="points")
     for body, (_, drawn) in SURFACES.items():
         name = f"assembly_{body}"
         if name in tables:

@@ -18,11 +18,11 @@ StiffnessT = TypeVar("StiffnessT", bound="WheelStiffness")
 CARRIED, FREE, RIGID, FAR, UNSETTLED = "carried", "free", "rigid", "far", "unsettled"
 REASONS = {
     CARRIED: "",
-    FREE: "no contact without a gap resists the torque: the wheel turns freely first; look at the play",
-    RIGID: "every part in the way of the torque is rigid; give one of them a stiffness",
-    FAR: f"the wheel turns by more than {np.degrees(ROTATION_LIMIT):.3g} deg, where other contacts act: what touches has next to no arm, "
-    "or the torque is beyond what the parts carry; look at the play beyond these contacts, or take less torque or stiffer parts",
-    UNSETTLED: "no equilibrium found; look at clearances, and for torques far beyond what the parts carry",
+    FREE: "no contact without a gap resists the torque, so the wheel turns freely first; check the play",
+    RIGID: "every part that carries the torque is rigid; give one of them a stiffness",
+    FAR: f"the wheel turns by more than {np.degrees(ROTATION_LIMIT):.3g} deg, where other contacts act: the moment arms are near zero, "
+    "or the torque is more than the parts carry; check the play beyond these contacts, or take less torque or stiffer parts",
+    UNSETTLED: "no equilibrium was found; check the clearances, and whether the torque is far more than the parts carry",
 }
 
 

@@ -168,7 +168,7 @@ def _refuse(drive: RollerDrive, theta: Floats, ratio: Floats, contacts: Sequence
         raise InputError(f"torsional stiffness: the torque must be finite and not 0, got {torque} N m; without load there is no secant.")
     if not len(theta) == len(ratio) == len(contacts):
         raise InputError(
-            f"torsional stiffness: {len(theta)} positions want as many ratios and sets of contacts, got {len(ratio)} and {len(contacts)}."
+            f"torsional stiffness: {len(theta)} positions need as many ratios and sets of contacts, got {len(ratio)} and {len(contacts)}."
         )
     if model not in ("unilateral", "bonded"):
-        raise InputError(f'torsional stiffness: no model {model!r}; it is "unilateral" (contacts press) or "bonded" (they stick).')
+        raise InputError(f'torsional stiffness: no model {model!r}; it is "unilateral" (contacts only press) or "bonded" (they also pull).')

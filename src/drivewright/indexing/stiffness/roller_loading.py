@@ -82,6 +82,6 @@ def shared_force_table(angles: Floats, contacts: Sequence[RollerContacts], force
         "Roller forces shared by stiffness",
         ("angle", "cam", "pin", "force", "arm", "length", "pressure"),
         rows,
-        {"cam": "cam, or flank: 0 pushes forward, 1 backward"},
-        missing="no Hertz pressure at a corner or in a pull",
+        {"cam": "cam or flank, 0 pushes forward, 1 backward"},
+        missing="there is no Hertz pressure at a corner or under tension",
     )

@@ -53,9 +53,9 @@ def _check(drive: Drivetrain, theta: Floats, contacts: Sequence[CamContacts], to
     if not (np.isfinite(torque) and torque != 0):
         raise InputError(f"torsional stiffness: the torque must be finite and not 0, got {torque} N m; without load there is no secant.")
     if len(contacts) != len(theta):
-        raise InputError(f"torsional stiffness: {len(theta)} positions want as many sets of contacts, got {len(contacts)}.")
+        raise InputError(f"torsional stiffness: {len(theta)} positions need as many sets of contacts, got {len(contacts)}.")
     if model not in ("unilateral", "bonded"):
-        raise InputError(f'torsional stiffness: no model {model!r}; it is "unilateral" (contacts press) or "bonded" (they stick).')
+        raise InputError(f'torsional stiffness: no model {model!r}; it is "unilateral" (contacts only press) or "bonded" (they also pull).')
 
 
 def _who_carries(contacts: Sequence[CamContacts], torque: float, bonded: bool) -> tuple[list[Bools], Bools]:

@@ -11,15 +11,15 @@ from drivewright.indexing.stiffness.result import TorsionalStiffness, WheelStiff
 from drivewright.result import Column, Plot, Table
 
 GROUP_LABELS = {
-    "pin": "contacts of the pins",
+    "pin": "pin contacts",
     "crank": "crank bearings",
     "support": "support bearings",
     "housing": "housing",
-    "bending": "bending of the shafts",
-    "torsion": "torsion of the shafts",
+    "bending": "shafts in bending",
+    "torsion": "shafts in torsion",
     "gear": "gears",
     "wheel": "wheel and its bearing",
-    "cam": "bearings of the cam's shaft",
+    "cam": "cam shaft bearings",
     "input": "input shaft",
 }
 NO_SHARE = 1e-9  # of the largest share of a compliance: rounding
@@ -33,14 +33,14 @@ def stiffness_table(angles: Floats, result: WheelStiffness, loaded: WheelStiffne
     """
     columns = [
         Column("angle", "rad", "input angle", angles),
-        Column("secant", "N m/rad", "torque over rotation of the wheel", result.secant),
-        Column("tangent", "N m/rad", "change of torque over change of rotation", result.tangent),
+        Column("secant", "N m/rad", "secant stiffness, torque over rotation of the wheel", result.secant),
+        Column("tangent", "N m/rad", "tangent stiffness, change of torque over change of rotation", result.tangent),
     ]
-    columns += [Column(name, "rad/(N m)", GROUP_LABELS[name], share) for name, share in result.shares.items()]
+    columns += [Column(name, "rad/(N m)", f"compliance of the {GROUP_LABELS[name]}", share) for name, share in result.shares.items()]
     columns += [
-        Column("free_rotation", "rad", "rotation before a contact takes the torque", free),
-        Column("secant_after_play", "N m/rad", "torque over the rotation beyond that", loaded.secant),
-        Column("secant_reversed", "N m/rad", "torque over rotation, torque reversed", reverse.secant),
+        Column("free_rotation", "rad", "play before a contact carries the torque", free, "Play before holding contact"),
+        Column("secant_after_play", "N m/rad", "secant stiffness after the play, torque over the rotation beyond it", loaded.secant),
+        Column("secant_reversed", "N m/rad", "secant stiffness, torque reversed", reverse.secant, "Secant stiffness, torque reversed"),
     ]
     return Table("stiffness", "Torsional stiffness", tuple(columns))
 
@@ -53,7 +53,7 @@ def pin_force_table(
     width: float,
     modulus: float,
     name: str = "pin_forces",
-    title: str = "Forces of the cams on the pins",
+    title: str = "Forces on the pins",
 ) -> Table:
     """Force and Hertz pressure of every loaded contact, one row each.
 
@@ -70,8 +70,8 @@ def pin_force_table(
         title,
         ("angle", "cam", "pin", "force", "arm", "pressure"),
         rows,
-        {"pin": "pin, counted from the first cam's own line", "force": "force on the pin"},
-        missing="no Hertz pressure at a corner, in a pull, or where the profile is as hollow as the pin",
+        {"pin": "pin, counted from the line of the first cam", "force": "force on the pin"},
+        missing="there is no Hertz pressure at a corner, under tension, or where the profile is as hollow as the pin",
     )
 
 
@@ -86,13 +86,19 @@ def bearing_load_table(angles: Floats, forces: Mapping[str, Complexes]) -> Table
     """Size and components of the forces of `bearing_forces` over the input angle (p,) [rad]."""
     columns = [Column("angle", "rad", "input angle", angles)]
     for name, force in forces.items():
-        words = name.replace(".", " ")
+        label = _bearing_label(name)
         columns += [
-            Column(name, "N", words, np.abs(force)),
-            Column(f"{name}.x", "N", f"{words}, along x", force.real),
-            Column(f"{name}.y", "N", f"{words}, along y", force.imag),
+            Column(name, "N", f"load of the {label}", np.abs(force), label),
+            Column(f"{name}.x", "N", f"load of the {label} along x", force.real, f"{label}, x"),
+            Column(f"{name}.y", "N", f"load of the {label} along y", force.imag, f"{label}, y"),
         ]
-    return Table("bearing_loads", "Loads of the bearings", tuple(columns))
+    return Table("bearing_loads", "Bearing loads", tuple(columns))
+
+
+def _bearing_label(name: str) -> str:
+    """ "crank.left.cam1" -> "left crank bearing of cam 1"; "support.right.rear" -> "right rear support bearing"."""
+    group, side, place = name.split(".")
+    return f"{side} {place} support bearing" if group == "support" else f"{side} crank bearing of cam {place.removeprefix('cam')}"
 
 
 def stiffness_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
@@ -102,9 +108,9 @@ def stiffness_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
         given = [column.name for column in tables["stiffness"].columns if column.name in GROUP_LABELS]
         largest = {name: np.nanmax(np.abs(tables["stiffness"][name].data), initial=0.0) for name in given}
         groups = tuple(name for name, share in largest.items() if share > NO_SHARE * max(largest.values()))
-        yield Plot("budget", "Who yields: compliance by parts", "stiffness", "angle", groups, style="bars")
+        yield Plot("budget", "Compliance contributions", "stiffness", "angle", groups, style="bars")
     if "pin_forces" in tables:
-        yield Plot("pin_forces", "Forces on the pins", "pin_forces", "angle", ("force", "pressure"), style="points")
+        yield Plot("pin_forces", tables["pin_forces"].title, "pin_forces", "angle", ("force", "pressure"), style="points")
     if "shared_forces" in tables:
         title = "Roller forces shared by stiffness"
         yield Plot("shared_forces", title, "shared_forces", "angle", ("force", "pressure"), style="points")

@@ -140,7 +140,7 @@ def _refuse_backwards(branch):
     if branch.slope <= 0:
         raise InputError(
             f"torsion test: the angle falls by {-branch.slope:.3g} rad per N m of rising torque, so the stiffness would be "
-            "negative; torque and angle count in opposite senses: turn the sign of one of the columns"
+            "negative; torque and angle have opposite signs; change the sign of one of the columns"
         )
 
 

@@ -14,10 +14,12 @@ import numpy as np
 
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.errors import SpecError, brief
+from drivewright.spec import csv_words
 from drivewright.spec.csv_headings import PURE, TEXT, Wanted
 from drivewright.spec.csv_table import CsvTable, read_csv
 
 QUANTITIES = {"torque": ("torque", "N m"), "force": ("force", "N"), "angle": ("angle", "arcmin"), "crank": ("angle", "deg")}
+OTHER_NAMES = {"torque": csv_words.TORQUE, "force": csv_words.FORCE, "angle": csv_words.ANGLE, "crank": csv_words.CRANK_ANGLE}
 BRANCHES = {"loading": 1, "unloading": -1}
 LARGEST = 200_000  # samples
 
@@ -46,7 +48,7 @@ class Readings(NamedTuple):
 
 
 WANTED = (
-    *(Wanted(name, {dimension: unit}) for name, (dimension, unit) in QUANTITIES.items()),
+    *(Wanted(name, {dimension: unit}, OTHER_NAMES[name]) for name, (dimension, unit) in QUANTITIES.items()),
     Wanted("cycle", {PURE: ""}),
     Wanted("branch", {TEXT: ""}),
 )
@@ -57,7 +59,7 @@ def read_test(file: str | PathLike[str], arm: float | None = None) -> Readings:
     table = read_csv(Path(file), WANTED, (("torque", "force"), ("angle",)))
     _refuse_load(table.columns, arm, file)
     if len(table.rows) > LARGEST:
-        raise SpecError(f"{len(table.rows)} samples; give at most {LARGEST}, every tenth will do", file=str(file))
+        raise SpecError(f"{len(table.rows)} samples are too many; give at most {LARGEST}, for instance every tenth", file=str(file))
     torque = table.numbers("force") * arm if arm is not None else table.numbers("torque")
     cycle, branch = (_whole(table) if "cycle" in table else None), (_branch(table) if "branch" in table else None)
     return Readings(torque, table.numbers("angle"), cycle, branch, table.numbers("crank") if "crank" in table else None)

@@ -12,12 +12,12 @@ from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.registry import Analysis, Mechanism, oracle
 
 ANALYSES = (
-    Analysis("motion", geometry.motion, "the programme and its derivatives"),
-    Analysis("geometry", geometry.geometry, "pressure angle, curvature, closure"),
-    Analysis("profile", profiles.finished_profiles, "the finished profile: undercut, walls, inspection"),
+    Analysis("motion", geometry.motion, "motion programme and its derivatives"),
+    Analysis("geometry", geometry.geometry, "pressure angle, curvature and closure"),
+    Analysis("profile", profiles.finished_profiles, "finished profile: undercut, walls, inspection"),
     Analysis("forces", loads.forces, "contact force and pressure, torque, sliding", missing=loads.no_forces),
-    Analysis("spring", loads.spring, "what the spring must do, and the jump speed", missing=loads.no_spring),
-    Analysis("surge", surge.surge, "surge of the spring and the force that it adds", missing=surge.no_surge),
+    Analysis("spring", loads.spring, "required spring preload and stiffness, jump speed", missing=loads.no_spring),
+    Analysis("surge", surge.surge, "surge of the spring and its force", missing=surge.no_surge),
     Analysis("film", film.film, "oil film between cam and follower", missing=film.no_film),
     Analysis("vibration", loads.vibration, "steady vibration of the follower", missing=loads.no_vibration),
     Analysis("energy", energy, "energy audit over the turn", default=False, missing=loads.no_forces),

@@ -1,4 +1,4 @@
-"""Spec -> model: the programme over one turn and the surfaces that touch: cam and follower, second cam, outer wall, second face."""
+"""Spec -> model: the programme over one turn and the surfaces that touch: cam and follower, conjugate cam, outer wall, second face."""
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
@@ -70,7 +70,7 @@ class CamModel:
 
     @property
     def speed(self) -> float:
-        """Speed of the cam [rad/s]; asked only where the spec states one."""
+        """Speed of the cam [rad/s]; only where the spec states one."""
         assert self.spec.drive is not None
         return self.spec.drive.speed
 
@@ -194,14 +194,14 @@ def clear_of_axis(model: CamModel) -> Bools:
 
 
 def assembled(spec: CamSpec, programme: motion.Programme) -> CamModel:
-    """The `CamModel` of a spec and its programme, for which nobody asked whether anything is left of the cam.
+    """The `CamModel` of a spec and its programme, without the check that anything is left of the cam.
 
     The spec's numbers, those of the programme left aside, may be columns (n, 1) of n designs.
     """
     follower = _follower(spec)
     tracks = (CamTrack("cam", "", follower, follower.contact), *_closing_tracks(spec, follower, programme))
     model = CamModel(spec, programme, tracks, _material(spec), tuple(_findings(spec, programme)))
-    for track in tracks:  # lever past its dead point, lift through the cam's centre: said here, not in the middle of an analysis
+    for track in tracks:  # lever past its dead point, lift through the cam's centre: refused here, not in the middle of an analysis
         track.contact(*model.cycle.sampled())
     return model
 
@@ -213,7 +213,7 @@ def _law(segment, key):
     """The law of one [[programme]] table; errors name the table."""
     parameters = {name: getattr(segment, name) for name in LAW_KEYS if getattr(segment, name) is not None}
     if segment.law == "dwell" and parameters:
-        raise SpecError("a dwell has no parameters; leave it out or name another law", key=f"{key}.{next(iter(parameters))}")
+        raise SpecError("a dwell has no parameters; leave this one out or choose another law", key=f"{key}.{next(iter(parameters))}")
     try:
         return "dwell" if segment.law == "dwell" else motion.law(segment.law, **parameters)
     except SpecError:
@@ -235,12 +235,12 @@ def _segment(spec, number, law, lengths):
 def _refuse_rise(spec, segment, law, lengths, key):
     """The rise, or the lift of a table, must be a length where the programme counts lengths, else an angle."""
     if spec.follower.motion == "translating":
-        wanted = "a length, as the follower translates"
+        wanted = "a length, because the follower is translating"
     elif lengths:
-        wanted = "a length, as follower.lift_at says where lengths are counted"
+        wanted = "a length, because the lift is stated along an arc or at the valve (follower.lift_at or [valve])"
     else:
-        place = "" if spec.valve else '; where a length is counted says follower.lift_at = "arm", or a [valve] with the second arm'
-        wanted = f"an angle, as the follower oscillates{' and another segment has an angle' if spec.valve else ''}{place}"
+        place = "" if spec.valve else '; to state lengths, give follower.lift_at = "arm", or a [valve] with the second arm'
+        wanted = f"an angle, because the follower oscillates{' and another segment has an angle' if spec.valve else ''}{place}"
     if segment.rise is not None and segment.rise != 0 and isinstance(segment.rise, AngleGiven) == lengths:
         raise SpecError(f"must be {wanted}", key=f"{key}.rise")
     if (getattr(law, "lift_unit", None) or "") == ("rad" if lengths else "m"):
@@ -248,20 +248,20 @@ def _refuse_rise(spec, segment, law, lengths, key):
 
 
 def _findings(spec, programme):
-    """What the reader of the result should know before anything is computed."""
+    """Keys that are not used, and findings on tables."""
     used = {"motion", "face", "prime_radius", "base_radius", *USED[spec.follower.motion], *USED[spec.follower.face]}
     used -= {"face_angle"} if spec.follower.motion == "oscillating" else set()
     kind = f"{spec.follower.motion} follower with a {spec.follower.face} face"
     for name in sorted(name for name in spec.follower.model_fields_set - used if np.any(getattr(spec.follower, name))):
-        yield f"follower.{name} has no meaning for a {kind}; it is not used"
+        yield f"follower.{name} is not used: it does not apply to a {kind}"
     for segment in programme.segments:
         if isinstance(segment.law, motion.TableLaw):
             yield from segment.law.findings
     if spec.valve is not None and spec.follower.motion != "oscillating":
-        yield "[valve] is given, but only an oscillating follower has a second arm; it is not used"
+        yield "[valve] is not used: only an oscillating follower has a second arm"
     for name in ("groove", "conjugate"):
         if getattr(spec, name) is not None and spec.closure != name:
-            yield f'[{name}] is given, but closure = "{spec.closure}"; it is not used'
+            yield f'[{name}] is not used: closure = "{spec.closure}"'
 
 
 def _material(spec):
@@ -293,7 +293,7 @@ def _follower(spec):
 
 
 def _prime_radius(given, radius):
-    """Radius of the pitch curve at zero lift: said so, or that of the base circle and the face."""
+    """Radius of the pitch curve at zero lift: as given, or that of the base circle and the face."""
     if (given.prime_radius is None) == (given.base_radius is None):
         reason = "is missing" if given.prime_radius is None else "and follower.base_radius are both given; leave one out"
         raise SpecError(reason, key="follower.prime_radius")
@@ -316,7 +316,7 @@ def _needed(given, name):
 
 
 def _closing_tracks(spec, follower, programme):
-    """What takes the force where the cam itself cannot pull."""
+    """The surfaces that take the force where the cam itself cannot pull."""
     if spec.closure == "force":
         return ()
     if spec.closure == "conjugate":
@@ -324,21 +324,21 @@ def _closing_tracks(spec, follower, programme):
         return (CamTrack("conjugate", "conjugate.", second, second.contact),)
     if spec.closure == "groove":
         if spec.follower.face != "roller":
-            raise SpecError(f'"groove" wants a roller, not a {spec.follower.face} face', key="closure")
+            raise SpecError(f'"groove" needs a roller, not a {spec.follower.face} face; change follower.face or closure', key="closure")
         return (CamTrack("outer wall", "outer.", follower, partial(follower.contact, flank=-1), flank=-1),)
     if spec.follower.motion != "translating" or spec.follower.face not in ("flat", "roller") or np.any(spec.follower.offset):
-        raise SpecError('"yoke" wants a translating follower without offset, with flat faces or rollers', key="closure")
+        raise SpecError('"yoke" needs a translating follower without offset, with flat faces or rollers', key="closure")
     opposite = partial(cams.opposite_contact, cams.Cycle(programme.function), follower)
     return (CamTrack("second face", "opposite.", follower, opposite, cut=False),)
 
 
 def _conjugate(spec, follower):
-    """The follower on its second cam."""
+    """The follower on its conjugate cam."""
     given = spec.conjugate
     if given is None:
-        raise SpecError('is missing: closure = "conjugate" needs the second cam', key="conjugate")
+        raise SpecError('is missing: closure = "conjugate" needs the table of the conjugate cam', key="conjugate")
     if spec.follower.face != "roller":
-        raise SpecError(f'"conjugate" wants rollers, not a {spec.follower.face} face', key="closure")
+        raise SpecError(f'"conjugate" needs rollers, not a {spec.follower.face} face; change follower.face or closure', key="closure")
     radius, arm = (
         of_first if own is None else own
         for own, of_first in ((given.roller_radius, follower.radius), (given.arm_length, getattr(follower, "arm_length", None)))
@@ -360,4 +360,4 @@ def profile(model: CamModel, number: int = 0) -> cams.FinishedProfile:
     try:
         return cams.finished_profile(track.follower, model.programme, track.flank)
     except InputError as error:
-        raise DoesNotAssemble(f"cam: nothing is left of the {track.name}. {error}") from None
+        raise DoesNotAssemble(f"cam: nothing is left of the {track.words}. {error}") from None

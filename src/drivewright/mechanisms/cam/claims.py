@@ -6,9 +6,9 @@ from drivewright.claims import Claims, Derivative, Limit, Mirror, Scaling
 from drivewright.mechanisms.cam.spec import CamSpec
 
 REASONS = {
-    "balances": "the follower is led by the programme: the drive's torque is computed from the power that it takes",
-    "speed": "this preset has no drive, so nothing depends on a speed",
-    "mirror": "the pivot of an oscillating follower stands on +x by definition, so it has no mirror image",
+    "balances": "the motion of the follower is prescribed: the drive torque is computed from its power",
+    "speed": "this preset has no drive speed",
+    "mirror": "the pivot of an oscillating follower is on +x by definition, so it has no mirror image",
     "limits": "this preset has no elastic follower",
 }
 

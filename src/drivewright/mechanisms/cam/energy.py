@@ -1,4 +1,4 @@
-"""Energy audit of the drive over one turn: what the cam shaft gives against springs, loads, damping and the motion of the follower."""
+"""Energy audit of the drive over one turn: work of the cam shaft against springs, loads, damping and the motion of the follower."""
 
 import numpy as np
 

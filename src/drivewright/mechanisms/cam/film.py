@@ -45,17 +45,39 @@ def _values(model, track, contact, force, thickness, places):
     worst, roughness = int(np.argmax(pressure)), model.spec.lubricant.roughness
     at_worst, of, name = float(thickness.minimum[worst]), track.of, f"{track.prefix}film"
     found = {
-        f"{name}.max_thickness": Value(float(np.nanmax(thickness.minimum)), "m", f"largest film thickness over the turn{of}, steady"),
-        f"{name}.reversals": Value(float(len(places)), "-", f"reversals of the entrainment{of}, per turn"),
+        f"{name}.max_thickness": Value(
+            float(np.nanmax(thickness.minimum)),
+            "m",
+            f"maximum over the turn of the steady film thickness{of}",
+            label=track.label("Maximum film thickness"),
+        ),
+        f"{name}.reversals": Value(
+            float(len(places)),
+            "-",
+            f"number of reversals of the entrainment speed per turn{of}",
+            label=track.label("Entrainment reversals"),
+        ),
     }
     if at_worst > 0:
-        found[f"{name}.at_peak_pressure"] = Value(at_worst, "m", f"least film thickness at peak pressure{of}, steady")
+        found[f"{name}.at_peak_pressure"] = Value(
+            at_worst,
+            "m",
+            f"minimum steady film thickness at the peak Hertz pressure{of}",
+            label=track.label("Minimum film thickness, peak pressure"),
+        )
         found[f"{name}.central_at_peak_pressure"] = Value(
-            float(thickness.central[worst]), "m", f"central film thickness at peak pressure{of}, steady"
+            float(thickness.central[worst]),
+            "m",
+            f"central steady film thickness at the peak Hertz pressure{of}",
+            label=track.label("Central film thickness, peak pressure"),
         )
     if at_worst > 0 and roughness:
         found[f"{name}.ratio"] = Value(
-            float(film_ratio(at_worst, roughness)), "-", f"film over roughness at peak pressure{of}, below 1 the surfaces touch"
+            float(film_ratio(at_worst, roughness)),
+            "-",
+            f"minimum film thickness over composite roughness at the peak Hertz pressure{of}",
+            label=track.label("Lambda ratio, peak pressure"),
+            convention="below 1 the surfaces touch",
         )
     return found if np.any(np.isfinite(thickness.minimum)) else {f"{name}.reversals": found[f"{name}.reversals"]}
 
@@ -65,19 +87,19 @@ def _table(model, track, angle, speed, thickness):
         Column("angle", "rad", "cam angle", angle),
         Column("entrainment_speed", "m/s", f"entrainment speed of the oil{track.of}", speed),
         Column("central_thickness", "m", f"central film thickness{track.of}", thickness.central),
-        Column("min_thickness", "m", f"least film thickness{track.of}", thickness.minimum),
+        Column("min_thickness", "m", f"minimum film thickness{track.of}", thickness.minimum),
     ]
     if model.spec.lubricant.roughness:
         ratio = film_ratio(thickness.minimum, model.spec.lubricant.roughness)
-        columns.append(Column("film_ratio", "-", f"least film thickness over roughness{track.of}", ratio))
-    missing = "nothing presses there" if np.any(np.isnan(thickness.minimum)) else ""
-    return Table(f"film{track.suffix}", f"Oil film{track.of}", tuple(columns), missing)
+        columns.append(Column("film_ratio", "-", f"minimum film thickness over composite roughness{track.of}", ratio, "Lambda ratio"))
+    missing = "no contact force there" if np.any(np.isnan(thickness.minimum)) else ""
+    return Table(f"film{track.suffix}", track.label("Oil film"), tuple(columns), missing)
 
 
 def _findings(track, places):
     if len(places):
         angles = ", ".join(f"{np.degrees(place % (2 * np.pi)):.1f}" for place in places)
         yield (
-            f"the entrainment speed{track.of} reverses at the cam angles {angles} deg: the steady film is zero there; what squeezing "
-            "leaves of it is not computed"
+            f"the entrainment speed{track.of} reverses at the cam angles {angles} deg: the steady film thickness is zero there, and the "
+            "squeeze film is not computed"
         )

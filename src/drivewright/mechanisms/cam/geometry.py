@@ -1,4 +1,4 @@
-"""What is asked of a cam's geometry: motion, pressure angle, curvature, size of the face, closure."""
+"""Geometry of a cam: motion, pressure angle, curvature, size of the face, closure."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -44,8 +44,13 @@ def _unit(model):
 def _lift(model):
     return Answer(
         {
-            "lift": Value(float(np.ptp(model.cycle.sampled()[1].d0)), _unit(model), "stroke of the follower"),
-            "continuity": Value(float(model.programme.continuity), "-", "order of the highest derivative of the lift that does not jump"),
+            "lift": Value(float(np.ptp(model.cycle.sampled()[1].d0)), _unit(model), "stroke of the follower", label="Stroke"),
+            "continuity": Value(
+                float(model.programme.continuity),
+                "-",
+                "order of the highest continuous derivative of the lift",
+                label="Order of continuity of the lift",
+            ),
         }
     )
 
@@ -59,8 +64,15 @@ def _smoothing(model):
     unit = model.programme.lift_unit
     return Answer(
         {
-            "smoothing.departure": Value(departure, unit, "largest departure of the smoothed lift from a row of its table"),
-            "smoothing.jerk": Value(jerk, "-", "rms jerk of the smoothed lift over that of a spline through all rows"),
+            "smoothing.departure": Value(
+                departure, unit, "maximum deviation of the smoothed lift from a row of its table", label="Maximum deviation from the table"
+            ),
+            "smoothing.jerk": Value(
+                jerk,
+                "-",
+                "RMS jerk of the smoothed lift over that of a spline through all rows",
+                label="RMS jerk ratio, smoothed to unsmoothed",
+            ),
         }
     )
 
@@ -77,7 +89,12 @@ def _peaks(model):
     peaks = model.programme.function.peaks()
     return Answer(
         {
-            f"max_{name}": Value(peaks[order - 1] * model.speed**order, unit, f"largest {kind}{name} of the follower, magnitude")
+            f"max_{name}": Value(
+                peaks[order - 1] * model.speed**order,
+                unit,
+                f"maximum magnitude of the {kind}{name} of the follower",
+                label=f"Maximum follower {kind}{name}",
+            )
             for order, name, unit, kind in _rates(model)
             if np.isfinite(peaks[order - 1])
         }
@@ -105,9 +122,9 @@ def _continuity(model):
                 limit,
                 "<=",
                 "-",
-                f"largest jump of the {name} over its peak",
+                f"maximum jump of the {name} over its peak; choose motion laws whose {name} agrees at the joints",
                 ("follower",),
-                label=f"{name} jump over its peak",
+                label=f"Relative {name} jump",
             )
             for order, name, limit in ((1, "velocity", limits.velocity_jump), (2, "acceleration", limits.acceleration_jump))
         )
@@ -116,7 +133,12 @@ def _continuity(model):
 
 def _infinite(peaks):
     names = [name for name, peak in (("acceleration", peaks.Am), ("jerk", peaks.Jm)) if not np.isfinite(peak)]
-    return (f"the largest {' and the largest '.join(names)} are infinite: at a joint a lower derivative jumps",) if names else ()
+    if not names:
+        return ()
+    return (
+        f"the maximum {' and '.join(names)} {'are' if len(names) > 1 else 'is'} infinite: a lower derivative jumps at a joint; "
+        "choose motion laws that match there",
+    )
 
 
 # -- geometry ------------------------------------------------------------------------------------------------------------------
@@ -157,7 +179,7 @@ def _absent(model, values):
     """What to say of values that a design should have and does not."""
     for track in model.tracks:
         if track.cut and np.isnan(values[f"{track.prefix}min_convex_radius"].value):
-            yield f"{track.prefix}min_convex_radius is absent: the radius of the {track.curve} passes through zero"
+            yield f"{track.prefix}min_convex_radius is absent: the radius of curvature of the {track.curve} passes through zero"
     if "min_base_radius" in values and np.isnan(values["min_base_radius"].value):
         yield "min_base_radius is absent: no base radius is free of undercut; move the pivot away or reduce the swing"
 
@@ -168,12 +190,10 @@ def _tables(model, track):
         yield track.undercut_table(model.cycle)
 
 
-def _extreme_values(name, place, unit, meaning):
-    """A value and the cam angle where it stands."""
-    return {
-        name: Value(place.value, unit, meaning),
-        f"{name}.at": Value(place.angle % TURN, "rad", f"cam angle of {name}, from the start of the programme"),
-    }
+def _extreme_values(name, place, value, at):
+    """A value and the cam angle where it stands; `at`: the label of that."""
+    angle = Value(place.angle % TURN, "rad", f"cam angle at the {value.meaning}", label=at, convention="0 at the start of the programme")
+    return {name: value, f"{name}.at": angle}
 
 
 def _pressure_angle(track):
@@ -184,15 +204,24 @@ def _pressure(model, number):
     """Extremes of the pressure angle over the turn, signed."""
     track = model.tracks[number]
     high, low = (extreme(_pressure_angle(track)) for extreme in (model.cycle.maximum, model.cycle.minimum))
-    values = _extreme_values(f"{track.prefix}max_pressure_angle", high, "rad", "largest pressure angle, positive where it opposes the rise")
-    values |= _extreme_values(f"{track.prefix}min_pressure_angle", low, "rad", "least pressure angle, positive where it opposes the rise")
+    values = {}
+    for name, words, place in (("max", "maximum", high), ("min", "minimum", low)):
+        label, at = (track.label(text) for text in (f"{words.capitalize()} pressure angle", f"Cam angle at {words} pressure angle"))
+        value = Value(place.value, "rad", f"{words} pressure angle over the turn{track.of}", label=label, convention=_sense(track))
+        values |= _extreme_values(f"{track.prefix}{name}_pressure_angle", place, value, at)
     if track.flank < 0:  # the walls of a groove share their normals
         return Answer(values)
     given = model.spec.limits.pressure_angle
     limit = np.radians(45 if model.oscillating else 30) if given is None else given
     size = np.maximum(high.value, -low.value)
-    check = Check(f"pressure_angle{track.suffix}", size, limit, "<=", "rad", "largest pressure angle, magnitude", (track.name,))
-    return Answer(values, (), (check,))
+    remedy = "reduce the tilt or the offset of the face" if track.flat else "enlarge the prime radius or lengthen the segment"
+    message, label = f"maximum magnitude of the pressure angle; {remedy}", track.label("Maximum pressure angle")
+    return Answer(values, (), (Check(f"pressure_angle{track.suffix}", size, limit, "<=", "rad", message, (track.name,), label=label),))
+
+
+def _sense(track):
+    """The convention of sign of a pressure angle."""
+    return "positive where it opposes " + ("the outward motion of the second roller" if track.name == "conjugate" else "the rise")
 
 
 def _phase_pressure(model, number, phase):
@@ -201,24 +230,24 @@ def _phase_pressure(model, number, phase):
     if cycle is None:
         return Answer()
     size = np.maximum(cycle.maximum(_pressure_angle(track)).value, -cycle.minimum(_pressure_angle(track)).value)
-    name, meaning = f"{track.prefix}max_pressure_angle.{phase}", f"largest pressure angle in the {phase}, magnitude"
-    return Answer({name: Value(size, "rad", meaning)})
+    meaning, label = f"maximum magnitude of the pressure angle in the {phase}{track.of}", track.label(f"Maximum pressure angle, {phase}")
+    return Answer({f"{track.prefix}max_pressure_angle.{phase}": Value(size, "rad", meaning, label=label)})
 
 
 def _convex(model, number):
-    """Sharpest convex place of the pitch curve (of the profile under a flat face), and undercut of a profile worked from outside."""
+    """Minimum convex radius of the pitch curve (of the profile under a flat face), and undercut of a profile worked from outside."""
     track = model.tracks[number]
     if track.flat:
         least = cams.min_flat_radius(model.cycle, track.flat_face)
-        message = "least radius of curvature of the profile: below 0 the face cuts it away"
-        check = Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True, label="undercut, profile radius")
+        message = "minimum radius of curvature of the profile; below 0 the flat face undercuts it: enlarge the base radius"
+        check = Check("undercut", least.value, 0.0, ">=", "m", message, ("cam",), True, label="Undercut, profile radius")
         return Answer(_radius_values(track, "convex", least.where(np.greater(least.value, 0))), (), (check,))
     place = cams.min_pitch_radius(model.cycle, track.contact, 1)
     return Answer(_radius_values(track, "convex", place), (), _undercut(model, track, place) if track.flank > 0 else ())
 
 
 def _concave(model, number):
-    """Sharpest concave place of the pitch curve, and undercut of an outer wall."""
+    """Minimum concave radius of the pitch curve, and undercut of an outer wall."""
     track = model.tracks[number]
     place = cams.min_pitch_radius(model.cycle, track.contact, -1)
     return Answer(_radius_values(track, "concave", place), (), _undercut(model, track, place) if track.flank < 0 else ())
@@ -227,13 +256,15 @@ def _concave(model, number):
 def _radius_values(track, name, place):
     """A least radius of curvature of the pitch curve, and that of the profile which a round face leaves on the outside of a cam: the face
     takes its radius from a convex bend."""
-    meaning = f"least radius of curvature of the {track.curve} where it is {name} seen from outside"
-    values = _extreme_values(f"{track.prefix}min_{name}_radius", place, "m", meaning)
+    meaning = f"minimum radius of curvature of the {track.curve} where it is {name} as seen from outside{track.of}"
+    value = Value(place.value, "m", meaning, label=track.label(f"Minimum {name} radius, {track.curve}"))
+    values = _extreme_values(f"{track.prefix}min_{name}_radius", place, value, track.label(f"Cam angle at minimum {name} radius"))
     if track.flat or track.flank < 0:
         return values
     radius = place.value + (track.radius if name == "concave" else -track.radius)
-    meaning = f"least radius of curvature of the profile where it is {name} seen from outside"
-    return values | {f"{track.prefix}profile.min_{name}_radius": Value(cams.nan_unless(radius > 0, radius), "m", meaning)}
+    meaning = f"minimum radius of curvature of the profile where it is {name} as seen from outside{track.of}"
+    value = Value(cams.nan_unless(radius > 0, radius), "m", meaning, label=track.label(f"Minimum {name} radius, profile"))
+    return values | {f"{track.prefix}profile.min_{name}_radius": value}
 
 
 def _undercut(model, track, place):
@@ -241,9 +272,12 @@ def _undercut(model, track, place):
     if np.all(track.radius == 0):
         return ()
     ratio, recommended, parts = place.value / track.radius, model.spec.limits.curvature_ratio, (track.name,)
-    message = "least radius of the pitch curve over that of the face: below 1 the profile cuts itself away"
-    label, advised = f"undercut, pitch/face radius{track.surface}", f"recommended pitch/face ratio{track.surface}"
-    margin = "least convex radius over roller radius, recommended"
+    over, remedy = (
+        "minimum radius of curvature of the pitch curve over the face radius",
+        "enlarge the prime radius or reduce the face radius",
+    )
+    message, margin = f"{over}; below 1 the profile is undercut: {remedy}", f"{over}, recommended value; {remedy}"
+    label, advised = track.label("Undercut, pitch/face radius"), track.label("Curvature ratio, recommended")
     return (
         Check(f"undercut{track.suffix}", ratio, 1.0, ">=", "-", message, parts, True, label=label),
         Check(f"curvature_margin{track.suffix}", ratio, recommended, ">=", "-", margin, parts, label=advised),
@@ -255,42 +289,57 @@ def _face(model):
     low, high = cams.face_ends(model.cycle, model.follower)
     slope = [extreme(lambda _, lift: curves.derivative(lift)).value for extreme in (model.cycle.minimum, model.cycle.maximum)]
     half = 0.5 * (high - low) if model.oscillating else max(-slope[0], slope[1])
-    about = "" if model.oscillating else ", about the cam's axis: max |ds/dtheta|"
-    origin = "the foot of the pivot" if model.oscillating else "the follower's line"
+    about = "" if model.oscillating else " about the cam axis: max |ds/dtheta|"
+    origin = (
+        "0 at the foot of the pivot" if model.oscillating else "0 at the follower's line, positive on the side of the contact in the rise"
+    )
     values = {
-        "face.start": Value(low, "m", f"least place of the contact on the face, from {origin}"),
-        "face.end": Value(high, "m", f"greatest place of the contact on the face, from {origin}"),
-        "min_half_face": Value(half, "m", f"half the length of face that is used{about}"),
+        f"face.{end}": Value(
+            place,
+            "m",
+            f"{words} position of the contact along the face",
+            label=f"{words.capitalize()} contact position on the face",
+            convention=origin,
+        )
+        for end, words, place in (("start", "minimum", low), ("end", "maximum", high))
     }
+    half_used = f"half the length of the face that the contact uses{about}"
+    values["min_half_face"] = Value(half, "m", half_used, label="Required half length of the face")
     given = model.spec.follower
     if given.half_face is None:
         return Answer(values)
     middle = given.arm_length if model.oscillating else given.face_offset
-    used, message = np.maximum(high - middle, middle - low), "the contact stays on the flat face, measured from its middle"
-    check = Check("half_face", used, given.half_face, "<=", "m", message, ("follower",), label="half length of face in use")
+    used = np.maximum(high - middle, middle - low)
+    message = "maximum distance of the contact from the middle of the face; lengthen the face (half_face) or shift it (face_offset)"
+    check = Check("half_face", used, given.half_face, "<=", "m", message, ("follower",), label="Half length of the face in use")
     return Answer(values, (), (check,))
 
 
 def _base_radius(model):
     """How large a flat-faced cam must be."""
     base = cams.min_base_radius(model.cycle, model.follower)
-    return Answer({"min_base_radius": Value(base, "m", "least base radius without undercut")})
+    meaning = "minimum base radius at which the flat face does not undercut the profile"
+    return Answer({"min_base_radius": Value(base, "m", meaning, label="Minimum base radius without undercut")})
 
 
 def _closure(model):
-    """What the chosen closure asks of the shape."""
+    """What the chosen closure requires of the shape."""
     limits = model.spec.limits
     if model.spec.closure == "yoke":
-        error, meaning = cams.breadth(model.cycle).error, "largest play or interference of the yoke: departure of s(theta) + s(theta + pi)"
+        error, label = cams.breadth(model.cycle).error, "Breadth error of the yoke"
+        meaning = "maximum clearance or interference of the yoke: deviation of s(theta) + s(theta + pi) from its mean"
+        breadth = "distance between the two faces, or the two roller centres, of the yoke"
         values = {
-            "yoke.breadth": Value(model.yoke_breadth, "m", "distance of the two faces, or roller centres, of the yoke"),
-            "yoke.breadth_error": Value(error, "m", meaning),
+            "yoke.breadth": Value(model.yoke_breadth, "m", breadth, label="Breadth of the yoke"),
+            "yoke.breadth_error": Value(error, "m", meaning, label=label),
         }
-        message = "the yoke fits at every angle: s(theta) + s(theta + pi) is constant"
-        parts, label = ("follower", "cam"), "error of the constant breadth"
+        message = "deviation of s(theta) + s(theta + pi) from a constant; the return must mirror the rise half a turn later"
+        parts = ("follower", "cam")
         return Answer(values, (), (Check("closure.breadth", error, limits.breadth_error, "<=", "m", message, parts, True, label=label),))
     if model.spec.closure == "groove":
-        travel, meaning = cams.play(model.cycle, model.tracks[0].contact, model.clearance), "travel through the clearance of the groove"
-        check = Check("groove.play", travel, limits.play, "<=", "m", meaning, ("follower",), label="play in the groove")
-        return Answer({"groove.play": Value(travel, "m", meaning)}, (), (check,))
+        travel, label = cams.play(model.cycle, model.tracks[0].contact, model.clearance), "Follower play in the groove"
+        meaning = "maximum travel of the follower through the clearance of the groove"
+        message = f"{meaning}; reduce groove.clearance or the pressure angle"
+        check = Check("groove.play", travel, limits.play, "<=", "m", message, ("follower",), label=label)
+        return Answer({"groove.play": Value(travel, "m", meaning, label=label)}, (), (check,))
     return Answer()

@@ -41,7 +41,9 @@ def no_vibration(spec: CamSpec) -> str | None:
     if spec.vibration is None or spec.drive is None:
         return NO_SPEED if spec.vibration else "no [vibration] natural_frequency"
     ratio = 2 * np.pi * spec.vibration.natural_frequency / spec.drive.speed
-    return f"the natural frequency is {ratio:.3g} times the cam's speed, which is as good as rigid" if ratio > cams.STIFFEST else None
+    return (
+        f"the natural frequency is {ratio:.3g} times the cam's speed: the follower is practically rigid" if ratio > cams.STIFFEST else None
+    )
 
 
 def forces(model: CamModel, done: Answers) -> Answer:
@@ -51,7 +53,7 @@ def forces(model: CamModel, done: Answers) -> Answer:
     required, torque = model.required(*state).d0 + 0 * angle, model.torque(*state).d0 + 0 * angle
     columns = (
         Column("angle", "rad", "cam angle", angle),
-        Column("required_force", "N", "force on the follower along its travel", required),
+        Column("required_force", "N", "force of the cam on the follower along its travel", required, "Force along the travel"),
         Column("torque", "N m", "torque on the cam shaft", torque),
     )
     tables = [Table("load", "Force and torque over the turn", columns)]
@@ -81,29 +83,32 @@ def force_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
 
 
 def _torque(model):
-    least = "least torque on the cam shaft, negative where the follower drives the cam"
+    sense = "negative where the follower drives the cam"
     return Answer(
         {
-            "max_torque": Value(model.cycle.maximum(model.torque).value, "N m", "largest torque on the cam shaft"),
-            "min_torque": Value(model.cycle.minimum(model.torque).value, "N m", least),
+            f"{name}_torque": Value(
+                extreme(model.torque).value, "N m", f"{words} torque on the cam shaft", label=f"Cam torque, {words}", convention=sense
+            )
+            for name, words, extreme in (("max", "maximum", model.cycle.maximum), ("min", "minimum", model.cycle.minimum))
         }
     )
 
 
 def _crossovers(model):
     count = cams.crossovers(model.cycle, model.required)
-    return Answer({"crossovers": Value(count, "-", "changes of the surface that drives, per turn")})
+    meaning = "number of times per turn that another surface takes over the drive of the follower"
+    return Answer({"crossovers": Value(count, "-", meaning, label="Crossovers of the contact per turn")})
 
 
 def _flight(model, required):
-    """What to say where a follower closed by force would have to be pulled."""
+    """The finding where a follower closed by force would have to be pulled."""
     if model.spec.closure != "force" or not np.any(required < 0):
         return ()
     share, angle = 100 * float(np.mean(required < 0)), np.degrees(model.cycle.minimum(model.required).angle % (2 * np.pi))
     return (
-        f"the follower leaves the cam over about {share:.0f} % of the turn, with the least force at cam angle {angle:.1f} deg: there the "
-        "cam carries neither force nor torque; its flight and landing are not computed, and the forces after a landing are larger "
-        "than those given",
+        f"the follower leaves the cam over about {share:.0f} % of the turn, with the minimum force at cam angle {angle:.1f} deg: there the "
+        "cam transmits neither force nor torque. Flight and landing are not computed, and the forces after landing exceed those given; "
+        "increase the preload or the stiffness of the spring, or reduce the speed",
     )
 
 
@@ -111,18 +116,25 @@ def _contact_force(model, number):
     """Normal force of one surface, which pushes only and carries what falls to it."""
     track = model.tracks[number]
     greatest = np.maximum(model.cycle.maximum(partial(model.normal_force, track)).value, 0.0)
-    return Answer({f"{track.prefix}max_contact_force": Value(greatest, "N", f"largest normal force{track.of}")})
+    return Answer(
+        {
+            f"{track.prefix}max_contact_force": Value(
+                greatest, "N", f"maximum normal force{track.of}", label=track.label("Maximum normal force")
+            )
+        }
+    )
 
 
 def _surface_speed(model, number):
-    """Greatest speed of the roller on its pin, or of the face over the cam."""
+    """Maximum speed of the roller on its pin, or of the face over the cam."""
     track = model.tracks[number]
     ends = [extreme(lambda a, lift: track.contact(a, lift).sliding).value for extreme in (model.cycle.maximum, model.cycle.minimum)]
     fastest = np.maximum(*map(np.abs, ends)) * model.speed
     if model.spec.follower.face == "roller":
-        spin = Value(fastest / track.radius, "rad/s", f"largest speed of the roller on its pin{track.of}")
-        return Answer({f"{track.prefix}max_roller_speed": spin})
-    return Answer({f"{track.prefix}max_sliding_speed": Value(fastest, "m/s", f"largest sliding speed{track.of}")})
+        meaning, label = f"maximum angular speed of the roller on its pin{track.of}", track.label("Maximum roller speed")
+        return Answer({f"{track.prefix}max_roller_speed": Value(fastest / track.radius, "rad/s", meaning, label=label)})
+    meaning, label = f"maximum sliding speed of the follower's face{track.of}", track.label("Maximum sliding speed")
+    return Answer({f"{track.prefix}max_sliding_speed": Value(fastest, "m/s", meaning, label=label)})
 
 
 def _pressure(model, number):
@@ -135,28 +147,30 @@ def _pressure(model, number):
         width, modulus, force_at = model.spec.face.width, cams.pair_modulus(model.material), partial(model.normal_force, track)
         peak = cams.peak_contact_pressure(model.cycle, force_at, track.contact, track.radius, width, modulus)
         peak = cams.nan_unless(smooth, peak)
-    values = {f"{track.prefix}max_contact_pressure": Value(peak, "Pa", f"largest Hertz pressure{track.of}, steady contact")}
+    meaning, label = f"maximum Hertz pressure in steady contact{track.of}", track.label("Maximum Hertz pressure")
+    values = {f"{track.prefix}max_contact_pressure": Value(peak, "Pa", meaning, label=label)}
     return Answer(values, (), _pressure_check(model, track, peak).checks)
 
 
 def _pressure_check(model, track, peak):
-    name, message = f"contact_pressure{track.suffix}", "Hertz line contact of follower and cam"
-    return cams.pressure_check(name, peak, model.spec.limits.contact_pressure, model.material, message, (track.name, "follower"))
+    name, label = f"contact_pressure{track.suffix}", track.label("Maximum Hertz pressure")
+    message = "maximum Hertz pressure of the line contact of cam and follower; widen the face, enlarge the radii or reduce the force"
+    return cams.pressure_check(name, peak, model.spec.limits.contact_pressure, model.material, message, (track.name, "follower"), label)
 
 
 def _no_allowable(model, track):
-    """What to say where nobody states an allowable pressure."""
+    """The finding where no allowable pressure is known."""
     return _pressure_check(model, track, 0.0).findings
 
 
 def spring(model: CamModel, done: Answers) -> Answer:
-    """Does the spring hold the follower on the cam; what preload, stiffness and speed are the limits."""
+    """Whether the spring holds the follower on the cam; the limits of its preload and stiffness, and of the speed."""
     measured = merge_answers(measure(model) for measure in spring_measures(model))
     absent = {
-        "spring.needed_stiffness": "with its mass the spring surges otherwise at another stiffness"
+        "spring.needed_stiffness": "the surge of a spring with mass depends on its stiffness; vary spring.stiffness instead"
         if model.surge
-        else "none holds the follower at zero lift; give preload",
-        "spring.jump_speed": "the follower leaves the cam at no speed",
+        else "no stiffness holds the follower on the cam at zero lift; give a preload",
+        "spring.jump_speed": "the follower stays on the cam at every speed",
     }
     findings = tuple(f"{name} is absent: {reason}" for name, reason in absent.items() if np.isnan(measured.values[name].value))
     return merge_answers((existing(measured), Answer(findings=findings)))
@@ -168,27 +182,43 @@ def spring_measures(model: CamModel) -> Iterator[Callable[[CamModel], Answer]]:
 
 
 def _separation(model):
-    """Least force along the travel, which must press the follower onto the cam."""
-    least = model.cycle.minimum(model.required)
+    """Minimum force along the travel, which must press the follower onto the cam."""
+    least, label = model.cycle.minimum(model.required), "Minimum force along the travel"
     values = {
-        "min_required_force": Value(least.value, "N", "least force on the follower along its travel; below 0 it leaves the cam"),
-        "min_required_force.at": Value(least.angle % (2 * np.pi), "rad", "cam angle of it, from the start of the programme"),
+        "min_required_force": Value(
+            least.value,
+            "N",
+            "minimum force of the cam on the follower along its travel",
+            label=label,
+            convention="negative where the follower leaves the cam",
+        ),
+        "min_required_force.at": Value(
+            least.angle % (2 * np.pi),
+            "rad",
+            "cam angle at the minimum force along the travel",
+            label="Cam angle at minimum force",
+            convention="0 at the start of the programme",
+        ),
     }
-    message = "the follower stays on the cam: least force along the travel"
-    limit, label = model.spec.limits.contact_force, "separation, least force"
+    message = (
+        "minimum force along the travel, with which the follower stays on the cam; increase the preload or the stiffness of the spring"
+    )
+    limit = model.spec.limits.contact_force
     return Answer(values, (), (Check("separation", least.value, limit, ">=", "N", message, ("follower",), label=label),))
 
 
 def _needed_preload(model):
     also = surge_force(model) if model.surge else None
     needed = cams.needed_preload(model.cycle, model.path, model.load, model.speed, also)
-    return Answer({"spring.needed_preload": Value(needed, "N", "least preload at this speed and stiffness")})
+    meaning = "minimum preload with which the follower stays on the cam, at this speed and stiffness"
+    return Answer({"spring.needed_preload": Value(needed, "N", meaning, label="Required spring preload")})
 
 
 def _needed_stiffness(model):
     stiffness = np.inf if model.surge else cams.needed_stiffness(model.cycle, model.path, model.load, model.speed)
     stiffness = cams.nan_unless(np.isfinite(stiffness), stiffness)
-    return Answer({"spring.needed_stiffness": Value(stiffness, "N/m", "least stiffness at this speed and preload")})
+    meaning = "minimum stiffness with which the follower stays on the cam, at this speed and preload"
+    return Answer({"spring.needed_stiffness": Value(stiffness, "N/m", meaning, label="Required spring stiffness")})
 
 
 def _jump(model):
@@ -197,21 +227,28 @@ def _jump(model):
     found = jump_with_surge(model, cast(float, quiet.speed)) if model.surge else quiet
     speed = cams.nan_unless(np.isfinite(found.speed), found.speed)
     values = {
-        "spring.jump_speed": Value(speed, "rad/s", "cam speed at which the follower leaves the cam"),
-        "spring.jump_speed.at": Value(cast(float, found.angle) % (2 * np.pi), "rad", "cam angle of separation, at the jump speed"),
+        "spring.jump_speed": Value(speed, "rad/s", "cam speed at which the follower leaves the cam", label="Jump speed"),
+        "spring.jump_speed.at": Value(
+            cast(float, found.angle) % (2 * np.pi),
+            "rad",
+            "cam angle at which the follower leaves the cam at the jump speed",
+            label="Cam angle of separation",
+            convention="0 at the start of the programme",
+        ),
     }
     if model.surge and np.isfinite(quiet.speed):
         values["spring.jump_speed.without_surge"] = Value(
-            cast(float, quiet.speed), "rad/s", "jump speed without surge, a spring without mass"
+            cast(float, quiet.speed), "rad/s", "jump speed of a spring without mass", label="Jump speed without surge"
         )
     return Answer(values, (), (_jump_check(model, speed, found.angle),))
 
 
 def _jump_check(model, speed, angle):
     """The check of a jump speed; its message names speed and angle."""
-    message = "the follower leaves the cam"
+    message, remedy = "the follower leaves the cam", "; increase the preload or the stiffness of the spring"
     if np.ndim(speed) == 0 and np.isfinite(speed):
         message += f" at {60 * speed / (2 * np.pi):.5g} rpm, at cam angle {np.degrees(angle % (2 * np.pi)):.1f} deg"
+    message += remedy
     return Check("jump_speed", speed, model.speed, ">=", "rad/s", message, ("follower", "spring"), label="Jump speed")
 
 
@@ -223,15 +260,22 @@ def vibration(model: CamModel, done: Answers) -> Answer:
     response = cams.periodic_response(model.cycle, reach, speed, frequency, damping_ratio)
     acceleration = cams.mass_acceleration(response, frequency, damping_ratio)
     error, shock = (cams.response_peak(response, speed, quantity) for quantity in (response.error, acceleration))
+    deviation, label = "deviation of the vibrating follower from its programme", "Maximum deviation from the programme"
     values = {
-        "vibration.max_error": Value(error, "m", "largest deviation of the follower from its programme"),
-        "vibration.max_acceleration": Value(shock, "m/s^2", "largest acceleration of the follower, vibration included"),
+        "vibration.max_error": Value(error, "m", f"maximum {deviation}", label=label),
+        "vibration.max_acceleration": Value(
+            shock,
+            "m/s^2",
+            "maximum magnitude of the acceleration of the follower, vibration included",
+            label="Maximum acceleration with vibration",
+        ),
     }
     dwells = [k for k, piece in enumerate(model.programme.pieces) if piece.phase == "dwell"]
     if dwells:
         swing = cams.free_amplitude(response, frequency, damping_ratio)
         residual = max(float(swing[response.piece == k][0]) for k in dwells)
-        values["vibration.residual"] = Value(residual, "m", "amplitude that is left at the start of a dwell, the largest")
-    limit, message = model.spec.limits.vibration, "deviation of the follower from its programme"
-    checks = (Check("vibration", error, limit, "<=", "m", message, ("follower",)),) if limit else ()
+        meaning = "maximum amplitude of the residual vibration at the start of a dwell"
+        values["vibration.residual"] = Value(residual, "m", meaning, label="Maximum residual vibration in dwell")
+    limit, message = model.spec.limits.vibration, f"maximum {deviation}; reduce the speed or choose a smoother motion law"
+    checks = (Check("vibration", error, limit, "<=", "m", message, ("follower",), label=label),) if limit else ()
     return Answer(values, (cams.vibration_table(model.cycle, response, reach, acceleration),), checks)

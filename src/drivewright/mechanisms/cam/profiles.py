@@ -1,4 +1,4 @@
-"""The finished profile: what trimming leaves, whether it can be made, and the table to inspect it by."""
+"""The finished profile after trimming, whether it can be made, and its inspection table."""
 
 from collections.abc import Callable, Iterator
 from functools import partial, reduce
@@ -13,7 +13,7 @@ from drivewright.mechanisms.cam.geometry import existing
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.result import Answer, Answers, Check, Value, merge_answers
 
-HOLLOW = "hollow radius for the cutter"
+REMEDY = "enlarge the prime radius, reduce the face radius or lengthen the segment"
 
 
 def finished_profiles(model: CamModel, done: Answers) -> Answer:
@@ -51,24 +51,31 @@ def _one_profile(model, number):
     if left.trimmed:
         area, length = left.trimmed.area, left.trimmed.perimeter
     values = {
-        f"{prefix}profile.area": Value(area, "m^2", f"area within the profile{track.of}"),
-        f"{prefix}profile.perimeter": Value(length, "m", f"length of the profile{track.of}"),
+        f"{prefix}profile.area": Value(area, "m^2", f"area within the profile{track.of}", label=track.label("Area of the profile")),
+        f"{prefix}profile.perimeter": Value(
+            length, "m", f"perimeter of the profile{track.of}", label=track.label("Perimeter of the profile")
+        ),
     }
     size = _size(model, number, left.trimmed)
-    table = cams.inspection_table(model.cycle, track.contact, left.trimmed, tolerance, name, f"Inspection{track.of}")
+    table = cams.inspection_table(model.cycle, track.contact, left.trimmed, tolerance, name, track.label("Inspection"))
     lost = _lost_motion(model, track, left) if left.trimmed else Answer()
-    failure = f"{track.name}: the undercut profile could not be trimmed ({left.failure}); it is drawn untrimmed"
+    failure = f"{track.words}: the undercut profile could not be trimmed ({left.failure}); it is drawn untrimmed"
     shape = Answer({**size.values, **values}, (table,), size.checks)
     return merge_answers((shape, lost, *([Answer(findings=(failure,), outcome="partial")] if left.failure else [])))
 
 
 def _size(model, number, trimmed=None):
-    """Least and greatest radius of a profile, and the walls to bore and hub."""
+    """Minimum and maximum polar radius of a profile, and the walls to bore and hub."""
     track = model.tracks[number]
     least, greatest = cams.profile_radii(model.cycle, track.contact, trimmed)
     values = {
-        f"{track.prefix}profile.min_radius": Value(least, "m", f"least distance of the profile from the cam's centre{track.of}"),
-        f"{track.prefix}profile.max_radius": Value(greatest, "m", f"greatest distance of the profile from the cam's centre{track.of}"),
+        f"{track.prefix}profile.{name}_radius": Value(
+            radius,
+            "m",
+            f"{words} distance of the profile from the cam centre{track.of}",
+            label=track.label(f"{words.capitalize()} polar radius"),
+        )
+        for name, words, radius in (("min", "minimum", least), ("max", "maximum", greatest))
     }
     return Answer(values, (), tuple(_wall_checks(model, track, least)))
 
@@ -81,33 +88,41 @@ def _nothing_lost(model, number):
 
 
 def _gap(track, gap):
-    meaning = f"gap between the follower in its planned place and the real profile{track.of}"
-    return {f"{track.prefix}profile_gap": Value(gap, "m", meaning)}
+    meaning = f"maximum gap between the follower in its prescribed position and the finished profile{track.of}"
+    return {f"{track.prefix}profile_gap": Value(gap, "m", meaning, label=track.label("Profile gap"))}
 
 
 def _lost(model, track, lost):
     """(values, check) of a lost motion."""
-    meaning = f"how far the follower sinks beyond its programme, along its travel (of the arm's end where it swings){track.of}"
-    check = Check(f"lost_motion{track.suffix}", lost, model.spec.limits.lost_motion, "<=", "m", meaning, (track.name,), True)
-    return {f"{track.prefix}lost_motion": Value(lost, "m", meaning)}, check
+    travel, label = "at the end of the arm" if model.oscillating else "along its travel", track.label("Lost motion")
+    meaning = f"maximum overtravel of the follower beyond its programme into the undercut profile, {travel}{track.of}"
+    message = f"overtravel of the follower beyond its programme into the undercut profile; {REMEDY}"
+    check = Check(f"lost_motion{track.suffix}", lost, model.spec.limits.lost_motion, "<=", "m", message, (track.name,), True, label=label)
+    return {f"{track.prefix}lost_motion": Value(lost, "m", meaning, label=label)}, check
 
 
 def _lost_motion(model, track, left):
-    """How far the follower sinks where the profile that it needs has been cut away, and the gap it would leave in its planned place."""
+    """Overtravel of the follower where its profile has been cut away, and the gap that it would leave in its prescribed position."""
     values = _gap(track, curves.largest_profile_gap(left.trimmed)[1])
     try:
         at, lost = curves.largest_lost_motion(left.trimmed, *cams.overtravel(track.follower, model.programme, track.flank))
     except (SolverError, DoesNotAssemble) as error:
-        finding = f"the {track.name} is undercut so deep that no lost motion can be told: {error}"
+        finding = f"the {track.words} is undercut so deeply that its lost motion cannot be computed: {error}"
         return Answer(values, findings=(finding,), outcome="partial")
     lost_values, check = _lost(model, track, lost)
     values |= lost_values
     if not lost > 0:
         return Answer(values, (), (check,))
-    values[f"{track.prefix}lost_motion.at"] = Value(at % TURN, "rad", f"cam angle at which it sinks farthest{track.of}")
+    values[f"{track.prefix}lost_motion.at"] = Value(
+        at % TURN,
+        "rad",
+        f"cam angle at the maximum lost motion{track.of}",
+        label=track.label("Cam angle at maximum lost motion"),
+        convention="0 at the start of the programme",
+    )
     finding = (
-        f"the {track.name} is undercut: near cam angle {np.degrees(at):.1f} deg the follower sinks {1e3 * lost:.3g} mm beyond its "
-        "programme; a larger prime radius, a smaller face radius or a longer segment mends it"
+        f"the {track.words} is undercut: near cam angle {np.degrees(at):.1f} deg the follower overtravels its programme by "
+        f"{1e3 * lost:.3g} mm; {REMEDY}"
     )
     return Answer(values, (), (check,), (finding,))
 
@@ -118,27 +133,30 @@ def _wall_checks(model, track, least):
     bore, hub, name = 0.0 if make.bore is None else make.bore / 2, make.hub_diameter, track.suffix
     if track.flank < 0:
         return []
-    checks = [Check(f"bore_wall{name}", least - bore, wall, ">=", "m", "wall between bore and profile", parts, True)]
+    message, label = "minimum wall thickness between bore and profile; reduce the bore or enlarge the cam", "Wall between bore and profile"
+    checks = [Check(f"bore_wall{name}", least - bore, wall, ">=", "m", message, parts, True, label=track.label(label))]
     checks = [] if make.bore is None else checks
     if hub is not None:
-        checks += [
-            Check(f"hub_wall{name}", hub / 2 - bore, wall, ">=", "m", "wall between bore and hub", parts, True),
-            Check(f"hub_clearance{name}", least - hub / 2, 0.0, ">=", "m", "the hub stays within the profile", parts),
-        ]
+        message, label = "wall thickness between bore and hub; reduce the bore or enlarge the hub", track.label("Wall between bore and hub")
+        checks.append(Check(f"hub_wall{name}", hub / 2 - bore, wall, ">=", "m", message, parts, True, label=label))
+        message = "minimum distance from the hub out to the profile; reduce the hub diameter or enlarge the cam"
+        label = track.label("Clearance, hub to profile")
+        checks.append(Check(f"hub_clearance{name}", least - hub / 2, 0.0, ">=", "m", message, parts, label=label))
     return checks
 
 
 def _cutter(model):
-    """Whether the milling cutter reaches every hollow; nan where a profile has none."""
-    cutter, message = model.spec.manufacture.cutter_diameter, "diameter of the cutter, which must go into the groove"
+    """Whether the milling cutter reaches every concave part; nan where a profile has none."""
+    cutter, message = model.spec.manufacture.cutter_diameter, "cutter diameter against the width of the groove; take a smaller cutter"
     if model.spec.closure == "groove":
         width = 2 * model.follower.radius + model.clearance
-        return Answer(checks=(Check("cutter", cutter, width, "<=", "m", message, ("cam",), label="cutter diameter, groove width"),))
-    message = "least hollow radius of the profile against the radius of the cutter"
+        return Answer(checks=(Check("cutter", cutter, width, "<=", "m", message, ("cam",), label="Cutter diameter for the groove"),))
+    message = "minimum concave radius of the profile against the cutter radius; take a smaller cutter or smooth the profile"
+    label = "Concave radius for the cutter"
     hollow = {track: cams.min_hollow_radius(model.cycle, track.contact, track.radius) for track in model.tracks if _is_hollowed(track)}
     return Answer(
         checks=tuple(
-            Check(f"cutter{track.suffix}", radius, cutter / 2, ">=", "m", message, (track.name,), label=f"{HOLLOW}{track.surface}")
+            Check(f"cutter{track.suffix}", radius, cutter / 2, ">=", "m", message, (track.name,), label=track.label(label))
             for track, radius in hollow.items()
         )
     )

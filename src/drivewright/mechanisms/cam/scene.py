@@ -14,46 +14,47 @@ from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, T
 
 FRAMES = 181
 DRAWN = 1e-5  # on screen a profile stays within this part of the cam's size
-SURFACES = (("", ""), (".conjugate", ", second cam"), (".outer", ", outer wall"), (".opposite", ", second face"))
+SURFACES = (("", ""), (".conjugate", ", conjugate cam"), (".outer", ", outer wall"), (".opposite", ", second face"))
 
 PLOTS = (
-    Plot("motion", "Lift and its derivatives by the cam angle", "motion", "angle", ("lift", "slope", "bend", "third")),
-    Plot("kinematics", "Velocity, acceleration and jerk of the follower", "kinematics", "angle", ("velocity", "acceleration", "jerk")),
+    Plot("motion", "Lift and its derivatives", "motion", "angle", ("lift", "slope", "bend", "third")),
+    Plot("kinematics", "Velocity, acceleration and jerk", "kinematics", "angle", ("velocity", "acceleration", "jerk")),
     Plot("valve", "Motion of the valve", "valve", "angle", ("lift", "velocity", "acceleration")),
-    Plot("arm_end", "Motion of the arm's end", "arm_end", "angle", ("lift", "velocity", "acceleration")),
+    Plot("arm_end", "Motion of the arm end", "arm_end", "angle", ("lift", "velocity", "acceleration")),
     *(
         plot
         for suffix, words in SURFACES
         for plot in (
             Plot(f"pressure_angle{suffix}", f"Pressure angle{words}", f"geometry{suffix}", "angle", ("pressure_angle",)),
             Plot(f"curvature{suffix}", f"Curvature{words}", f"geometry{suffix}", "angle", ("curvature",)),
-            Plot(
-                f"undercut{suffix}",
-                f"Undercut, face/pitch radius{words}",
-                f"undercut{suffix}",
-                "angle",
-                ("ratio",),
-                ((1.0, "undercut above"),),
-            ),
+            Plot(f"undercut{suffix}", f"Undercut ratio{words}", f"undercut{suffix}", "angle", ("ratio",), ((1.0, "undercut above"),)),
         )
     ),
-    Plot("load", "Force on the follower and torque", "load", "angle", ("required_force", "torque")),
+    Plot("load", "Follower force and cam torque", "load", "angle", ("required_force", "torque")),
     *(
         plot
         for suffix, words in SURFACES
         for plot in (
-            Plot(f"contact{suffix}", f"Contact{words}", f"contact{suffix}", "angle", ("contact_force", "surface_speed", "rolling_speed")),
+            Plot(
+                f"contact{suffix}",
+                f"Contact force and speeds{words}",
+                f"contact{suffix}",
+                "angle",
+                ("contact_force", "surface_speed", "rolling_speed"),
+            ),
             Plot(f"pressure{suffix}", f"Contact pressure{words}", f"pressure{suffix}", "angle", ("contact_pressure",)),
         )
     ),
-    Plot("surge", "Force of the spring over the turn", "surge", "angle", ("spring_force", "surge_force"), reference=("static_force",)),
+    Plot("surge", "Spring force over the turn", "surge", "angle", ("spring_force", "surge_force"), reference=("static_force",)),
     Plot("surge_harmonics", "Harmonics of lift and surge", "surge_harmonics", "harmonic", ("lift", "surge_force"), style="bars"),
     *(
         plot
         for suffix, words in SURFACES
         for plot in (
             Plot(f"entrainment{suffix}", f"Entrainment speed{words}", f"film{suffix}", "angle", ("entrainment_speed",)),
-            Plot(f"film{suffix}", f"Oil film{words}", f"film{suffix}", "angle", ("central_thickness", "min_thickness"), unit="um"),
+            Plot(
+                f"film{suffix}", f"Oil film thickness{words}", f"film{suffix}", "angle", ("central_thickness", "min_thickness"), unit="um"
+            ),
         )
     ),
     Plot("vibration", "Vibration of the follower", "vibration", "angle", ("error", "acceleration")),
@@ -71,7 +72,7 @@ def scene(model: CamModel) -> Scene:
     moving = _poses(model.shapes.origin.real, 0.0, -lift) if model.oscillating else _poses(0.0, lift, 0.0)
     colours = {"cam": "blue", "outer wall": "blue", "conjugate": "green"}
     bodies = [
-        Body(track.name, track.name, tuple(_cam_shapes(model, number, _display_profile)), turning, colours[track.name])
+        Body(track.name, track.words, tuple(_cam_shapes(model, number, _display_profile)), turning, colours[track.name])
         for number, track in enumerate(model.tracks)
         if track.cut
     ]
@@ -150,7 +151,7 @@ def drawings(model: CamModel) -> tuple[Drawing, ...]:
 
 
 def _title(model, track):
-    return f"{model.spec.title or 'disc cam'}: {'second cam' if track.name == 'conjugate' else 'cam'}"
+    return f"{model.spec.title or 'disc cam'}: {'conjugate cam' if track.name == 'conjugate' else 'cam'}"
 
 
 def parts(model: CamModel) -> tuple[Part, ...]:

@@ -68,13 +68,42 @@ def _values(model, found):
     amplitude = abs(found.lift.amplitude[harmonic]) if harmonic < len(found.lift.amplitude) else 0.0
     ends = [extreme(lambda angle, _: found.force(angle)).value for extreme in (model.cycle.maximum, model.cycle.minimum)]
     return {
-        "surge.natural_frequency": Value(found.spring.frequency / (2 * np.pi), "Hz", "first natural frequency of the spring, ends held"),
-        "surge.harmonic": Value(float(harmonic), "-", "nearest harmonic of the cam, to the spring's first natural frequency"),
-        "surge.resonance_speed": Value(model.speed / ratio, "rad/s", "cam speed of surge resonance, by the nearest harmonic"),
-        "surge.harmonic_lift": Value(float(amplitude), "m", "lift of the nearest harmonic, amplitude"),
-        "surge.max_force": Value(max(map(abs, ends)), "N", "largest force of surge, magnitude, beside the static spring force"),
-        "spring.max_force": Value(_spring_force(model, found, model.cycle.maximum), "N", "largest force of the spring, surge included"),
-        "spring.min_force": Value(_spring_force(model, found, model.cycle.minimum), "N", "least force of the spring, surge included"),
+        "surge.natural_frequency": Value(
+            found.spring.frequency / (2 * np.pi),
+            "Hz",
+            "first natural frequency of the spring with both ends held",
+            label="Natural frequency of the spring",
+        ),
+        "surge.harmonic": Value(
+            float(harmonic),
+            "-",
+            "harmonic of the cam nearest to the first natural frequency of the spring",
+            label="Harmonic nearest to resonance",
+        ),
+        "surge.resonance_speed": Value(
+            model.speed / ratio,
+            "rad/s",
+            "cam speed at which the nearest harmonic meets the first natural frequency of the spring",
+            label="Cam speed of surge resonance",
+        ),
+        "surge.harmonic_lift": Value(
+            float(amplitude), "m", "amplitude of the nearest harmonic in the lift", label="Lift amplitude of the nearest harmonic"
+        ),
+        "surge.max_force": Value(
+            max(map(abs, ends)),
+            "N",
+            "maximum magnitude of the force that surge adds to the static spring force",
+            label="Maximum surge force",
+        ),
+        **{
+            f"spring.{name}_force": Value(
+                _spring_force(model, found, extreme),
+                "N",
+                f"{words} force of the spring, surge included",
+                label=f"{words.capitalize()} spring force",
+            )
+            for name, words, extreme in (("max", "maximum", model.cycle.maximum), ("min", "minimum", model.cycle.minimum))
+        },
     }
 
 
@@ -87,8 +116,8 @@ def _spring_force(model, found, extreme):
 
 def _checks(model, found):
     least = _spring_force(model, found, model.cycle.minimum)
-    message = "the spring stays on its seats: least force of the spring, surge included"
-    return (Check("spring_force", least, 0.0, ">=", "N", message, ("spring",), label="Least spring force with surge"),)
+    message = "minimum force of the spring, surge included; below 0 the spring leaves its seats: increase its preload"
+    return (Check("spring_force", least, 0.0, ">=", "N", message, ("spring",), label="Minimum spring force with surge"),)
 
 
 def _force_table(model, found):
@@ -97,11 +126,11 @@ def _force_table(model, found):
     added = found.force(angle).d0
     columns = (
         Column("angle", "rad", "cam angle", angle.d0),
-        Column("static_force", "N", "force of the spring without surge", static),
-        Column("spring_force", "N", "force of the spring, surge included", static + added),
-        Column("surge_force", "N", "force of surge", added),
+        Column("static_force", "N", "spring force without surge", static),
+        Column("spring_force", "N", "spring force, surge included", static + added, "Spring force with surge"),
+        Column("surge_force", "N", "surge force", added),
     )
-    return Table("surge", "Force of the spring over the turn", columns)
+    return Table("surge", "Spring force over the turn", columns)
 
 
 def _harmonics_table(found):
@@ -109,9 +138,9 @@ def _harmonics_table(found):
     count = min(max(SHOWN, 2 * found.nearest_harmonic()[0]), len(found.lift.amplitude) - 1)
     order = np.arange(1, count + 1)
     columns = (
-        Column("harmonic", "-", "harmonic of the cam's turn", order.astype(float)),
+        Column("harmonic", "-", "harmonic of the cam's rotation", order.astype(float)),
         Column("frequency", "Hz", "frequency of the harmonic", order * found.speed / (2 * np.pi)),
-        Column("lift", "m", "amplitude of the harmonic in the lift", np.abs(found.lift.amplitude[order])),
-        Column("surge_force", "N", "amplitude of the harmonic in the surge", np.abs(found.harmonics.amplitude[order])),
+        Column("lift", "m", "lift amplitude of the harmonic", np.abs(found.lift.amplitude[order])),
+        Column("surge_force", "N", "surge force amplitude of the harmonic", np.abs(found.harmonics.amplitude[order])),
     )
     return Table("surge_harmonics", "Harmonics of lift and surge", columns)

@@ -1,4 +1,4 @@
-"""Cams, shafts and wheel as solids in contact: torsional stiffness over the index period, and which body the lumped model leaves out."""
+"""Cams, shafts and wheel as solids in contact: torsional stiffness over the index period, and what the lumped model neglects."""
 
 from collections.abc import Iterator
 from typing import Literal, NamedTuple
@@ -35,7 +35,7 @@ class LoadedAssembly(NamedTuple):
 def no_assembly(spec: IndexerSpec) -> str | None:
     """Why there is none."""
     if spec.crank_bearings is None or spec.crank_bearings.bearing is None:
-        return no_stiffness(spec) or "no body has a size: crank_bearings.bearing tells the holes of the cams and the crank pins"
+        return no_stiffness(spec) or "no body has a size: give crank_bearings.bearing, which sets the holes of the cams and the crank pins"
     return no_stiffness(spec)
 
 
@@ -44,14 +44,14 @@ def assembly(model: IndexerModel, done: Answers) -> Answer:
     loaded = load(model)
     own, lumped = loaded.solids[model.spec.contact.model], loaded.lumped[model.spec.contact.model]
     forces = pin_force_table(
-        loaded.angles, loaded.contacts, own.pin_forces, *model.pin_measures, "assembly_pins", "Forces on the pins in the assembly"
+        loaded.angles, loaded.contacts, own.pin_forces, *model.pin_measures, "assembly_pins", "Forces on the pins, assembly of solids"
     )
     found = (tables.assembly_table(loaded.angles, loaded.solids, loaded.lumped), *tables.share_tables(loaded.angles, own, lumped), forces)
     pictures = tuple(_pictures(loaded.angles, own))
     fields = () if own.fields is None else (own.fields,)
     stressed = tuple(table for each in fields for table in tables.stress_tables(each))
     values = assembly_values(loaded, model.spec.contact.model, forces)
-    return Answer(values, found + pictures + stressed, (), tuple(_findings(loaded.angles, own)), fields=fields)
+    return Answer(values, found + pictures + stressed, (), tuple(_findings(model.spec, loaded.angles, own)), fields=fields)
 
 
 def load(model: IndexerModel, fineness: float = 1.0, positions: int = POSITIONS) -> LoadedAssembly:
@@ -71,40 +71,51 @@ def assembly_values(loaded: LoadedAssembly, model: str, forces: Table) -> dict[s
     """Stiffness and compliance of the positions that carry, under the spec's contact model, and the mean with pins that stick."""
     own, lumped, angles = loaded.solids[model], loaded.lumped[model], loaded.angles
     carried = np.isfinite(own.secant)
-    words = "part of the positions where the assembly carries nothing"
-    over = "" if carried.all() else ", of the positions where it carries anything"
-    values = {"assembly.undefined_fraction": Value(float(np.mean(~carried)), "-", words)}
+    words = "share of the positions at which the assembly of solids carries no torque"
+    over = "" if carried.all() else " over the positions that carry the torque"
+    values = {"assembly.undefined_fraction": Value(float(np.mean(~carried)), "-", words, label="Positions without stiffness, solids")}
     if not carried.any():
         return values
     secant, least = own.secant[carried], int(np.nanargmin(own.secant))
     ratio = float(np.mean(secant) / np.mean(lumped.secant[carried]))
     values |= {
         "assembly.stiffness.mean": _within_mesh(
-            float(np.mean(secant)), "N m/rad", f"mean secant stiffness of the assembly of solids{over}"
+            float(np.mean(secant)), "N m/rad", f"mean secant stiffness of the assembly of solids{over}", "Mean secant stiffness, solids"
         ),
         "assembly.stiffness.minimum": _within_mesh(
-            float(own.secant[least]), "N m/rad", f"least secant stiffness of the assembly of solids{over}"
+            float(own.secant[least]),
+            "N m/rad",
+            f"minimum secant stiffness of the assembly of solids{over}",
+            "Minimum secant stiffness, solids",
         ),
-        "assembly.stiffness.minimum.at": Value(float(angles[least]), "rad", "input angle of the least stiffness of the assembly"),
-        "assembly.stiffness.ratio": _within_mesh(ratio, "-", "mean stiffness of the assembly over that of the lumped model"),
+        "assembly.stiffness.minimum.at": Value(
+            float(angles[least]),
+            "rad",
+            "input angle at minimum secant stiffness of the assembly of solids",
+            label="Input angle at minimum, solids",
+        ),
+        "assembly.stiffness.ratio": _within_mesh(
+            ratio, "-", "mean stiffness of the assembly of solids over that of the lumped model", "Stiffness ratio, solids to lumped model"
+        ),
     }
     values |= dict(_body_values(own, lumped, carried))
     bonded = loaded.solids["bonded"].secant
     if np.isfinite(bonded).any():
-        words = "mean secant stiffness of the assembly with pins that stick"
-        values["assembly.bonded.stiffness.mean"] = _within_mesh(float(np.nanmean(bonded)), "N m/rad", words)
+        words, label = "mean secant stiffness of the assembly of solids with bonded pins", "Mean stiffness, solids, bonded pins"
+        values["assembly.bonded.stiffness.mean"] = _within_mesh(float(np.nanmean(bonded)), "N m/rad", words, label)
     if len(forces["force"].data):
-        values["assembly.pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", "largest force on a pin in the assembly")
+        values["assembly.pins.max_force"] = Value(float(np.max(forces["force"].data)), "N", "maximum force on a pin, solids")
     if np.isfinite(forces["pressure"].data).any():
         largest = float(np.nanmax(forces["pressure"].data))
-        values["assembly.pins.max_pressure"] = Value(largest, "Pa", "largest Hertz pressure on a pin in the assembly")
-    values["assembly.unknowns"] = Value(float(sum(own.unknowns.values())), "-", "unknowns of the finite elements of one of each body")
+        values["assembly.pins.max_pressure"] = Value(largest, "Pa", "maximum Hertz pressure on a pin, solids")
+    words = "unknowns of the finite elements, one of each body"
+    values["assembly.unknowns"] = Value(float(sum(own.unknowns.values())), "-", words, label="Unknowns of the finite elements")
     return values
 
 
-def _within_mesh(value: float, unit: str, meaning: str) -> Value:
+def _within_mesh(value: float, unit: str, meaning: str, label: str) -> Value:
     """A stiffness, which finer meshes lower."""
-    return Value(value, unit, meaning, (1 - MESH_ERROR) * value, value, "mesh")
+    return Value(value, unit, meaning, (1 - MESH_ERROR) * value, value, "mesh", label=label)
 
 
 def _body_values(own: SolidStiffness, lumped: TorsionalStiffness, carried: Bools) -> Iterator[tuple[str, Value]]:
@@ -114,11 +125,11 @@ def _body_values(own: SolidStiffness, lumped: TorsionalStiffness, carried: Bools
     missing = total - float(np.mean(1 / lumped.secant[carried]))
     for name, (body, _, _) in tables.BODIES.items():
         part = float(np.mean(whole[name][carried])) / total
-        meaning = f"part of the compliance of the assembly, mean over its positions: {body}"
-        yield f"assembly.share.{name}", Value(part, "-", meaning, label=f"Share of compliance: {body}")
+        meaning = f"share of the {body} in the compliance of the assembly of solids, mean over the positions"
+        yield f"assembly.share.{name}", Value(part, "-", meaning, label=f"Compliance share, {body}")
         part = float(np.mean(added[name][carried])) / missing
-        meaning = f"part of the compliance that the lumped model leaves out, mean over the positions: {body}"
-        yield f"assembly.added.{name}", Value(part, "-", meaning, label=f"Share of added compliance: {body}")
+        meaning = f"share of the {body} in the compliance that the lumped model neglects, mean over the positions"
+        yield f"assembly.added.{name}", Value(part, "-", meaning, label=f"Share of neglected compliance, {body}")
 
 
 def _pictures(angles: Floats, own: SolidStiffness) -> Iterator[Table]:
@@ -129,15 +140,20 @@ def _pictures(angles: Floats, own: SolidStiffness) -> Iterator[Table]:
             yield tables.surface_table(own, least, body, where=f", input at {np.degrees(angles[least]):.4g}°")
 
 
-def _findings(angles: Floats, own: SolidStiffness) -> Iterator[str]:
+def _findings(spec: IndexerSpec, angles: Floats, own: SolidStiffness) -> Iterator[str]:
     """Where the assembly carries nothing and why, and how far its numbers can be trusted."""
     for reason in dict.fromkeys(reason for reason in own.reasons if reason):
         rows = [k for k, each in enumerate(own.reasons) if each == reason]
         places = ", ".join(f"{angle:.4g}" for angle in np.degrees(angles[rows]))
         yield f"assembly: no stiffness at {len(rows)} of {len(angles)} input angles ({places} deg): {reason}"
     yield (
-        "assembly: wheel, drum and seats have usual proportions where the spec has no key for them (theory.md); a finer mesh softens it by "
-        f"up to {100 * MESH_ERROR:.0f} %"
+        "assembly: wheel, drum and seats have usual proportions where the spec has no key for them (theory.md); a finer mesh lowers the "
+        f"stiffness by up to {100 * MESH_ERROR:.0f} %"
     )
+    stiffness = tables.equivalent_pin_stiffness(own)
+    if np.isfinite(stiffness):
+        given = spec.contact.pin_stiffness
+        there = "rigid pins" if given is None else f"{given:.3g} N/m"
+        yield f"assembly: pins and wheel yield like contact.pin_stiffness = {stiffness:.3g} N/m; the lumped model has {there}"
     if own.fields is not None:
         yield from (f"assembly, stress: {note}" for note in own.fields.notes)

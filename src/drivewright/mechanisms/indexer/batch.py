@@ -162,6 +162,7 @@ MEASURES: tuple[Measure, ...] = (
     partial(_where, stiffness.no_stiffness, stiffness.secant_stiffness),
     partial(_where, stiffness.no_stiffness, stiffness.pin_loads),
     partial(_where, stiffness.no_stiffness, stiffness.dwell_stiffness),
+    partial(_where, stiffness.no_stiffness, stiffness.pin_pressure),
     partial(_with, geometry.contact_map),
     partial(_with, geometry.motion),
     partial(_where, drive.no_drive, partial(_with, drive.drive)),

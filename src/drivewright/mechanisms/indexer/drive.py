@@ -11,13 +11,13 @@ from drivewright.motion.motor_sizing import MotorSizing, mean_over_cycle, size_m
 from drivewright.result import Answer, Answers, Check, Value
 
 DEMAND = {  # field of a `MotorSizing`: unit, meaning
-    "peak_torque": ("N m", "largest torque {place}, of either sign"),
-    "rms_torque": ("N m", "root mean square torque {place}"),
+    "peak_torque": ("N m", "maximum magnitude of the torque {place}"),
+    "rms_torque": ("N m", "RMS torque {place}"),
     "mean_torque": ("N m", "mean torque {place}"),
-    "peak_power": ("W", "largest power {place}"),
-    "rms_power": ("W", "root mean square power {place}"),
+    "peak_power": ("W", "maximum power {place}"),
+    "rms_power": ("W", "RMS power {place}"),
     "mean_power": ("W", "mean power {place}"),
-    "braking_power": ("W", "largest power returned {place}"),
+    "braking_power": ("W", "maximum braking power {place}"),
 }
 
 
@@ -42,11 +42,11 @@ def drive(model: IndexerModel, done: Answers) -> Answer:
 def _input_values(torque: DriveTorque, given: IndexerTable, speed: float) -> Iterator[tuple[str, Value]]:
     yield from _demand("drive", size_motor(torque.time, torque.input_torque, speed), "at the input")
     largest, felt = float(np.max(np.abs(torque.table_torque))), torque.felt_inertia
-    yield "drive.table_torque.maximum", Value(largest, "N m", "largest torque of the drive on the table")
+    yield "drive.table_torque.maximum", Value(largest, "N m", "maximum torque on the table")
     yield "drive.reflected_inertia.mean", Value(mean_over_cycle(torque.time, felt), "kg m^2", "mean reflected inertia at the input")
-    yield "drive.reflected_inertia.maximum", Value(float(np.max(felt)), "kg m^2", "largest reflected inertia at the input")
+    yield "drive.reflected_inertia.maximum", Value(float(np.max(felt)), "kg m^2", "maximum reflected inertia at the input")
     rubbing = mean_over_cycle(torque.time, np.abs(torque.wheel_speed)) * float(torque.time[-1]) * given.friction_torque
-    yield "drive.friction_work", Value(rubbing, "J", "work of the table's friction in a step")
+    yield "drive.friction_work", Value(rubbing, "J", "friction work of the table in a step")
 
 
 def _motor_values(model: IndexerModel, torque: DriveTorque, speed: float) -> Iterator[tuple[str, Value]]:
@@ -60,15 +60,16 @@ def _motor_values(model: IndexerModel, torque: DriveTorque, speed: float) -> Ite
     felt = mean_over_cycle(torque.time, torque.felt_inertia) / motor.ratio**2
     largest = float(np.max(torque.felt_inertia)) / motor.ratio**2
     yield "motor.reflected_inertia.mean", Value(felt, "kg m^2", "mean reflected inertia at the motor")
-    yield "motor.reflected_inertia.maximum", Value(largest, "kg m^2", "largest reflected inertia at the motor")
+    yield "motor.reflected_inertia.maximum", Value(largest, "kg m^2", "maximum reflected inertia at the motor")
     if motor.inertia:
-        meaning = "reflected inertia over motor inertia, where it is largest"
-        yield "motor.inertia_ratio", Value(largest / motor.inertia, "-", meaning)
+        meaning = "maximum reflected inertia at the motor over the inertia of the motor"
+        yield "motor.inertia_ratio", Value(largest / motor.inertia, "-", meaning, label="Maximum inertia ratio at the motor")
 
 
 def _demand(prefix: str, sizing: MotorSizing, place: str) -> Iterator[tuple[str, Value]]:
     for name, (unit, meaning) in DEMAND.items():
-        yield f"{prefix}.{name}", Value(getattr(sizing, name), unit, meaning.format(place=place))
+        label = f"Maximum torque {place}" if name == "peak_torque" else ""
+        yield f"{prefix}.{name}", Value(getattr(sizing, name), unit, meaning.format(place=place), label=label)
 
 
 def _checks(model: IndexerModel, values: dict[str, Value]) -> Iterator[Check]:
@@ -77,11 +78,11 @@ def _checks(model: IndexerModel, values: dict[str, Value]) -> Iterator[Check]:
     if motor is None:
         return
     if motor.rated_torque:
-        rms = values["motor.rms_torque"].value
-        yield Check("motor.rated_torque", rms, motor.rated_torque, "<=", "N m", "root mean square torque at the motor", ())
+        rms, message = values["motor.rms_torque"], "RMS torque at the motor against its rated torque; take a larger motor or a lower speed"
+        yield Check.of(rms, "motor.rated_torque", motor.rated_torque, "<=", message, label="RMS torque at the motor")
     if motor.maximum_torque:
-        peak = values["motor.peak_torque"].value
-        yield Check("motor.maximum_torque", peak, motor.maximum_torque, "<=", "N m", "largest torque at the motor", ())
+        peak, message = values["motor.peak_torque"], "torque at the motor against its maximum torque; take a larger motor or a lower speed"
+        yield Check.of(peak, "motor.maximum_torque", motor.maximum_torque, "<=", message, label="Maximum torque at the motor")
 
 
 def _findings(model: IndexerModel, torque: DriveTorque) -> Iterator[str]:
@@ -89,6 +90,6 @@ def _findings(model: IndexerModel, torque: DriveTorque) -> Iterator[str]:
     largest, taken = float(np.max(np.abs(torque.table_torque))), model.spec.load.torque
     if taken and largest > abs(taken):
         yield (
-            f"the table asks up to {largest:.4g} N m of the wheel at this speed, load.torque is {abs(taken):.4g} N m: forces, pressures "
-            "and stiffness are those at load.torque"
+            f"the table needs up to {largest:.4g} N m from the wheel at this speed, and load.torque is {abs(taken):.4g} N m: forces, "
+            "pressures and stiffness are those at load.torque"
         )

@@ -30,7 +30,7 @@ from drivewright.indexing.values import (
 from drivewright.mechanisms.indexer.build import IndexerModel
 from drivewright.result import Answer, Answers, Check, Value
 
-SUFFIXES = ("", ".second")  # of the values of cams that differ
+SUFFIXES = {"": "", ".second": ", cam 2"}  # of the values of cams that differ, and of their labels
 
 
 def motion(model: IndexerModel, done: Answers) -> Answer:
@@ -42,20 +42,23 @@ def motion(model: IndexerModel, done: Answers) -> Answer:
 
 def profile(model: IndexerModel, done: Answers) -> Answer:
     """The trimmed profile of every cam that differs: measures, points, curvature, undercut."""
-    levels = model.plane.levels
-    tables = tuple(profile_table(level, f"profile{suffix}") for level, suffix in zip(levels, SUFFIXES, strict=False))
-    values = {name: value for level, table in zip(levels, tables, strict=True) for name, value in profile_values(level, table).items()}
+    levels, values = model.plane.levels, {}
+    names = [(f"profile{suffix}", which) for _, (suffix, which) in zip(levels, SUFFIXES.items(), strict=False)]
+    tables = tuple(profile_table(level, name, f"Cam profile{which}") for level, (name, which) in zip(levels, names, strict=True))
+    for level, table, (_, which) in zip(levels, tables, names, strict=True):
+        values |= profile_values(level, table, which)
     checks = chain(_curvature_checks(model, values), _wall_checks(model, values))
     return Answer(values, tables, tuple(checks), tuple(_findings(model)))
 
 
 def _curvature_checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
-    message = "least convex radius of the centre curve over the pin's radius"
-    for suffix in SUFFIXES:
+    message = "minimum convex radius of the pitch curve over the pin radius; take thinner pins"
+    for suffix, which in SUFFIXES.items():
         radius = values.get(f"profile{suffix}.min_convex_radius")
         if radius is not None:
             ratio = radius.value / model.spec.pin_radius
-            yield Check(f"curvature{suffix}", ratio, model.spec.limits.curvature_ratio, ">=", "-", message, ("cam1",))
+            limit, label = model.spec.limits.curvature_ratio, f"Convex radius over pin radius{which}"
+            yield Check(f"curvature{suffix}", ratio, limit, ">=", "-", message, ("cam1",), label=label)
 
 
 def _wall_checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[Check]:
@@ -63,9 +66,12 @@ def _wall_checks(model: IndexerModel, values: Mapping[str, Value]) -> Iterator[C
     if not outer or spacing is None:
         return
     holes, edge = wall_thicknesses(model.wheel, spacing, outer, (values["profile.min_radius"].value, values["profile.max_radius"].value))
-    least, message = model.spec.limits.wall, "wall between the bearing holes of a cam"
-    yield Check("wall.holes", holes, least, ">=", "m", message, ("cam1",), True)
-    yield Check("wall.profile", edge, least, ">=", "m", "wall between a bearing hole and the profile", ("cam1",), True)
+    least, hint = model.spec.limits.wall, "take smaller crank bearings or change shaft_spacing"
+    for name, wall, where, label in (
+        ("holes", holes, "between the bearing holes of a cam", "Wall between bearing holes"),
+        ("profile", edge, "between a bearing hole and the profile", "Wall between hole and profile"),
+    ):
+        yield Check(f"wall.{name}", wall, least, ">=", "m", f"minimum wall {where}; {hint}", ("cam1",), True, label=label)
 
 
 def _findings(model: IndexerModel) -> Iterator[str]:
@@ -85,11 +91,10 @@ def contact_map(model: IndexerModel, done: Answers) -> Answer:
     best = best_pressure_angles(contacts, drive.circle_radius)
     driving = driving_pressure_angle(drive.motion(angles).d2, best)
     table = contact_count_table(angles, contacts, drive, driving, best)
-    touched = f"{'one cam' if len(drive.levels) == 1 else 'the two cams together'} over the index period"
-    values = contact_count_values(table, f"fewest pins that touch {touched}", f"most pins that touch {touched}")
-    values |= pressure_angle_values(driving, best)
-    message = "angle between the normal and the way of the pin that accelerates the wheel best"
-    checks = tuple(pressure_angle_check(model, values, message))
+    touched = f"with {'one cam' if len(drive.levels) == 1 else 'the two cams together'} over the index period"
+    values = contact_count_values(table, "pins", touched) | pressure_angle_values(driving, best)
+    hint = "increase the eccentricity or the motion angle" if model.translating else "reduce the centre distance or enlarge the pin circle"
+    checks = tuple(pressure_angle_check(model, values, f"maximum pressure angle of the driving pin; {hint}"))
     tables = (table, contact_points_table(angles, contacts, drive, drive.levels[0].pin_radius))
     arrays = {"contact_map": contact_map_array(angles, contacts, drive)}
     return Answer(values, tables, checks, tuple(contact_findings(angles, best)), arrays, data=contacts)
@@ -99,7 +104,8 @@ def pressure_angle_check(model: IndexerModel, values: Mapping[str, Value], messa
     """The largest pressure angle, where there is one, against its limit."""
     if "pressure_angle.maximum" in values:
         largest = values["pressure_angle.maximum"].value
-        yield Check("pressure_angle", largest, model.spec.limits.pressure_angle, "<=", "rad", message, ("cam", "wheel"))
+        limit = model.spec.limits.pressure_angle
+        yield Check("pressure_angle", largest, limit, "<=", "rad", message, ("cam", "wheel"), label="Maximum pressure angle")
 
 
 def free_play(model: IndexerModel, done: Answers) -> Answer:
@@ -109,10 +115,15 @@ def free_play(model: IndexerModel, done: Answers) -> Answer:
 
 
 def play_answer(model: IndexerModel, angle: Floats, rotations: Mapping[str, Floats]) -> Answer:
-    """Values, table and checks of the free rotations by direction; nan where nothing stops the wheel."""
+    """Values, table and checks of the free rotations by direction; nan where no contact stops the wheel."""
     values = play_values(angle, rotations, model.spec.pin_circle_radius)
-    checks = _play_checks(model, angle, rotations) if model.spec.load.angle is None else ()  # of one angle they would speak of the cycle
+    checks = _play_checks(model, angle, rotations) if model.spec.load.angle is None else ()  # at one angle nothing is known of the cycle
     return Answer(values, (play_table(angle, rotations),), tuple(checks), tuple(play_findings(angle, rotations)))
+
+
+def holding_hint(model: IndexerModel) -> str:
+    """What to change where the cams do not hold the wheel without play."""
+    return "take a longer motion angle, thinner pins or a larger eccentricity" if model.translating else "check for undercut"
 
 
 def _play_checks(model: IndexerModel, angle: Floats, rotations: Mapping[str, Floats]) -> Iterator[Check]:
@@ -120,9 +131,10 @@ def _play_checks(model: IndexerModel, angle: Floats, rotations: Mapping[str, Flo
     for name, free in rotations.items():
         if np.isfinite(free).all():
             at = int(np.argmax(free))
-            where = f"largest over the cycle at {np.degrees(angle[at]):.4g} deg" if free[at] > 0 else "over the whole cycle"
-            largest, message = free[at], f"free rotation of the wheel {name}, {where}"
+            where = f"maximum over the cycle at {np.degrees(angle[at]):.4g} deg" if free[at] > 0 else "over the whole cycle"
+            largest, message = free[at], f"play of the wheel {name}, {where}"
         else:
             largest = max(model.drive.pin_pitch, 2 * limit)
-            message = f"free rotation {name}: nothing stops the wheel within a whole pitch"
-        yield Check(f"play.{name}", largest, limit, "<=", "rad", message, ("wheel", "cam"))
+            message = f"play of the wheel {name}: no contact stops the wheel within a whole pitch"
+        message = f"{message}; {holding_hint(model)}"
+        yield Check(f"play.{name}", largest, limit, "<=", "rad", message, ("wheel", "cam"), label=f"Maximum play, {name}")

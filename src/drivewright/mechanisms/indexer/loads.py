@@ -23,7 +23,11 @@ def no_loads(spec: IndexerSpec) -> str | None:
         return f"kind {spec.kind!r} has no cranks"
     if spec.load.torque is None:
         return "load.torque is not given"
-    return None if spec.crank_bearings or spec.support_bearings else "no bearings are given; without them statics leaves their loads open"
+    return (
+        None
+        if spec.crank_bearings or spec.support_bearings
+        else "no bearings are given, so statics does not determine their loads; give crank_bearings or support_bearings"
+    )
 
 
 def bearing_loads(model: IndexerModel, done: Answers) -> Answer:
@@ -40,7 +44,7 @@ def bearing_loads(model: IndexerModel, done: Answers) -> Answer:
             values |= bearing_load_values(group, own, model.rolling.get(table) if whole_turn else None, model.spec.load.speed)
             checks += _checks(model, group, values)
     lost = int(np.sum(~loaded.carried))
-    absent = f"bearing loads are absent at {lost} of {len(angles)} input angles, where nothing carries the torque; lives leave them out"
+    absent = f"bearing loads are absent at {lost} of {len(angles)} input angles, where no contact carries the torque; lives exclude them"
     train = model.train
     if model.spec.cams == 2 and model.wheel.side == "inside" and train is not None and train.crank is not None:
         values |= statics_values(result, contacts, model.wheel.eccentricity, train.spacing)
@@ -59,8 +63,9 @@ def _checks(model: IndexerModel, group: str, values: Mapping[str, Value]) -> Ite
     limits, largest = model.spec.limits, values[f"{group}.max_load"].value
     rating, life = static_rating(model, RATED[group]), values.get(f"{group}.basic_life.time")
     if rating and largest > 0:
-        message = f"static rating of {rating / 1e3:.4g} kN over the largest load of {largest / 1e3:.4g} kN"
-        yield Check(f"static_rating.{group}", rating / largest, limits.static_safety, ">=", "-", message, (group,))
+        message = f"static rating of {rating / 1e3:.4g} kN over the maximum load of {largest / 1e3:.4g} kN; take larger {group} bearings"
+        label = f"Static safety, {group} bearings"
+        yield Check(f"static_rating.{group}", rating / largest, limits.static_safety, ">=", "-", message, (group,), label=label)
     if limits.life and life:
-        message = f"basic life {life.value / 3600:.4g} h of {limits.life / 3600:.4g} h"
-        yield Check(f"life.{group}", life.value, limits.life, ">=", "s", message, (group,))
+        message = f"basic life of the most loaded {group} bearing; take bearings of larger dynamic rating or a lower speed"
+        yield Check(f"life.{group}", life.value, limits.life, ">=", "s", message, (group,), label=f"Basic life L10h, {group} bearings")

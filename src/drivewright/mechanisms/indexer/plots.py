@@ -5,6 +5,7 @@ from typing import Any
 
 from drivewright.indexing.solid.tables import assembly_plots
 from drivewright.indexing.stiffness.tables import stiffness_plots
+from drivewright.mechanisms.indexer.geometry import SUFFIXES
 from drivewright.result import Plot, Result
 
 
@@ -14,23 +15,21 @@ def plots(result: Result[Any]) -> tuple[Plot, ...]:
 
 
 def _all(result: Result[Any]) -> Iterator[Plot]:
-    yield Plot("motion", "Motion of the wheel by the input angle", "motion", "angle", ("wheel", "rate", "bend", "third"))
+    yield Plot("motion", "Motion of the wheel", "motion", "angle", ("wheel", "rate", "bend", "third"))
     yield Plot("drive_torque", "Torque on the table and at the input", "drive", "angle", ("table_torque", "input_torque"))
     yield Plot("drive_power", "Power at the input", "drive", "angle", ("input_power",))
-    for suffix, words in (("", ""), (".second", ", second cam")):
+    for suffix, which in SUFFIXES.items():
         if f"profile{suffix}" in result.tables and "z" not in [column.name for column in result.tables["profile"].columns]:
-            yield Plot(f"profile{suffix}", f"Trimmed profile of the cam{words}", f"profile{suffix}", "x", ("y",), equal=True)
-    title = "Curvature of the profile by the input angle at which it is touched"
-    yield Plot("curvature", title, "profile", "angle", ("curvature",), style="points")
-    yield Plot("contacts", "Pins that touch one cam, and which way it can push them", "contacts", "angle", ("pins", "forward", "backward"))
-    title = "Contact map: pins that touch cam 1, by the way it can push them"
-    yield Plot("contact_map", title, "contact_points", "angle", ("pin_forward", "pin_backward"), style="points")
-    yield Plot("levers", "Levers of the contacts about the wheel's axis", "contact_points", "angle", ("arm",), style="points")
+            yield Plot(f"profile{suffix}", f"Cam profile{which}", f"profile{suffix}", "x", ("y",), equal=True)
+    yield Plot("curvature", "Curvature of the cam profile", "profile", "angle", ("curvature",), style="points")
+    yield Plot("contacts", "Contacts by direction of push", "contacts", "angle", ("pins", "forward", "backward"))
+    pushed, meaning = ("pin_forward", "pin_backward"), "pins in contact with one cam, by the direction in which it can push them"
+    yield Plot("contact_map", "Contact map of one cam", "contact_points", "angle", pushed, style="points", meaning=meaning)
+    yield Plot("levers", "Moment arms of the contacts", "contact_points", "angle", ("arm",), style="points")
     if "contacts" in result.tables:
         angles = tuple(column.name for column in result.tables["contacts"].columns if column.name.startswith("pressure_angle"))
         yield Plot("pressure_angle", "Pressure angle", "contacts", "angle", angles, (("pressure_angle", "limit"),))
-    title = "Free rotation of the wheel, the input standing still"
-    ways, limit = ("forward", "backward"), (("play.forward", "limit"),)
-    yield Plot("play", title, "play", "angle", ways, limit, unit="arcmin", whole=True)
+    ways, limit, meaning = ("forward", "backward"), (("play.forward", "limit"),), "free rotation of the wheel, the input locked"
+    yield Plot("play", "Play of the wheel", "play", "angle", ways, limit, unit="arcmin", whole=True, meaning=meaning)
     yield from stiffness_plots(result.tables)
     yield from assembly_plots(result.tables)

@@ -6,6 +6,7 @@ import numpy as np
 
 from drivewright.errors import InputError, SpecError
 from drivewright.indexing.motion import refuse_stations
+from drivewright.indexing.pin_pressure import largest_approach
 from drivewright.mechanisms.indexer.spec import IndexerSpec
 
 TRANSLATING = ("pin-wheel", "cycloid")
@@ -49,13 +50,13 @@ def refuse_contradictions(spec: IndexerSpec) -> None:
 
 
 def unused(spec: IndexerSpec) -> Iterator[str]:
-    """Findings about keys that say nothing of this kind, and limits that cannot be checked."""
+    """Findings about keys that this kind does not use, and limits that cannot be checked."""
     given = [key for key in OWN if key in spec.model_fields_set and spec.kind not in OWN[key]]
     if given:
         yield f"kind {spec.kind!r} does not use {', '.join(given)}"
     limits, load = spec.limits, spec.load
     if spec.kind in TRANSLATING and load.torque and spec.gear is None and any(getattr(spec, key) for key in YIELDING):
-        yield "[gear] is not given: the split shafts are held where their gears would sit, without deflection or backlash of gears"
+        yield "[gear] is not given: the split shafts are held at the gear positions, without deflection or backlash of gears"
     if spec.motor is not None and spec.table is None:
         yield "[motor] is not used: without [table] there is no torque at the input"
     if limits.life and not load.speed:
@@ -65,12 +66,13 @@ def unused(spec: IndexerSpec) -> Iterator[str]:
     if limits.contact_pressure and load.torque is None:
         yield "limits.contact_pressure is not checked: load.torque is not given"
     if load.angle is not None:
-        yield "one input angle was asked for: play and holding are not checked over the cycle"
+        yield "load.angle gives a single input angle: play and holding contacts are not checked over the cycle"
     clearances = [key for key in ("crank_bearings", "support_bearings") if getattr(spec, key) and getattr(spec, key).radial_clearance]
-    if clearances or (spec.gear and spec.gear.backlash):
+    where = [*clearances, *(["gear"] if spec.gear and spec.gear.backlash else [])]
+    if where:
         yield (
-            f"the play is that of pins and profile; {' and '.join([*clearances, *(['gear'] if spec.gear and spec.gear.backlash else [])])} "
-            "have clearance of their own, which is in the rotation under the torque and so in the secant stiffness"
+            f"the play includes pins and profile only; the clearance of {' and '.join(where)} is in the rotation under the torque, and "
+            "so in the secant stiffness"
         )
 
 
@@ -96,8 +98,8 @@ def _stations(spec: IndexerSpec) -> None:
         raise SpecError(str(error).removesuffix("."), "stations") from None
     phase = spec.pin_phase
     if phase is not None and not 0 <= phase < 1:
-        same = f"; {phase % 1:.6g} is the same place" if np.isfinite(phase) else ""
-        raise SpecError(f"{phase:g}: the place of a pin in the dwell is from 0 to below 1 pitch of the pins{same}", "pin_phase")
+        same = f"; {phase % 1:.6g} is the same position" if np.isfinite(phase) else ""
+        raise SpecError(f"{phase:g} is out of range; the position of a pin in the dwell is from 0 to below 1 pitch{same}", "pin_phase")
 
 
 def _points(spec: IndexerSpec) -> None:
@@ -111,21 +113,21 @@ def _points(spec: IndexerSpec) -> None:
     if spec.motion.degree is not None and name not in POINTS:
         raise SpecError(f"is for law = 'table' or 'spline'; the law is {name!r}", "motion.degree")
     if name == "table" and spec.motion.motion_to_dwell is not None:
-        raise SpecError("the last row of the table tells where the dwell begins; leave motion_to_dwell out", "motion.motion_to_dwell")
+        raise SpecError("the dwell begins at the last row of the table; leave motion_to_dwell out", "motion.motion_to_dwell")
 
 
 def _motion(spec: IndexerSpec) -> None:
     name, ratio = law_name(spec), spec.motion.motion_to_dwell
     if spec.kind == "cycloid" and name != "uniform":
         raise SpecError(
-            f'kind "cycloid" turns evenly and has law = "uniform", not {name!r}; for a dwell take kind = "pin-wheel"', "motion.law"
+            f'kind "cycloid" has uniform motion, law = "uniform", not {name!r}; for a dwell take kind = "pin-wheel"', "motion.law"
         )
     if name == "uniform" and ratio not in (None, "no-dwell"):
         raise SpecError("the uniform law takes the full turn and has no dwell; leave motion_to_dwell out", "motion.motion_to_dwell")
     if isinstance(ratio, float) and not 1 / LARGEST_RATIO <= ratio <= LARGEST_RATIO:
         raise SpecError(
-            f"{ratio:g}: the ratio of motion to dwell is above 0, from {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g}; "
-            '"no-dwell" for a full turn',
+            f"{ratio:g} is out of range; the ratio of motion to dwell is from {1 / LARGEST_RATIO:g} to {LARGEST_RATIO:g}; "
+            'give "no-dwell" for a full turn',
             "motion.motion_to_dwell",
         )
 
@@ -134,7 +136,7 @@ def _pins(spec: IndexerSpec) -> None:
     if spec.kind in TRANSLATING and spec.pins % spec.cams:
         fitting = [str(number) for number in range(1, 5) if spec.pins % number == 0]
         raise SpecError(
-            f"{spec.cams} cams in even phase must divide the number of pins, {spec.pins}. Take {' or '.join(fitting)} cams, or "
+            f"{spec.cams} cams do not divide the {spec.pins} pins evenly. Take {' or '.join(fitting)} cams, or "
             f"{spec.pins - spec.pins % spec.cams + spec.cams} pins",
             "cams",
         )
@@ -155,8 +157,8 @@ def _drive(spec: IndexerSpec) -> None:
         raise SpecError(f"is missing: [{on_shafts[0]}] needs the distance of the two split shafts", "shaft_spacing")
     if spec.gear and spacing is not None and spec.gear.module * spec.gear.teeth >= spacing:
         raise SpecError(
-            f"pitch circles of {1e3 * spec.gear.module * spec.gear.teeth:.4g} mm leave no input gear between shafts "
-            f"{1e3 * spacing:.4g} mm apart; module times teeth is half of that",
+            f"pitch circles of {1e3 * spec.gear.module * spec.gear.teeth:.4g} mm leave no room for the input gear between shafts "
+            f"{1e3 * spacing:.4g} mm apart; module times teeth must be half of that",
             "gear.teeth",
         )
 
@@ -166,19 +168,29 @@ def _housing(spec: IndexerSpec) -> None:
     housing, translating = spec.housing, spec.kind in TRANSLATING
     if housing and not translating and housing.support_stiffness is not None:
         raise SpecError(
-            f"kind {spec.kind!r} has no split shafts; take cam_stiffness for the bearings of its cam", "housing.support_stiffness"
+            f"kind {spec.kind!r} has no split shafts; give cam_stiffness for the bearings of its cam", "housing.support_stiffness"
         )
     for key in ("cam_stiffness", "input_torsion"):
         if housing and translating and getattr(housing, key) is not None:
             raise SpecError(
-                f"is for parallel, barrel and globoidal; the cams of kind {spec.kind!r} yield by [crank_bearings], [shafts], "
+                f"is for parallel, barrel and globoidal; the cams of kind {spec.kind!r} deflect by [crank_bearings], [shafts], "
                 "[support_bearings] and [gear]",
                 f"housing.{key}",
             )
     if spec.contact.interference and translating:
-        raise SpecError(f"is for parallel, barrel and globoidal; the cams of kind {spec.kind!r} are not set", "contact.interference")
+        raise SpecError(
+            f"is for parallel, barrel and globoidal; kind {spec.kind!r} has no interference of its cams", "contact.interference"
+        )
     if spec.contact.interference and spec.contact.model == "bonded":
-        raise SpecError('contacts that stick need none; leave it out, or take contact.model = "unilateral"', "contact.interference")
+        raise SpecError('bonded contacts need no interference; leave it out, or take contact.model = "unilateral"', "contact.interference")
+    given, largest = spec.contact.interference, largest_approach(spec.pin_radius)
+    if given > largest:
+        raise SpecError(
+            f"{1e3 * given:.4g} mm is {100 * given / spec.pin_radius:.3g} % of the roller's radius; beyond "
+            f"{1e3 * largest:.3g} mm the contact is wider than a tenth of the radius, where Hertz's theory ends. Some micrometres "
+            'are usual: try "5 um"',
+            "contact.interference",
+        )
 
 
 def _bearings(spec: IndexerSpec) -> None:
@@ -187,20 +199,21 @@ def _bearings(spec: IndexerSpec) -> None:
         if given is None:
             continue
         if (given.bearing is None) == (given.stiffness is None):
-            raise SpecError("give one of bearing (a designation) and stiffness", key)
+            raise SpecError("give either bearing (a designation) or stiffness", key)
         if given.stiffness is not None and given.dynamic_rating is not None:
             raise SpecError(
-                "a life needs a bearing, whose rolling elements tell the exponent; a stiffness has none", f"{key}.dynamic_rating"
+                "a life needs a bearing, whose rolling elements set the life exponent; give bearing instead of stiffness",
+                f"{key}.dynamic_rating",
             )
         if given.stiffness is not None and given.law != "elements":
-            raise SpecError(f"law = {given.law!r} needs a bearing; a constant stiffness is a law of its own", f"{key}.law")
+            raise SpecError(f"law = {given.law!r} needs a bearing; leave it out for a constant stiffness", f"{key}.law")
 
 
 def _bodies(spec: IndexerSpec) -> None:
     sizes = spec.crank_bearings is not None and spec.crank_bearings.bearing is not None
     if spec.kind in TRANSLATING and spec.bodies == "elastic" and not sizes:
         raise SpecError(
-            '"elastic" needs the size of the bodies: give crank_bearings.bearing, which tells the holes of the cams and the crank pins, or '
+            '"elastic" needs the size of the bodies: give crank_bearings.bearing, which sets the holes of the cams and the crank pins, or '
             'take "rigid"',
             "bodies",
         )

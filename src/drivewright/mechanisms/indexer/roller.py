@@ -19,8 +19,10 @@ def surface(model: IndexerModel, done: Answers) -> Answer:
     angle = np.linspace(0, TURN, STEPS) if model.spec.load.angle is None else model.angles
     flanks = roller_gear.compute_flanks(model.cam, angle, ALONG)
     values = roller_gear.flank_values(flanks)
-    undercut = Check("undercut", float(flanks.undercut), 0.0, "<=", "-", "part of the contact lines that is cut away", ("cam",), True)
-    checks = (undercut, *pressure_angle_check(model, values, "angle between the normal and the roller's way, all contact lines"))
+    message = "share of the contact lines lost to undercut; take thinner rollers, a larger cam or a longer motion angle"
+    undercut = Check("undercut", float(flanks.undercut), 0.0, "<=", "-", message, ("cam",), True, label="Undercut")
+    message = "maximum pressure angle over all contact lines; enlarge the cam or the motion angle"
+    checks = (undercut, *pressure_angle_check(model, values, message))
     return Answer(values, (roller_gear.flank_table(flanks),), checks, data=flanks)
 
 
@@ -28,7 +30,7 @@ def contact_map(model: IndexerModel, done: Answers) -> Answer:
     """Which rollers touch which flank at every input angle."""
     flanks = done["profile"].data
     table = roller_gear.contact_count_table(flanks)
-    values = contact_count_values(table, "fewest rollers that touch the cam", "most rollers that touch the cam")
+    values = contact_count_values(table, "rollers", "with the cam")
     return Answer(values, (table,), arrays={"contact_map": roller_gear.contact_map_array(flanks)})
 
 
@@ -44,5 +46,5 @@ def stress(model: IndexerModel, done: Answers) -> tuple[Table, tuple[str, ...]]:
     flanks = done["profile"].data
     loads = roller_gear.compute_roller_loads(flanks, model.torque, model.modulus)
     lost = np.isnan(loads.line_load)
-    findings = (f"nothing carries the torque at {np.sum(lost)} of {len(lost)} input angles",) if lost.any() else ()
+    findings = (f"no roller carries the torque at {np.sum(lost)} of {len(lost)} input angles",) if lost.any() else ()
     return roller_gear.roller_force_table(flanks, loads), findings

@@ -17,7 +17,8 @@ from drivewright.indexing.stiffness.tables import stiffness_table
 from drivewright.indexing.stiffness.values import dwell_values, stiffness_findings, stiffness_values
 from drivewright.mechanisms.indexer.build import STEP, IndexerModel
 from drivewright.mechanisms.indexer.spec import IndexerHousing
-from drivewright.result import Answer, Answers, Check, Table, Value
+from drivewright.mechanisms.indexer.stiffness import holding_checks, stiffness_check
+from drivewright.result import Answer, Answers, Table, Value
 
 
 def loaded_rollers(model: IndexerModel) -> LoadedRollers:
@@ -47,18 +48,20 @@ def torsional(model: IndexerModel, done: Answers) -> Answer:
     dwell = _dwell(model, loaded)
     checks, limit = dwell.checks, model.spec.limits.stiffness
     if limit and "stiffness.minimum" in values:
-        least = values["stiffness.minimum"].value
-        checks = (*checks, Check("stiffness", least, limit, ">=", "N m/rad", "least torsional stiffness", ("wheel",)))
+        least = values["stiffness.minimum"]
+        checks = (*checks, stiffness_check(least, limit))
     tables = (stiffness_table(angles, result, after, free, reverse), forces)
     return Answer({**values, **dwell.values}, tables, checks, tuple(stiffness_findings(angles, result, after)), data=(result, contacts))
 
 
 def _force_values(forces: Table) -> Iterator[tuple[str, Value]]:
     if len(forces["force"].data):
-        yield "shared.max_force", Value(float(np.max(forces["force"].data)), "N", "largest force on a roller, the load shared by stiffness")
+        meaning, label = "maximum force on a roller, the load shared by stiffness", "Maximum roller force, shared load"
+        yield "shared.max_force", Value(float(np.max(forces["force"].data)), "N", meaning, label=label)
     if np.isfinite(forces["pressure"].data).any():
         largest = float(np.nanmax(forces["pressure"].data))
-        yield "shared.max_pressure", Value(largest, "Pa", "largest Hertz pressure on a roller, the load shared by stiffness")
+        meaning, label = "maximum Hertz pressure on a roller, the load shared by stiffness", "Maximum Hertz pressure, shared load"
+        yield "shared.max_pressure", Value(largest, "Pa", meaning, label=label)
 
 
 def _dwell(model: IndexerModel, loaded: LoadedRollers) -> Answer:
@@ -67,7 +70,5 @@ def _dwell(model: IndexerModel, loaded: LoadedRollers) -> Answer:
     if model.spec.load.angle is not None or not len(angles):
         return Answer()
     result, contacts = solve_rollers(loaded, angles, model.torque)
-    values = dwell_values(angles, result, shared_force_table(angles, contacts, result.pin_forces, model.modulus))
-    message = "part of the dwell in which the torque is not held at once: the wheel turns freely first, or has next to no lever"
-    lost = values["dwell.undefined_fraction"].value
-    return Answer(values, checks=(Check("held.dwell", lost, 0.0, "<=", "-", message, ("cam1", "wheel")),))
+    values = dwell_values(angles, result, shared_force_table(angles, contacts, result.pin_forces, model.modulus), "roller")
+    return Answer(values, checks=tuple(holding_checks(model, "held.dwell", values["dwell.undefined_fraction"], "dwell")))

@@ -1,4 +1,4 @@
-"""Torsional stiffness over the index period: who carries, how far the wheel yields, and where nothing holds it."""
+"""Torsional stiffness over the index period: the parts that carry, the rotation of the wheel, and positions without a holding contact."""
 
 from collections.abc import Iterator
 
@@ -7,9 +7,10 @@ from drivewright.indexing.stiffness.loading import dwell_angles, solve_after_pla
 from drivewright.indexing.stiffness.tables import pin_force_table, stiffness_table
 from drivewright.indexing.stiffness.values import dwell_values, stiffness_findings, stiffness_values
 from drivewright.mechanisms.indexer.build import STEP, IndexerModel, once
+from drivewright.mechanisms.indexer.geometry import holding_hint
 from drivewright.mechanisms.indexer.refusals import TRANSLATING
 from drivewright.mechanisms.indexer.spec import IndexerSpec
-from drivewright.mechanisms.indexer.stress import pressure_check
+from drivewright.mechanisms.indexer.stress import judge_pressure
 from drivewright.result import Answer, Answers, Check, Value
 
 
@@ -26,22 +27,23 @@ def torsional(model: IndexerModel, done: Answers) -> Answer:
     loaded, _, free = _after_play(model)
     reverse = solve_at_contacts(model.loaded_wheel, angles, contacts, -model.torque)
     tables = (stiffness_table(angles, result, loaded, free, reverse), _pin_forces(model))
-    answers = (secant_stiffness(model), dwell_stiffness(model), pin_loads(model))
+    answers = (secant_stiffness(model), dwell_stiffness(model), pin_loads(model), pin_pressure(model))
     values = {name: value for answer in answers for name, value in answer.values.items()}
     checks = tuple(check for answer in answers for check in answer.checks)
-    return Answer(values, tables, checks, tuple(stiffness_findings(angles, result, loaded)), data=(result, contacts))
+    findings = (*stiffness_findings(angles, result, loaded), *(finding for answer in answers for finding in answer.findings))
+    return Answer(values, tables, checks, findings, data=(result, contacts))
 
 
 def secant_stiffness(model: IndexerModel) -> Answer:
-    """Mean, extremes and range of the secant stiffness over the index period, and where nothing holds the torque."""
+    """Mean, extremes and range of the secant stiffness over the index period, and the positions without a holding contact."""
     values, limit = stiffness_values(model.angles, _at_contacts(model)[0]), model.spec.limits.stiffness
     checks = []
     if limit and "stiffness.minimum" in values:
-        least = values["stiffness.minimum"].value
-        checks.append(Check("stiffness", least, limit, ">=", "N m/rad", "least torsional stiffness", ("wheel",)))
-    return Answer(values, checks=(*checks, *_held(model, "held", values.get("stiffness.undefined_fraction"), "index period")))
+        checks.append(stiffness_check(values["stiffness.minimum"], limit))
+    return Answer(values, checks=(*checks, *holding_checks(model, "held", values.get("stiffness.undefined_fraction"), "index period")))
 
 
+@once
 def dwell_stiffness(model: IndexerModel) -> Answer:
     """Holding, least stiffness and largest pin force in the dwell; nothing where one input angle is asked for."""
     angles = dwell_angles(model.wheel.motion, STEP)
@@ -49,13 +51,17 @@ def dwell_stiffness(model: IndexerModel) -> Answer:
         return Answer()
     result, contacts = solve_loaded(model.loaded_wheel, angles, model.torque)
     values = dwell_values(angles, result, pin_force_table(angles, contacts, result.pin_forces, *model.pin_measures))
-    return Answer(values, checks=tuple(_held(model, "held.dwell", values.get("dwell.undefined_fraction"), "dwell")))
+    return Answer(values, checks=tuple(holding_checks(model, "held.dwell", values.get("dwell.undefined_fraction"), "dwell")))
 
 
 def pin_loads(model: IndexerModel) -> Answer:
-    """Largest force and Hertz pressure of a pin over the index period, after the play where nothing holds the torque at first."""
-    values = largest_pin_values(_pin_forces(model))
-    return Answer(values, checks=tuple(pressure_check(model, values)))
+    """Largest force and Hertz pressure of a pin over the index period, after the play where no contact holds the torque at first."""
+    return Answer(largest_pin_values(_pin_forces(model)))
+
+
+def pin_pressure(model: IndexerModel) -> Answer:
+    """Check of the largest Hertz pressure, over the index period and in the dwell."""
+    return judge_pressure(model, {**dwell_stiffness(model).values, **largest_pin_values(_pin_forces(model))})
 
 
 @once
@@ -77,8 +83,16 @@ def _pin_forces(model):
     return pin_force_table(model.angles, touching, loaded.pin_forces, *model.pin_measures)
 
 
-def _held(model: IndexerModel, name: str, lost: Value | None, words: str) -> Iterator[Check]:
-    """Part of the input angles at which the torque is not held at once."""
+def stiffness_check(least: Value, limit: float) -> Check:
+    """The least secant stiffness against its limit [N m/rad]."""
+    message = "minimum secant stiffness over the index period; stiffen the parts that contribute most to the compliance"
+    return Check.of(least, "stiffness", limit, ">=", message, ("wheel",), "Minimum torsional stiffness")
+
+
+def holding_checks(model: IndexerModel, name: str, lost: Value | None, stretch: str) -> Iterator[Check]:
+    """Share of the input angles at which the torque is not held at once; stretch: "index period" or "dwell"."""
     if lost is not None and model.spec.load.angle is None:
-        message = f"part of the {words} in which the torque is not held at once: the wheel turns freely first, or has next to no lever"
-        yield Check(name, lost.value, 0.0, "<=", "-", message, ("cam1", "wheel"))
+        why = "the wheel first turns freely, or the moment arm is near zero"
+        message = f"share of the {stretch} at which no contact holds the torque at once: {why}; {holding_hint(model)}"
+        label = f"{stretch.capitalize()} without holding contact"
+        yield Check(name, lost.value, 0.0, "<=", "-", message, ("cam1", "wheel"), label=label)

@@ -20,25 +20,37 @@ from drivewright.units import Length, RotationalStiffness, Torque
 
 
 class TorsionTest(MechanismSpec):
-    """A torsion test: the input locked, the output loaded and unloaded."""
+    """A torsion test: the input is locked, the output is loaded and unloaded."""
 
     mechanism: Literal["fit-stiffness"] = Field("fit-stiffness", description="kind of evaluation")
-    data: DataFile = Field(description="CSV file: torque [N m],angle [arcmin] and, where there are, cycle, branch, crank [deg]")
+    data: DataFile = Field(
+        title="Test data file", description="CSV file: torque [N m],angle [arcmin] and optionally cycle, branch, crank [deg]"
+    )
     rated_torque: Torque | None = Field(None, gt=0, description="rated torque of the drive", examples=["1000 N m"])
     loading_bar_stiffness: RotationalStiffness | None = Field(
         None, gt=0, description="stiffness of the loading bar, in series with the drive", examples=["2e7 N m/rad"]
     )
-    loading_bar_uncertainty: RotationalStiffness | None = Field(None, ge=0, description="its standard uncertainty")
+    loading_bar_uncertainty: RotationalStiffness | None = Field(
+        None, ge=0, description="standard uncertainty of the stiffness of the loading bar"
+    )
     support_stiffness: RotationalStiffness | None = Field(
         None, gt=0, description="stiffness of the support, in series with the drive", examples=["5000 N m/arcmin"]
     )
-    support_uncertainty: RotationalStiffness | None = Field(None, ge=0, description="its standard uncertainty")
+    support_uncertainty: RotationalStiffness | None = Field(None, ge=0, description="standard uncertainty of the stiffness of the support")
     arm: Length | None = Field(
-        None, gt=0, description="arm of the force, for a column force [N] in place of the torque", examples=["500 mm"]
+        None,
+        gt=0,
+        title="Lever arm",
+        description="lever arm of the force, for a column force [N] in place of the torque",
+        examples=["500 mm"],
     )
-    confidence: Number = Field(0.95, ge=0.5, lt=1, description="confidence of the intervals")
-    resamples: Integer = Field(1000, ge=0, le=100_000, description="resampled tests of the bootstrap by cycles")
-    model: DataFile | None = Field(None, description="spec of the drive, whose computed stiffness is laid over the measured one")
+    confidence: Number = Field(0.95, ge=0.5, lt=1, title="Confidence level", description="confidence level of the intervals")
+    resamples: Integer = Field(
+        1000, ge=0, le=100_000, title="Bootstrap samples", description="number of resampled tests of the bootstrap by cycles"
+    )
+    model: DataFile | None = Field(
+        None, title="Spec of the drive", description="spec of the drive whose computed stiffness is compared with the measured one"
+    )
 
 
 @dataclass(frozen=True)
@@ -59,7 +71,7 @@ def _series_springs(spec: TorsionTest) -> Iterator[SeriesSpring]:
     for key, name in (("loading_bar", "loading bar's"), ("support", "support's")):
         stiffness, uncertainty = getattr(spec, f"{key}_stiffness"), getattr(spec, f"{key}_uncertainty")
         if stiffness is None and uncertainty is not None:
-            raise SpecError(f"is the uncertainty of a stiffness that is not given; give {key}_stiffness as well", key=f"{key}_uncertainty")
+            raise SpecError(f"needs {key}_stiffness, whose uncertainty it is; give both", key=f"{key}_uncertainty")
         if stiffness is not None:
             yield SeriesSpring(name, stiffness, uncertainty or 0.0)
 
@@ -83,7 +95,7 @@ def comparison(model: TorsionTestModel, done: Answers) -> Answer:
     """The stiffness that the spec's own mechanism computes, at the measured positions."""
     spec, tests = model.spec, model.tests
     if spec.model is None or tests[0].crank is None:
-        return Answer(findings=("the model is not compared: the data have no column 'crank [deg]' with the position of each loop",))
+        return Answer(findings=("the model is not compared: the data have no column 'crank [deg]' with the crank angle of each loop",))
     design = load(spec.model)
     able = [analysis.name for analysis in registry.mechanism(design.mechanism).analyses if analysis.name == "stiffness"]
     tables = runner.run(design, able).tables
@@ -92,7 +104,7 @@ def comparison(model: TorsionTestModel, done: Answers) -> Answer:
     angle, secant = tables["stiffness"]["angle"].data, tables["stiffness"]["secant"].data
     known = np.isfinite(secant)
     if np.sum(known) < 2:
-        raise InputError(f"--model {spec.model}: its stiffness exists at {np.sum(known)} positions; that is no curve to compare with")
+        raise InputError(f"--model {spec.model}: its stiffness exists at {np.sum(known)} positions; at least 2 are needed")
     return comparison_answer(tests, angle, secant)
 
 
@@ -109,10 +121,10 @@ command = Command(
         folder=Path(__file__).with_suffix(""),
         plots=torsion_plots,
         analyses=(
-            Analysis("stiffness", stiffness, "stiffness, play and hysteresis with uncertainties"),
-            Analysis("loop", loop, "the loop and its fits"),
-            Analysis("positions", positions, "stiffness over the crank"),
-            Analysis("comparison", comparison, "measured beside computed stiffness", missing=_no_model),
+            Analysis("stiffness", stiffness, "stiffness, lost motion and hysteresis with uncertainties"),
+            Analysis("loop", loop, "hysteresis loop with fitted lines"),
+            Analysis("positions", positions, "stiffness over the crank angle"),
+            Analysis("comparison", comparison, "measured and computed stiffness", missing=_no_model),
         ),
         headline=(
             "stiffness.whole_loop",

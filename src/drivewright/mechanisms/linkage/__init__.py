@@ -1,4 +1,4 @@
-"""The kind `linkage`: planar linkages with ideal joints or joints with play."""
+"""The kind `linkage`: planar linkages with ideal joints or joints with clearance."""
 
 from pathlib import Path
 
@@ -15,6 +15,10 @@ from drivewright.result import Plot, Result
 
 HEADLINE = (
     "output.max_acceleration",
+    "efficiency",
+    "drives.*.peak_torque",
+    "drives.*.peak_force",
+    "*.displacement",
     "*.impact_load_coefficient",
     "*.peak_acceleration_ratio",
     "*.max_acceleration",
@@ -47,7 +51,7 @@ def plots(result: Result[LinkageSpec]) -> tuple[Plot, ...]:
 
 mechanism = Mechanism(
     kind="linkage",
-    summary="planar linkage with ideal joints or joints with play",
+    summary="planar linkage with ideal joints or joints with clearance",
     spec=LinkageSpec,
     build=build,
     compile_ahead=compile_ahead,

@@ -3,6 +3,7 @@
 import itertools
 import math
 
+from drivewright.labels import in_words
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.mechanisms.linkage.tables import central_inertia, ends_on, points_of
 from drivewright.multibody.bodies import largest_radius_of_gyration
@@ -17,8 +18,28 @@ def advice(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
 
 
 def assumed_friction(spec: LinkageSpec) -> tuple[str, ...]:
-    """Findings on the friction of ideal joints: what was not given for it, and where it is not taken into account."""
-    return tuple(text for joint in spec.joints if (text := _friction_finding(joint)))
+    """Findings on friction: what was not given for it, where it is not taken into account, a coefficient at rest below that of sliding."""
+    findings = tuple(text for joint in spec.joints if (text := _friction_finding(joint)))
+    return (*findings, *(text for joint in spec.joints if (text := _low_static_friction(joint))), *_gears_without_teeth(spec))
+
+
+def _gears_without_teeth(spec):
+    """A finding where pins rub that gears press in reality: here a pair of gears is a ratio of angles, which passes on a torque."""
+    gears = [joint.name for joint in spec.joints if joint.kind == "gear"]
+    if gears and any(joint.friction for joint in spec.joints if joint.kind == "revolute"):
+        yield (
+            f"joints of kind gear ({', '.join(map(repr, gears))}) transmit torque only: joint forces and friction of the pins exclude the "
+            "tooth forces. The real forces and losses in the pins of geared bodies are larger"
+        )
+
+
+def _low_static_friction(joint):
+    if joint.static_friction is None or joint.static_friction >= joint.friction:
+        return None
+    return (
+        f"joint {joint.name!r}: static_friction {joint.static_friction:g} is below friction {joint.friction:g}; for dry surfaces static "
+        "friction is at least as large as sliding friction"
+    )
 
 
 def _friction_finding(joint):
@@ -26,13 +47,13 @@ def _friction_finding(joint):
     if not rubs or not joint.is_ideal:
         return None
     if joint.kind not in ("revolute", "prismatic", "pin-slot", "rolling"):
-        return f"friction of joint {joint.name!r} is not taken into account: it is a {joint.kind}, and neither pin, slide, slot nor wheel"
+        return f"friction of joint {joint.name!r} is ignored: friction applies to revolute, prismatic, pin-slot and rolling joints only"
     if joint.kind == "revolute" and "bearing_radius" not in joint.model_fields_set:
-        return f"friction in joint {joint.name!r} acts at the radius {1e3 * joint.bearing_radius:g} mm, as no bearing_radius is given"
+        return f"friction in joint {joint.name!r} acts at the default radius of {1e3 * joint.bearing_radius:g} mm; give bearing_radius"
     if joint.kind == "prismatic" and joint.bearing_length is None:
         return (
-            f"friction in joint {joint.name!r} is that of the force across the slide alone; what tilts the slider and presses its ends "
-            "counts with bearing_length, the length of the guide"
+            f"friction in joint {joint.name!r} results from the force across the slide alone; give bearing_length, the length of the "
+            "guide, to include the forces at its ends that a tilting moment causes"
         )
     return None
 
@@ -53,10 +74,12 @@ def clearance_share(spec: LinkageSpec) -> tuple[Check, ...]:
     if not played or body is None:
         return ()
     joint = max(played, key=lambda joint: joint.clearance or 0.0)
-    message = f"clearance of joint {joint.name!r} over the shortest link, {length * 1e3:.4g} mm of {body!r}"
-    return (
-        Check("clearance_share", (joint.clearance or 0.0) / length, spec.limits.clearance_share, "<=", "-", message, (joint.name, body)),
+    message = (
+        f"clearance of joint {joint.name!r} relative to the shortest link, {length * 1e3:.4g} mm of {body!r}; a larger share changes "
+        "the kinematics: reduce the clearance"
     )
+    share, limit, parts = (joint.clearance or 0.0) / length, spec.limits.clearance_share, (joint.name, body)
+    return (Check("clearance_share", share, limit, "<=", "-", message, parts, label="clearance over shortest link"),)
 
 
 def restitution(spec: LinkageSpec) -> tuple[Check, ...]:
@@ -68,8 +91,9 @@ def restitution(spec: LinkageSpec) -> tuple[Check, ...]:
             spec.limits.least_restitution,
             ">=",
             "-",
-            f"{joint.normal} delivers clearly more restitution than is asked below; take flores-2011 or gonthier",
+            f"coefficient of restitution; below the limit {joint.normal} returns much more than stated: use flores-2011 or gonthier",
             (joint.name,),
+            label=f"restitution of joint {in_words(joint.name)}",
         )
         for joint in spec.joints
         if joint.has_contact and joint.normal in BOUNCY
@@ -83,15 +107,23 @@ def inertia_extent(spec: LinkageSpec) -> tuple[Check, ...]:
         widest = largest_radius_of_gyration(list(body.points.values()), body.centroid)
         if body.mass > 0 and widest is not None:
             gyration = math.sqrt(max(central_inertia(body), 0.0) / body.mass)
-            message = f"radius of gyration of {name!r}, which mass between its points cannot exceed; is its inertia about a pivot?"
-            checks.append(Check(f"inertia.{name}", gyration, widest, "<=", "m", message, (name,)))
+            message = (
+                f"radius of gyration of {name!r} against the maximum for mass between its points; check inertia, and inertia_about if it "
+                "was given about a pivot"
+            )
+            label = f"radius of gyration of {in_words(name)}"
+            checks.append(Check(f"inertia.{name}", gyration, widest, "<=", "m", message, (name,), label=label))
     return tuple(checks)
 
 
 def window(spec: LinkageSpec, end: float = math.inf) -> tuple[Check, ...]:
-    """Turns that are left for peaks and means of a run that may end before its time."""
+    """Turns that are left for peaks and means of a run that may end before its time; of a mechanism without play one is enough."""
     if spec.simulate is None or spec.period is None:
         return ()
+    repeats = all(joint.is_ideal for joint in spec.joints)
     turns = max(min(spec.duration or math.inf, end) - spec.start_of_window, 0.0) / spec.period
-    message = "turns after discard; the five largest peaks of fewer are not all main peaks"
-    return (Check("window", turns, spec.limits.least_turns, ">=", "-", message),)
+    message = "turns after the discarded ones; with fewer the five largest peaks are not all main peaks: raise simulate.turns"
+    if repeats:
+        message = "turns after the discarded ones; peaks and means need at least one whole turn: raise simulate.turns"
+    limit = min(spec.limits.least_turns, 1.0) if repeats else spec.limits.least_turns
+    return (Check("window", turns, limit, ">=", "-", message, label="evaluated turns"),)

@@ -42,18 +42,18 @@ from drivewright.units import SI
 def no_run(spec: LinkageSpec) -> str | None:
     """Why there is nothing to simulate."""
     if spec.simulate is None and spec.period is None:
-        return "there is no [simulate] table, and no drive at constant speed whose turn could stand for it"
+        return "the spec has neither a [simulate] table nor a drive at constant speed"
     return None
 
 
 def _no_outputs(spec: LinkageSpec) -> str | None:
-    return no_run(spec) or (None if spec.outputs else "the spec declares no [[outputs]]")
+    return no_run(spec) or (None if spec.outputs else "the spec has no [[outputs]]")
 
 
 def _no_play(spec: LinkageSpec) -> str | None:
     if _no_outputs(spec):
         return _no_outputs(spec)
-    return None if any(joint.has_play for joint in spec.joints) else "no joint has play"
+    return None if any(joint.has_play for joint in spec.joints) else "no joint has clearance"
 
 
 def _no_pins(spec: LinkageSpec) -> str | None:
@@ -61,7 +61,9 @@ def _no_pins(spec: LinkageSpec) -> str | None:
 
 
 def _no_turns(spec: LinkageSpec) -> str | None:
-    return _no_outputs(spec) or (None if spec.period and spec.simulate else "there are no turns of a drive at constant speed")
+    return _no_outputs(spec) or (
+        None if spec.period and spec.simulate else "the spec has no [simulate] table or no drive at constant speed"
+    )
 
 
 def _no_friction(spec: LinkageSpec) -> str | None:
@@ -71,7 +73,7 @@ def _no_friction(spec: LinkageSpec) -> str | None:
 
 
 def _no_drives(spec: LinkageSpec) -> str | None:
-    return no_run(spec) or (None if spec.all_drives else "there is no drive")
+    return no_run(spec) or (None if spec.all_drives else "the spec has no drive")
 
 
 def _no_oil(spec: LinkageSpec) -> str | None:
@@ -82,15 +84,15 @@ def _no_tolerances(spec: LinkageSpec) -> str | None:
     if spec.tolerances is None:
         return "the spec has no [tolerances] table"
     if not spec.outputs:
-        return "the spec declares no [[outputs]]"
+        return "the spec has no [[outputs]]"
     if not sources_of(spec):
-        return "no joint states a clearance and no dimension has a tolerance"
+        return "no joint has a clearance and no dimension has a tolerance"
     drives = list(spec.all_drives.values())
     if not drives or drives[0].motor:
-        return "no drive says where the mechanism stands"
+        return "no drive with prescribed motion sets the position of the mechanism"
     if len(drives) > 1:
-        return "several drives say where the mechanism stands, and `tolerances.angle` is one angle"
-    return None if driven_joint(spec, drives[0]).kind == "revolute" else f"the drive pushes {drives[0].joint!r}, so that it has no angle"
+        return "several drives set the position of the mechanism, but tolerances.angle is a single angle"
+    return None if driven_joint(spec, drives[0]).kind == "revolute" else f"the driven joint {drives[0].joint!r} slides and has no angle"
 
 
 def _no_wear(spec: LinkageSpec) -> str | None:
@@ -98,8 +100,8 @@ def _no_wear(spec: LinkageSpec) -> str | None:
         return "the spec has no [wear] table"
     joint = _wearing_joint(spec)
     if joint.pin != "dry":
-        return f'joint {joint.name!r} is {joint.pin or joint.kind}; wear wants model = "dry" and a clearance'
-    return no_run(spec) or (f"joint {joint.name!r} states no wear_coefficient" if joint.wear_coefficient is None else None)
+        return f'joint {joint.name!r} is {joint.pin or joint.kind}; wear requires model = "dry" and a clearance'
+    return no_run(spec) or (f"joint {joint.name!r} has no wear_coefficient" if joint.wear_coefficient is None else None)
 
 
 def _no_table(table: str, also: Callable[[LinkageSpec], str | None] = lambda spec: None) -> Callable[[LinkageSpec], str | None]:
@@ -108,7 +110,7 @@ def _no_table(table: str, also: Callable[[LinkageSpec], str | None] = lambda spe
     def missing(spec: LinkageSpec) -> str | None:
         if getattr(spec, table) is None:
             return f"the spec has no [{table}] table"
-        return also(spec) if spec.period else "its drive has no constant speed, so that there are no turns"
+        return also(spec) if spec.period else "no drive has a constant speed, so turns are not defined"
 
     return missing
 
@@ -222,21 +224,21 @@ def _of_model(answer: Callable[[LinkageModel], Answer]) -> Callable[[LinkageMode
 
 ANALYSES: tuple[Analysis[LinkageSpec, LinkageModel], ...] = (
     Analysis("impact", _of_model(impact), "impact load coefficient of every output", missing=_no_play),
-    Analysis("motion", _motion, "outputs over the run", missing=no_run),
-    Analysis("pins", _of_model(pins), "forces, impacts and orbits of pins with play", missing=_no_pins),
+    Analysis("motion", _motion, "motion of the outputs", missing=no_run),
+    Analysis("pins", _of_model(pins), "forces, impacts and orbits of pins with clearance", missing=_no_pins),
     Analysis("forces", _of_model(joint_forces), "forces in all joints", missing=no_run),
     Analysis("energy", _of_model(energy), "energy audit and drive torque", missing=no_run),
-    Analysis("friction", _of_model(friction), "friction in ideal joints, efficiency", missing=_no_friction),
+    Analysis("friction", _of_model(friction), "friction in ideal joints and efficiency", missing=_no_friction),
     Analysis("motors", _of_model(motors), "motor sizing: torque, power, reflected inertia", missing=_no_drives),
     Analysis("singular", _of_model(singular_positions), "singular positions passed", missing=no_run),
-    Analysis("spectrum", _of_model(spectrum), "accelerations in orders of the drive", missing=_no_turns),
-    Analysis("poincare", _poincare, "Poincare section", missing=_no_table("poincare")),
+    Analysis("spectrum", _of_model(spectrum), "acceleration spectra by orders of the drive", missing=_no_turns),
+    Analysis("poincare", _poincare, "Poincaré section", missing=_no_table("poincare")),
     Analysis("lyapunov", _lyapunov, "largest Lyapunov exponent", missing=_no_table("lyapunov")),
-    Analysis("end", _of_model(end), "bodies at the end of the run", missing=no_run),
-    Analysis("oil", _of_model(oil_films), "closed form of each oil film beside Reynolds' equation", missing=_no_oil),
+    Analysis("end", _of_model(end), "final positions and velocities of the bodies", missing=no_run),
+    Analysis("oil", _of_model(oil_films), "oil film models compared with Reynolds' equation", missing=_no_oil),
     Analysis("rest", _of_model(rest), "equilibrium, holding torques, natural frequencies", default=False),
     Analysis("bifurcation", _bifurcation, "bifurcation diagram", default=False, missing=_no_table("bifurcation")),
     Analysis("load_table", _load_table, "impact load over speed and clearance", default=False, missing=_no_table("table", _no_play)),
-    Analysis("tolerances", _tolerances, "outputs under clearances and random dimensions", missing=_no_tolerances),
-    Analysis("wear", _wear, "wear of a bearing, fed back into its contact", default=False, missing=_no_wear),
+    Analysis("tolerances", _tolerances, "output deviations from clearances and tolerances", missing=_no_tolerances),
+    Analysis("wear", _wear, "wear of a bearing with feedback to its contact", default=False, missing=_no_wear),
 )

@@ -89,4 +89,5 @@ def _settings(spec):
     run = spec.simulate
     if run is None:
         return Settings(per_step=2)
-    return Settings(run.relative_tolerance, run.absolute_tolerance, None, run.min_step, run.max_steps, run.method, 2, run.singular)
+    tolerances, limits = (run.relative_tolerance, run.absolute_tolerance), (None, run.min_step, run.max_steps)
+    return Settings(*tolerances, *limits, run.method, 2, run.singular, run.samples_per_turn)

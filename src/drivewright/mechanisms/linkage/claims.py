@@ -6,9 +6,9 @@ from drivewright.claims import Balance, Claims, Derivative, Mirror, Scaling
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 
 REASONS = {
-    "speed": "with play in a pin twice the speed is another motion, not the same path",
-    "mirror": "with play in a pin the motion is chaotic: its mirror image departs from it by rounding",
-    "limits": "no preset has massless links, whose motion tends to the ideal one in the first order of the play",
+    "speed": "with clearance in a pin twice the speed is another motion, not the same path",
+    "mirror": "with clearance in a pin the motion is chaotic: its mirror image departs from it by rounding",
+    "limits": "no preset has massless links, whose motion tends to the ideal one in the first order of the clearance",
 }
 
 

@@ -107,11 +107,13 @@ def dry(spec: LinkageSpec, joint: Joint) -> Dry:
     """The dry contact of a joint: stiffness from radii and material, loss from the restitution."""
     key = f"joints.{joint.name}"
     if joint.normal in contact_law_names() and joint.normal in (*NORMALS, *impact_law_names()):
-        raise SpecError(f"{joint.normal!r} is the name of two laws; uninstall the package that brings the second one", key=f"{key}.normal")
+        raise SpecError(f"two contact laws are called {joint.normal!r}; uninstall the package that adds the second", key=f"{key}.normal")
     masses = {body: spec.bodies[body].mass for body in (place(text)[0] for text in joint.connects) if body != GROUND}
     light = min(masses, key=lambda body: masses[body])
     if joint.normal == "kelvin-voigt" and joint.damping is None and masses[light] == 0:
-        raise SpecError(f"is missing: {light!r} has no mass, so no damping follows from the restitution", key=f"{key}.damping")
+        raise SpecError(
+            f"is missing: {light!r} has no mass, so the restitution does not determine the damping; give it", key=f"{key}.damping"
+        )
     return dry_contact(
         joint.normal,
         joint.clearance or 0.0,

@@ -32,111 +32,136 @@ else:
 
 
 class Joint(Spec):
-    """What holds two bodies together.   A key that its kind and model do not ask for is left aside: models can be swapped."""
+    """A joint between two bodies.   Keys that its kind and model do not use are ignored, so models can be swapped."""
 
-    name: Name = Field(description="name", examples=["A"])
+    name: Name = Field(description="name of the joint", examples=["A"])
     kind: Kind = Field(
         "revolute",
-        description="revolute: a pin. prismatic: a point of the first body slides on a line of the second, "
-        "without turning; pin-slot: it may turn. rolling: a wheel of the first on a track of the "
-        "second. gear: two bodies turn at a ratio. cam: the first moves the second by a programme",
+        title="Joint type",
+        description="revolute: a pin. prismatic: a point of the first body slides on a line of the second "
+        "without rotation; pin-slot: it may rotate. rolling: a wheel of the first on a track of the "
+        "second. gear: two bodies rotate at a ratio. cam: the first body moves the second by a lift curve",
     )
     connects: tuple[Text, Text] = Field(
-        description="BODY.POINT of both; of a pin with play the first carries the bearing, the second the "
+        title="Connected points",
+        description="BODY.POINT of both bodies; at a pin with clearance the first carries the bearing, the second the "
         "journal. gear, and the cam of a cam pair: BODY",
         examples=[["crank.A", "coupler.A"]],
     )
-    axis: Direction = Field((1.0, 0.0), description="direction of the line in the second body's frame (cam: in the carrier's)")
+    axis: Direction = Field(
+        (1.0, 0.0), title="Direction of axis", description="direction of the line in the second body's frame (cam: in the carrier's)"
+    )
     model: Model = Field(
         "ideal",
-        description="play of a revolute joint. massless-link: journal and bearing always touch; dry: contact and "
-        "flight; lubricated: oil between; bushing: rubber",
+        title="Clearance model",
+        description="clearance model of a revolute joint. massless-link: journal and bearing in permanent contact; dry: contact and "
+        "flight; lubricated: oil film; bushing: rubber bushing",
     )
     clearance: Length | None = Field(
         None,
         ge=0,
-        description="play: radius of the bearing less that of the journal; half the difference of the diameters",
+        title="Radial clearance",
+        description="radial clearance: bearing radius minus journal radius, half the difference of the diameters",
         examples=["0.1 mm"],
     )
     link_damping: RotationalDamping = Field("0 N m s/rad", ge=0, description="massless-link: damping of the link's rotation")
-    link_angle: Angle = Field("0 deg", description="massless-link: start direction of the link, from the first body's pin to the second's")
+    link_angle: Angle = Field(
+        "0 deg", description="massless-link: initial direction of the link, from the first body's pin to the second's"
+    )
     bearing_radius: Length = Field("10 mm", gt=0, description="dry, lubricated, or with friction: radius of the bearing")
     bearing_length: Length | None = Field(
         None,
         gt=0,
-        description="length of the bearing; twice its radius unless given. prismatic with friction: of the guide along its axis, at "
-        "whose ends a moment presses; what tilts the slider is not counted unless given",
+        description="length of the bearing; twice its radius unless given. prismatic with friction: length of the guide along its axis, "
+        "whose ends carry a tilting moment; without it, tilting moments cause no friction",
         examples=["20 mm"],
     )
-    modulus: Pressure = Field("207 GPa", gt=0, description="dry: Young's modulus of bearing and journal")
-    poisson: Number = Field(0.3, ge=0, lt=0.5, description="dry: Poisson's ratio of both")
+    modulus: Pressure = Field("207 GPa", gt=0, title="Young's modulus", description="dry: Young's modulus of bearing and journal")
+    poisson: Number = Field(0.3, ge=0, lt=0.5, title="Poisson's ratio", description="dry: Poisson's ratio of bearing and journal")
     normal: Normal = Field(
         "flores-2011",
-        description="dry: law of the contact force. elastic: no loss; cylinder: line contact, losing "
-        "energy as flores-2011 does; kelvin-voigt: linear spring and damper",
+        title="Normal contact law",
+        description="dry: law of the contact force. elastic: no energy loss; cylinder: line contact with the energy "
+        "loss of flores-2011; kelvin-voigt: linear spring and damper",
     )
-    restitution: Number = Field(0.9, gt=0, le=1, description="dry: speed after an impact over the speed before it")
+    restitution: Number = Field(
+        0.9,
+        gt=0,
+        le=1,
+        title="Coefficient of restitution",
+        description="dry: coefficient of restitution, speed after an impact over the speed before it",
+    )
     friction: Number = Field(
         0.0,
         ge=0,
-        description="coefficient of sliding friction: of a dry pin, and of ideal pins, slides and slots by the force that they transmit; "
-        "rolling: of wheel and track, which must not slip",
+        title="Coefficient of sliding friction",
+        description="coefficient of sliding friction of a dry pin, or of an ideal pin, slide or slot under its joint force; "
+        "rolling: between wheel and track, which must not slip",
     )
     friction_law: Literal["coulomb", "ambrosio", "lugre"] = Field(
         "coulomb",
-        description="of a dry pin. coulomb: mu tanh(v/v0); ambrosio: a ramp that starts above v = 0; lugre: bristles. Ideal joints "
-        "slide by Coulomb's law and stick",
+        description="friction law of a dry pin. coulomb: mu tanh(v/v0); ambrosio: a ramp that starts above v = 0; lugre: bristle model. "
+        "Ideal joints use Coulomb friction with sticking",
     )
     friction_speed: Velocity = Field(
-        "10 mm/s", gt=0, description="v0 of coulomb; end of ambrosio's ramp; Stribeck speed of lugre and of ideal joints"
+        "10 mm/s", gt=0, description="v0 of coulomb; end of the ramp of ambrosio; Stribeck speed of lugre and of ideal joints"
     )
     friction_dead_speed: Velocity = Field("1 mm/s", ge=0, description="ambrosio: start of the ramp")
     static_friction: Number | None = Field(
-        None, ge=0, description="coefficient at rest, of lugre and of ideal joints; friction unless given", examples=[0.2]
+        None,
+        ge=0,
+        title="Coefficient of static friction",
+        description="coefficient of static friction of lugre and of ideal joints; equal to friction unless given",
+        examples=[0.2],
     )
     bristle_deflection: Length = Field(
-        "10 um", gt=0, description="deflection before sliding: of lugre's bristles at the normal force, and of ideal joints"
+        "10 um", gt=0, description="presliding deflection: of the bristles of lugre at the normal force, and of ideal joints"
     )
     bristle_damping: Slowness = Field("0 s/m", ge=0, description="lugre: friction over normal force, per speed of the bristles")
     viscous_friction: Slowness = Field(
-        "0 s/m", ge=0, description="friction over normal force, per sliding speed: of lugre and of ideal joints"
+        "0 s/m", ge=0, description="friction over normal force, per sliding speed, of lugre and of ideal joints"
     )
     rolling_resistance: Length = Field(
-        "0 mm", ge=0, description="rolling: moment that resists rolling over the normal force", examples=["0.05 mm"]
+        "0 mm", ge=0, description="rolling: lever arm of rolling resistance, its moment over the normal force", examples=["0.05 mm"]
     )
     stiffness: Stiffness | None = Field(
-        None, gt=0, description="bushing: of its displacement; kelvin-voigt: of the contact", examples=["5e7 N/m"]
+        None, gt=0, description="bushing: radial stiffness; kelvin-voigt: contact stiffness", examples=["5e7 N/m"]
     )
     damping: Damping | None = Field(
         None,
         ge=0,
-        description="bushing: of its displacement, 0 unless given; kelvin-voigt: instead of that which gives the restitution",
+        description="bushing: radial damping, 0 unless given; kelvin-voigt: contact damping, from the restitution unless given",
         examples=["100 N s/m"],
     )
-    rotational_stiffness: RotationalStiffness = Field("0 N m/rad", ge=0, description="bushing: of its rotation")
-    rotational_damping: RotationalDamping = Field("0 N m s/rad", ge=0, description="bushing: of its rotation")
-    viscosity: Viscosity = Field("40 mPa s", gt=0, description="lubricated: dynamic viscosity of the oil")
+    rotational_stiffness: RotationalStiffness = Field("0 N m/rad", ge=0, description="bushing: rotational stiffness")
+    rotational_damping: RotationalDamping = Field("0 N m s/rad", ge=0, description="bushing: rotational damping")
+    viscosity: Viscosity = Field("40 mPa s", gt=0, title="Dynamic viscosity", description="lubricated: dynamic viscosity of the oil")
     film: Literal["long", "short", "reynolds"] = Field(
-        "long", description="lubricated: long bearing (no flow along it), short bearing, or Reynolds' equation for its length"
+        "long",
+        title="Oil film model",
+        description="lubricated: long bearing (no axial flow), short bearing, or Reynolds' equation for its length",
     )
-    roughness: Length = Field("1 um", gt=0, description="lubricated: film thickness at which the oil gives way to contact")
+    roughness: Length = Field("1 um", gt=0, description="lubricated: film thickness below which the surfaces are in contact")
     wear_coefficient: WearCoefficient | None = Field(
-        None, ge=0, description="dry: volume worn off the bearing per force and sliding", examples=["1e-6 mm^3/(N m)"]
+        None, ge=0, description="dry: wear volume of the bearing per force and sliding distance", examples=["1e-6 mm^3/(N m)"]
     )
-    radius: Length | None = Field(None, gt=0, description="rolling: of the wheel", examples=["30 mm"])
+    radius: Length | None = Field(None, gt=0, title="Wheel radius", description="rolling: radius of the wheel", examples=["30 mm"])
     track_radius: Length = Field(
         "0 mm",
         description="rolling: 0 for a straight track along the axis, the wheel to the left of it; above 0 "
-        "for a circle with the wheel outside, below 0 for a ring around the wheel",
+        "for a circular track with the wheel outside, below 0 for a ring around the wheel",
     )
     ratio: Number | None = Field(
         None,
-        description="gear: turns of the second for one of the first, relative to the carrier; negative for outer gears",
+        title="Gear ratio",
+        description="gear: turns of the second body per turn of the first, relative to the carrier; negative for external gears",
         examples=[-2.0],
     )
     carrier: Text = Field("ground", description="gear, cam: body that carries both; BODY.POINT for the origin of a lift along the axis")
     lift: DataFile | None = Field(
-        None, description="cam: CSV of a turn, angle [deg],lift [mm] along the axis, or lift [deg] for a follower that turns"
+        None,
+        title="Cam lift file",
+        description="cam: CSV of one turn, angle [deg],lift [mm] along the axis, or lift [deg] for an oscillating follower",
     )
 
     @property

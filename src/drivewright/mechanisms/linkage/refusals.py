@@ -13,7 +13,7 @@ from drivewright.mechanisms.linkage.tables import (
 )
 from drivewright.spec import dimension_at
 
-NO_PERIOD = "wants a drive at constant speed, which gives the turn its length"
+NO_PERIOD = "requires a drive at constant speed, which defines the duration of a turn"
 
 
 def refuse_nonsense(spec: LinkageTables) -> None:
@@ -32,18 +32,18 @@ def _known(name, known, what, key):
 
 def _bodies(spec):
     if GROUND in spec.bodies:
-        raise SpecError("this name is kept for what stands still; its points go into [ground.points]", key="bodies.ground")
+        raise SpecError("this name is reserved for the fixed frame; put its points into [ground.points]", key="bodies.ground")
     for name, body in spec.bodies.items():
         key = f"bodies.{name}"
         if CENTROID in body.points:
-            raise SpecError("every body has a point of this name, at its `centroid`; choose another", key=f"{key}.points.centroid")
+            raise SpecError("every body already has this point, at its `centroid`; choose another name", key=f"{key}.points.centroid")
         _known(body.inertia_about, [CENTROID, *body.points], f"point of {name!r}", f"{key}.inertia_about")
         share = body.mass * pivot_distance(body) ** 2
         if body.inertia < share * (1 - 1e-12):
             raise SpecError(
-                f"{body.inertia:.6g} kg m^2 about {body.inertia_about!r} is less than the mass in the centroid alone has there: m d^2 = "
-                f"{body.mass:.6g} kg x ({pivot_distance(body) * 1e3:.6g} mm)^2 = {share:.6g} kg m^2. If it was meant about the centroid, "
-                "leave inertia_about out",
+                f"{body.inertia:.6g} kg m^2 about {body.inertia_about!r} is less than the parallel-axis share of the mass alone: m d^2 = "
+                f"{body.mass:.6g} kg x ({pivot_distance(body) * 1e3:.6g} mm)^2 = {share:.6g} kg m^2. If the inertia is about the "
+                "centroid, leave inertia_about out",
                 key=f"{key}.inertia",
             )
 
@@ -53,7 +53,7 @@ def _names(spec):
         taken = set()
         for number, item in enumerate(getattr(spec, kind)):
             if item.name is not None and item.name in taken:
-                raise SpecError(f"{item.name!r} is there twice among {kind}; give each a name of its own", key=f"{kind}.{number}.name")
+                raise SpecError(f"two {kind} are called {item.name!r}; give each a different name", key=f"{kind}.{number}.name")
             taken.add(item.name)
 
 
@@ -74,7 +74,7 @@ def _places(spec):
         _known(item.body, spec.bodies, "body", f"{key}.body")
         _known(item.on, [GROUND, *spec.bodies], "body", f"{key}.on")
         if item.body == item.on:
-            raise SpecError(f"acts on {item.body!r} from {item.on!r} itself; name two bodies", key=f"{key}.on")
+            raise SpecError(f"body and reaction body are both {item.body!r}; name two different bodies", key=f"{key}.on")
     for key, item in _items(spec, "forces") + _items(spec, "outputs"):
         _known(item.body, spec.bodies, "body", f"{key}.body")
         if item.point is not None:
@@ -86,7 +86,7 @@ def _two_ends(spec, item, key, wants):
         _refuse_place(spec, text, f"{key}.connects.{end}", wants[end])
     first, second = (place(text)[0] for text in item.connects)
     if first == second:
-        raise SpecError(f"connects {first!r} with itself; name two bodies", key=f"{key}.connects")
+        raise SpecError(f"connects {first!r} with itself; name two different bodies", key=f"{key}.connects")
 
 
 def _wants_point(joint, end):
@@ -103,7 +103,7 @@ def _refuse_place(spec, text, key, wants_point):
         example = next(iter(points_of(spec, body)), "A")
         raise SpecError(f'names the body {body!r} but no point of it; write e.g. "{body}.{example}"', key=key)
     if wants_point is False and point is not None:
-        raise SpecError(f"wants a body only, got {text!r}; write {body!r}", key=key)
+        raise SpecError(f"must be a body without a point, got {text!r}; write {body!r}", key=key)
 
 
 # -- joints --------------------------------------------------------------------------------------------------------------------
@@ -117,16 +117,18 @@ def _joints(spec):
 
 def _axis(joint, key):
     if joint.axis == (0.0, 0.0):
-        raise SpecError("a direction [0, 0] points nowhere; write e.g. [1, 0]", key=f"{key}.axis")
+        raise SpecError("[0, 0] has no direction; write e.g. [1, 0]", key=f"{key}.axis")
     if joint.axis != (1.0, 0.0) and joint.kind in ("revolute", "gear"):
         raise SpecError(
-            f'a {joint.kind} joint has no axis in the plane; leave it out, or take kind = "prismatic" or "pin-slot"', key=f"{key}.axis"
+            f'a {joint.kind} joint has no axis in the plane; leave it out, or use kind = "prismatic" or "pin-slot"', key=f"{key}.axis"
         )
 
 
 def _model(joint, key):
     if joint.kind != "revolute" and joint.model != "ideal":
-        raise SpecError(f'a {joint.kind} joint has no model {joint.model!r}; play is for kind = "revolute"', key=f"{key}.model")
+        raise SpecError(
+            f'a {joint.kind} joint cannot have model {joint.model!r}; clearance models apply to kind = "revolute"', key=f"{key}.model"
+        )
 
 
 MISSING = {
@@ -145,9 +147,9 @@ def _missing(joint, key):
         for name in MISSING.get(choice, ()):
             if getattr(joint, name) is None:
                 meaning = type(joint).model_fields[name].description
-                raise SpecError(f"is missing: {choice!r} wants it ({meaning})", key=f"{key}.{name}")
+                raise SpecError(f"is missing: {choice!r} requires it ({meaning})", key=f"{key}.{name}")
     if joint.ratio == 0:
-        raise SpecError("a gear with the ratio 0 does not turn; give teeth of the first over teeth of the second", key=f"{key}.ratio")
+        raise SpecError("must not be 0; give the teeth of the first gear over those of the second", key=f"{key}.ratio")
 
 
 def _play(joint, key):
@@ -155,18 +157,16 @@ def _play(joint, key):
         return
     if joint.clearance >= joint.bearing_radius:
         raise SpecError(
-            f"{joint.clearance * 1e3:.6g} mm leaves no journal in a bearing of radius {joint.bearing_radius * 1e3:.6g} mm: "
-            "the clearance is the difference of the radii and must be smaller",
+            f"{joint.clearance * 1e3:.6g} mm must be less than the bearing radius, {joint.bearing_radius * 1e3:.6g} mm: the clearance is "
+            "the bearing radius minus the journal radius",
             key=f"{key}.clearance",
         )
     if joint.normal == "kelvin-voigt" and joint.stiffness is None:
-        raise SpecError(
-            'is missing: normal = "kelvin-voigt" wants a linear stiffness of the contact, e.g. "5e7 N/m"', key=f"{key}.stiffness"
-        )
+        raise SpecError('is missing: normal = "kelvin-voigt" requires a linear contact stiffness, e.g. "5e7 N/m"', key=f"{key}.stiffness")
     if joint.friction_law == "ambrosio" and joint.friction_dead_speed >= joint.friction_speed:
         raise SpecError(
-            f"the ramp must end above its start: friction_speed {joint.friction_speed:.4g} m/s, friction_dead_speed "
-            f"{joint.friction_dead_speed:.4g} m/s",
+            f"{joint.friction_dead_speed:.4g} m/s, the start of the friction ramp, must be less than its end, friction_speed = "
+            f"{joint.friction_speed:.4g} m/s",
             key=f"{key}.friction_dead_speed",
         )
 
@@ -178,7 +178,7 @@ def _zero_links(spec):
         if len(ends) > 1 and len(places) == 1 and all(joint.kind == "revolute" for joint, _ in ends):
             pins = " and ".join(repr(joint.name) for joint, _ in ends)
             raise SpecError(
-                f"its joints {pins} are at one place: a link of zero length. Move a point, or pin the other bodies together",
+                f"joints {pins} are at the same point, so this link has zero length; move a point, or join the other bodies directly",
                 key=f"bodies.{name}.points",
             )
 
@@ -189,9 +189,8 @@ def _massless_chains(spec):
         links = [joint.name for joint, _ in ends_on(spec, name) if joint.pin == "massless-link"]
         if len(links) > 1 and body.mass == 0 and central_inertia(body) <= 0:
             raise SpecError(
-                f"{name!r} has neither mass nor inertia and massless links at {' and '.join(map(repr, links))}: two clearances in series. "
-                "Where the links are in line nothing says how the play is shared, and the equations of motion are singular. Give the body "
-                "a mass, or make one of the joints ideal",
+                f"{name!r} has neither mass nor inertia but massless links at {' and '.join(map(repr, links))}: two clearances in series. "
+                "Where the links are collinear, the equations of motion are singular. Give the body a mass, or make one joint ideal",
                 key=f"bodies.{name}.mass",
             )
 
@@ -202,7 +201,7 @@ def _massless_chains(spec):
 def _loads(spec):
     for key, item in _items(spec, "torques"):
         if (item.torque is None) == (item.file is None):
-            raise SpecError("give either torque or file", key=f"{key}.torque")
+            raise SpecError("give torque or file, exactly one of them", key=f"{key}.torque")
 
 
 def _drives(spec):
@@ -210,7 +209,7 @@ def _drives(spec):
     for key, drive in spec.all_drives.items():
         _drive(spec, key, drive)
         if drive.joint in taken:
-            raise SpecError(f"{taken[drive.joint]} drives joint {drive.joint!r} already; a joint has one drive", key=f"{key}.joint")
+            raise SpecError(f"{taken[drive.joint]} already drives joint {drive.joint!r}; a joint can have one drive", key=f"{key}.joint")
         taken[drive.joint] = f"[{key}]" if key == "drive" else key
 
 
@@ -223,19 +222,19 @@ def _drive(spec, key, drive):
     joint, ways = names[drive.joint], [way for way in ("speed", "profile", "motor") if getattr(drive, way) is not None]
     if joint.kind not in DRIVEN:
         raise SpecError(
-            f"{joint.name!r} is a {joint.kind} joint; a drive turns a revolute, or moves a prismatic joint or a pin in a slot",
-            key=f"{key}.joint",
+            f"{joint.name!r} is a {joint.kind} joint; a drive needs a revolute, prismatic or pin-slot joint", key=f"{key}.joint"
         )
     if len(ways) != 1:
-        raise SpecError(f"give one of speed, profile and motor, got {' and '.join(ways) or 'none'}", key=f"{key}.speed")
+        raise SpecError(f"give exactly one of speed, profile and motor, got {' and '.join(ways) or 'none'}", key=f"{key}.speed")
     if ways[0] not in DRIVEN[joint.kind]:
-        article = "is prismatic" if joint.kind == "prismatic" else "is a pin in a slot"
-        raise SpecError(f"{joint.name!r} {article}: give a profile of its travel over time", key=f"{key}.{ways[0]}")
+        raise SpecError(f"{joint.name!r} is a {joint.kind} joint: give a profile of its travel over time", key=f"{key}.{ways[0]}")
     if drive.speed == 0:
-        raise SpecError("a drive at speed 0 never turns; leave the drive out, or hold the body by a profile", key=f"{key}.speed")
+        raise SpecError("must not be 0; leave the drive out, or hold the body by a profile", key=f"{key}.speed")
     for name, way in (("phase", "speed"), ("delay", "profile")):
         if getattr(drive, name) and ways != [way]:
-            raise SpecError(f"belongs to a drive with a {way}; {joint.name!r} has a {ways[0]}", key=f"{key}.{name}")
+            raise SpecError(
+                f"applies to a drive with a {way}, but that of {joint.name!r} has a {ways[0]}; leave it out", key=f"{key}.{name}"
+            )
 
 
 # -- the run and the studies ---------------------------------------------------------------------------------------------------
@@ -250,10 +249,10 @@ def _run(spec):
     for name in ("turns", "discard"):
         if getattr(run, name) and spec.period is None:
             remedy = "give duration instead" if name == "turns" else "leave it out"
-            raise SpecError(f"counts turns and so {NO_PERIOD}; {remedy}", key=f"simulate.{name}")
+            raise SpecError(f"{NO_PERIOD}; {remedy}", key=f"simulate.{name}")
     if run.discard and spec.start_of_window >= spec.duration * (1 - 1e-12):
         raise SpecError(
-            f"{run.discard:g} turns are all of the run of {spec.duration / spec.period:g}: nothing is left to look at",
+            f"{run.discard:g} turns must be fewer than those of the run, {spec.duration / spec.period:g}; none would be left to evaluate",
             key="simulate.discard",
         )
 
@@ -273,18 +272,22 @@ def _studies(spec):
     for number, item in enumerate(spec.tolerances.dimensions if spec.tolerances else ()):
         _refuse_place(spec, item.at, f"tolerances.dimensions.{number}.at", True)
         if item.axis == (0.0, 0.0):
-            raise SpecError("a direction [0, 0] points nowhere; write e.g. [1, 0]", key=f"tolerances.dimensions.{number}.axis")
+            raise SpecError("[0, 0] has no direction; write e.g. [1, 0]", key=f"tolerances.dimensions.{number}.axis")
 
 
 def _refuse_sweep(spec):
     """The key of a bifurcation diagram is there and holds one number."""
     study, (exists, _) = spec.bifurcation, dimension_at(type(spec), spec.bifurcation.over)
     if not exists:
-        raise SpecError(f'{study.over!r} is no key of this spec; e.g. "joints.NAME.clearance", "drive.speed"', key="bifurcation.over")
+        raise SpecError(
+            f'{study.over!r} is not a key of this spec; write e.g. "joints.NAME.clearance" or "drive.speed"', key="bifurcation.over"
+        )
     table, _, name = study.over.partition(".")
     if table in ("joints", "bodies"):
         known = [joint.name for joint in spec.joints] if table == "joints" else list(spec.bodies)
         if not name.split(".")[0].isdigit():
             _known(name.split(".")[0], known, table[:-1].replace("bodie", "body"), "bifurcation.over")
     if study.discard >= study.turns:
-        raise SpecError(f"{study.discard} turns are all of the {study.turns} of a run: nothing is left to show", key="bifurcation.discard")
+        raise SpecError(
+            f"{study.discard} turns must be fewer than those of a run, {study.turns}; none would be left to show", key="bifurcation.discard"
+        )

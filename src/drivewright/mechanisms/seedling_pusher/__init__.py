@@ -11,22 +11,22 @@ from drivewright.registry import Analysis, Mechanism, oracle
 from drivewright.result import Plot
 
 ANALYSES = (
-    Analysis("train", planting.train, "elliptic train, tip track, arm rotation"),
-    Analysis("planting", planting.planting, "needle angles and the requirements of planting"),
-    Analysis("cams", analyses.cams, "pressure angles, curvature, real profiles and lost motion of both cams"),
+    Analysis("train", planting.train, "elliptic gear train, track of the tip, rotation of the arm"),
+    Analysis("planting", planting.planting, "needle angles and requirements of planting"),
+    Analysis("cams", analyses.cams, "pressure angle, curvature, finished profile and lost motion of both cams"),
     Analysis("load", analyses.load, "rod dynamics, normal forces, Hertz pressure, torque"),
-    Analysis("contact", dynamics.contact, "lever between the cams with play: forces, separation, rod error"),
+    Analysis("contact", dynamics.contact, "contact dynamics of the lever with clearance: forces, separation, rod error"),
     Analysis("teeth", manufacture.teeth, "teeth of the elliptic gears", default=False, manufacture=True),
-    Analysis("inspection", manufacture.inspection, "radius and angle of both profiles with tolerance", default=False, manufacture=True),
-    Analysis("poincare", dynamics.poincare, "Poincare section of the rod's deviation in the contact run", default=False),
+    Analysis("inspection", manufacture.inspection, "polar coordinates of both profiles with tolerance", default=False, manufacture=True),
+    Analysis("poincare", dynamics.poincare, "Poincaré section of the rod error in the contact simulation", default=False),
     Analysis("clearance", dynamics.clearance_study, "peak force and rod error over clearance and speed", default=False),
 )
 
 PLOTS = (
-    Plot("rod", "Pusher rod over one carrier turn", "cycle", "carrier_angle", ("rod", "rod_velocity", "rod_acceleration")),
-    Plot("planet", "Planet relative to the carrier", "cycle", "carrier_angle", ("planet_angle", "arm_rotation")),
-    Plot("ratio", "Planet speed over carrier speed", "cycle", "carrier_angle", ("planet_ratio",)),
-    Plot("needle", "Needle below the horizontal", "cycle", "carrier_angle", ("needle_angle",)),
+    Plot("rod", "Rod motion over one carrier turn", "cycle", "carrier_angle", ("rod", "rod_velocity", "rod_acceleration")),
+    Plot("planet", "Rotation of planet and planting arm", "cycle", "carrier_angle", ("planet_angle", "arm_rotation")),
+    Plot("ratio", "Speed ratio of planet to carrier", "cycle", "carrier_angle", ("planet_ratio",)),
+    Plot("needle", "Needle angle below the horizontal", "cycle", "carrier_angle", ("needle_angle",)),
     Plot(
         "pressure_angle",
         "Pressure angle of both cams",
@@ -37,7 +37,7 @@ PLOTS = (
     ),
     Plot(
         "convexity",
-        "Roller radius times curvature",
+        "Roller over convex radius of both cams",
         "cams",
         "carrier_angle",
         ("main.convex_ratio", "return.convex_ratio"),
@@ -47,11 +47,11 @@ PLOTS = (
     Plot("hertz", "Hertz pressure, quasi-static", "load", "carrier_angle", ("main.pressure", "return.pressure")),
     Plot("contact_force", "Contact force, dynamic, last turn", "contact", "carrier_angle", ("main.force", "return.force")),
     Plot("rod_error", "Rod error, last turn", "contact", "carrier_angle", ("rod_error",)),
-    Plot("play_force", "Largest normal force over play", "play", "clearance", ("peak_force",)),
-    Plot("track", "Needle tip, machine frame", "cycle", "tip_x", ("tip_y",), equal=True),
-    Plot("axis_track", "Planet axis, machine frame", "cycle", "axis_x", ("axis_y",), equal=True),
-    Plot("rod_track", "End of the pusher rod, machine frame", "cycle", "rod_end_x", ("rod_end_y",), equal=True),
-    Plot("field_track", "Needle tip over the field", "cycle", "field_x", ("tip_y",), equal=True),
+    Plot("play_force", "Maximum normal force over clearance", "play", "clearance", ("peak_force",)),
+    Plot("track", "Track of the needle tip, machine frame", "cycle", "tip_x", ("tip_y",), equal=True),
+    Plot("axis_track", "Track of the planet axis, machine frame", "cycle", "axis_x", ("axis_y",), equal=True),
+    Plot("rod_track", "Track of the rod end, machine frame", "cycle", "rod_end_x", ("rod_end_y",), equal=True),
+    Plot("field_track", "Track of the needle tip over the field", "cycle", "field_x", ("tip_y",), equal=True),
 )
 
 

@@ -200,7 +200,7 @@ def _refuse_out_of_reach(cam, swing):
     if not 1e-6 < min(rest, end) <= max(rest, end) < np.pi - 1e-6:  # rad: exactly there, rounding decides
         raise SpecError(
             f"the lever swings {np.degrees(swing):.4g} deg, which takes the {cam.name} arm from {np.degrees(rest):.4g} to "
-            f"{np.degrees(end):.4g} deg against the line of centres, onto or past its dead point; lengthen lever.output_arm or shorten "
+            f"{np.degrees(end):.4g} deg from the line of centres, onto or past its dead point; lengthen lever.output_arm or shorten "
             "push.stroke",
             f"cams.prime_radius_{cam.name}",
         )

@@ -4,9 +4,9 @@ from drivewright.claims import Claims, Derivative, Scaling
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 
 REASONS = {
-    "balances": "the rod is led by two cams: the carrier's torque is computed from the power that the rod takes",
-    "mirror": "the carrier turns clockwise by definition: the mirror image of a pusher is the same machine seen from behind",
-    "limits": "the rod follows its cams without a spring: nothing is elastic before the contact run",
+    "balances": "the motion of the rod is prescribed by two cams: the torque of the carrier is computed from the power of the rod",
+    "mirror": "the carrier rotates clockwise by definition: the mirror image of a pusher is the same machine seen from behind",
+    "limits": "the rod follows its cams without a spring: only the contact simulation has elastic parts",
 }
 
 

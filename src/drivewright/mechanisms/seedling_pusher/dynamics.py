@@ -23,9 +23,11 @@ from drivewright.numerics.jets import cos
 from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 GRID = 4096
-ENSEMBLE = 8  # runs behind a number with play
-SEPARATION = "share of the turn without contact"
-WIDEST = 0.1e-3  # m: the largest play that the study of it looks at
+ENSEMBLE = 8  # runs behind a number with clearance
+FREE = "fraction of the turn in which neither roller is in contact"
+PEAK = "maximum normal force in the last simulated turn"
+ERROR = "maximum deviation of the rod from its programme"
+WIDEST = 0.1e-3  # m: the largest clearance that its study looks at
 TURNS, DISCARD = 48, 16  # of the carrier in the Poincare section, and those of them that are left out
 STILL = 1e-3  # of the rod's range: the damper's force jumps at a touch, which costs digits
 
@@ -59,13 +61,14 @@ def contact(model: PusherModel, done: Answers) -> Answer:
     run = simulate(model)
     worst = run.max_deviation
     values = {
-        "contact.peak_force": Value(run.peak_force, "N", "largest normal force in the last turn"),
-        "contact.main.peak_force": Value(float(run.main.max()), "N", "largest normal force on the main cam"),
-        "contact.return.peak_force": Value(float(run.back.max()), "N", "largest normal force on the return cam"),
-        "contact.separation": Value(run.separation, "-", "share of the turn in which neither roller touches"),
-        "contact.rod_error.max": Value(worst, "m", "largest deviation of the rod from its programme"),
+        "contact.peak_force": Value(run.peak_force, "N", PEAK, label="Peak contact force"),
+        "contact.main.peak_force": Value(float(run.main.max()), "N", f"{PEAK} (main cam)", label="Peak contact force, main cam"),
+        "contact.return.peak_force": Value(float(run.back.max()), "N", f"{PEAK} (return cam)", label="Peak contact force, return cam"),
+        "contact.separation": Value(run.separation, "-", FREE, label="Fraction of the turn without contact"),
+        "contact.rod_error.max": Value(worst, "m", ERROR, label="Maximum rod error"),
     }
-    checks = (Check("rod_error", worst, model.spec.limits.rod_error, "<=", "m", "the rod follows its programme", ("rod",)),)
+    message = "maximum deviation of the rod from its programme; reduce the clearance or the speed, or stiffen the contacts"
+    checks = (Check("rod_error", worst, model.spec.limits.rod_error, "<=", "m", message, ("rod",), label="Maximum rod error"),)
     return Answer(values, (contact_table(run, model.pair.start),), checks)
 
 
@@ -75,30 +78,31 @@ def clearance_study(model: PusherModel, done: Answers) -> Answer:
     rows = [(play, model.spec.drive.speed) for play in plays] + [(0.0, speed) for speed in speeds]
     loose = runs_with_play(model, WIDEST)
     runs = [loose[0] if play == WIDEST else simulate(model, play, speed) for play, speed in rows]
-    tight, many = runs[0].peak_force, f"with {1e3 * WIDEST:g} mm of play in each roller"
+    tight, many = runs[0].peak_force, f"with {1e3 * WIDEST:g} mm of clearance at each roller"
+    ratio = "Peak force ratio due to clearance"
     forces, separations = (np.array([getattr(run, name) for run in loose]) for name in ("peak_force", "separation"))
     values = {
-        "clearance.peak_force.tight": Value(tight, "N", "largest normal force without play"),
-        "clearance.peak_force": _mean(forces, "N", f"largest normal force {many}, mean", "largest normal force with play"),
-        "clearance.force_ratio": _mean(forces / tight, "-", f"largest normal force {many} over that without, mean", "force ratio by play"),
-        "clearance.separation": _mean(separations, "-", f"share of the turn in which neither roller touches, {many}, mean", SEPARATION),
+        "clearance.peak_force.tight": Value(tight, "N", "maximum normal force without clearance"),
+        "clearance.peak_force": _mean(forces, "N", f"mean maximum normal force {many}", "Maximum normal force with clearance"),
+        "clearance.force_ratio": _mean(forces / tight, "-", f"mean maximum normal force {many} over that without", ratio),
+        "clearance.separation": _mean(separations, "-", f"mean {FREE}, {many}", "Fraction without contact, with clearance"),
     }
-    message = f"largest normal force {many} over that without: impacts decide the life of rollers and cams"
+    message = f"mean maximum normal force {many} over that without; impacts shorten the life of rollers and cams: reduce the clearance"
     limit = model.spec.limits.play_force_ratio
-    checks = (Check.of(values["clearance.force_ratio"], "play", limit, "<=", message, ("rollers",)),)
+    checks = (Check.of(values["clearance.force_ratio"], "play", limit, "<=", message, ("rollers",), label=ratio),)
     columns = (
-        Column("clearance", "m", "normal play of each roller", np.array([play for play, _ in rows])),
+        Column("clearance", "m", "normal clearance of each roller", np.array([play for play, _ in rows])),
         Column("speed", "rad/s", "carrier speed", np.array([speed for _, speed in rows])),
-        Column("peak_force", "N", "largest normal force in the last turn", np.array([run.peak_force for run in runs])),
-        Column("separation", "-", "share of the turn in which neither roller touches", np.array([run.separation for run in runs])),
-        Column("rod_error", "m", "largest deviation of the rod", np.array([run.max_deviation for run in runs])),
+        Column("peak_force", "N", PEAK, np.array([run.peak_force for run in runs]), "Peak contact force"),
+        Column("separation", "-", FREE, np.array([run.separation for run in runs]), "Fraction of the turn without contact"),
+        Column("rod_error", "m", ERROR, np.array([run.max_deviation for run in runs]), "Maximum rod error"),
     )
-    by_play = Table("play", "Play of the rollers", tuple(column._replace(data=column.data[: len(plays)]) for column in columns))
-    return Answer(values, (Table("clearance", "Play and speed", columns), by_play), checks)
+    by_play = Table("play", "Contact by clearance", tuple(column._replace(data=column.data[: len(plays)]) for column in columns))
+    return Answer(values, (Table("clearance", "Contact by clearance and speed", columns), by_play), checks)
 
 
 def runs_with_play(model: PusherModel, play: float) -> list[LeverRun]:
-    """Runs whose play [m] differs by next to nothing: impacts are chaotic.  The first has the play itself."""
+    """Runs whose clearance [m] differs by a negligible amount: impacts are chaotic.  The first has the clearance itself."""
     return [simulate(model, play * (1 + 1e-6 * number)) for number in range(ENSEMBLE)]
 
 

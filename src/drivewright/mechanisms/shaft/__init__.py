@@ -20,14 +20,14 @@ ANALYSES = (
     Analysis(
         "flexibility",
         influence.flexibility,
-        "flexibility and stiffness at the stations, and the contributions to them",
+        "flexibility and stiffness at the stations and their contributions",
         needs=("statics",),
         missing=influence.no_stations,
     ),
     Analysis(
         "failure",
         influence.failure,
-        "limit loads at the stations, and what fails first",
+        "limit loads at the stations and the part that fails first",
         needs=("statics", "flexibility"),
         missing=influence.no_strength,
     ),

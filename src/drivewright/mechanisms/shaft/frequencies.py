@@ -26,7 +26,7 @@ class Vibration(NamedTuple):
 
 def no_modes(spec: ShaftSpec) -> str | None:
     """Why no frequencies are computed."""
-    return None if spec.analysis.modes else "no modes are asked for (analysis.modes = 0)"
+    return None if spec.analysis.modes else "no modes are requested (analysis.modes = 0)"
 
 
 def frequencies(model: ShaftModel, done: Answers) -> Answer:
@@ -56,7 +56,8 @@ def turning_equilibrium(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> 
     step = model.spec.analysis.element_length or model.shaft.length / ELEMENTS
     if model.shaft.length / step > MAX_ELEMENTS:
         raise SpecError(
-            f"makes {model.shaft.length / step:.0f} elements of the shaft; {MAX_ELEMENTS} are the most", "analysis.element_length"
+            f"divides the shaft into {model.shaft.length / step:.0f} elements; at most {MAX_ELEMENTS} are allowed",
+            "analysis.element_length",
         )
     return shafts.refined_equilibrium(at_rest, step)
 
@@ -73,5 +74,6 @@ def _massless_frequencies(model: ShaftModel, done: Answers) -> Floats:
 def _speed_check(model: ShaftModel, lowest: float | None) -> Iterator[Check]:
     drive = model.spec.drive
     if drive is not None and lowest:
-        message = "critical speed ratio, lowest unbalance-excited critical speed over the speed of the shaft"
+        meaning = "critical speed ratio, lowest unbalance-excited critical speed over the speed of the shaft"
+        message = f"{meaning}; stiffen the shaft or the bearings"
         yield Check("critical_speed", lowest / drive.speed, model.spec.limits.critical_speed, ">=", "-", message, ("shaft",))

@@ -27,14 +27,14 @@ def flexibility(model: ShaftModel, done: Answers) -> Answer:
     labels, names = model.names, tuple(support.name for support in model.shaft.supports)
     arrays = flexibility_arrays(found, labels, names)
     values = pair_values(
-        "flexibility", labels, found.delta, "m/N", "flexibility {a!r}/{b!r}, displacement of {a!r} by a unit force at {b!r}"
+        "flexibility", labels, found.delta, "m/N", "flexibility {a!r}/{b!r}, displacement of {a!r} under a unit force at {b!r}"
     )
     findings = []
     try:
         stiffness = shafts.stiffness(found.delta, labels)
         arrays["stiffness"] = station_array(labels, stiffness, "N/m")
         values |= pair_values(
-            "stiffness", labels, stiffness, "N/m", "stiffness {a!r}/{b!r}, force at {a!r} by a unit displacement of {b!r}, others held"
+            "stiffness", labels, stiffness, "N/m", "stiffness {a!r}/{b!r}, force at {a!r} under a unit displacement of {b!r}, others held"
         )
         values["condition_number"] = Value(found.condition, "-", "condition number of the flexibility, also of the stiffness")
     except InputError as error:
@@ -43,11 +43,11 @@ def flexibility(model: ShaftModel, done: Answers) -> Answer:
         findings.append("bearings are not linear: flexibility and stiffness are tangents at the equilibrium of the given loads")
     if any(is_rolling(bearing) and "tilt" not in bearing.free for bearing in model.spec.bearings):
         findings.append(
-            "rolling bearings also hold the slope of the shaft, which the rigid supports of the comparison (dashed, '.rigid') leave free: "
+            "rolling bearings also resist the slope of the shaft, which the rigid supports of the comparison (dashed, '.rigid') do not: "
             "a curve on real bearings may lie below the one on rigid supports"
         )
     off = shafts.unit_imbalance(found, model.shaft, model.places, model.direction)
-    message = "equilibrium under unit loads, forces and moments out of balance, the largest"
+    message = "equilibrium under unit loads, maximum of the unbalanced forces and moments"
     check = Check("equilibrium.unit_loads", off, BALANCED, "<=", "-", message, ("shaft",))
     tables = (unit_load_table(at_rest, found, labels, model.direction), share_table(found, labels))
     return Answer(values, tables, (check,), tuple(findings), arrays, data=found)
@@ -72,7 +72,7 @@ def failure(model: ShaftModel, done: Answers) -> Answer:
         for number, name in enumerate(model.names)
     }
     if not any(limits.values()):
-        return Answer(findings=("what fails first is absent: no bearing has a static rating, and no yield strength is given",))
+        return Answer(findings=("limit loads are absent: no bearing has a static rating, and no yield strength is given",))
     shock, values = model.spec.limits.shock_factor, {}
     for name, loads in limits.items():
         if loads:  # none where it stands on a bearing that has no rating

@@ -36,7 +36,10 @@ def _segments(spec):
     for number, segment in enumerate(spec.segments):
         least = min(segment.diameter, segment.end_diameter or segment.diameter)
         if segment.bore >= least:
-            raise SpecError(f"{_mm(segment.bore)} is as wide as the shaft there ({_mm(least)}); leave a wall", f"segments.{number}.bore")
+            raise SpecError(
+                f"{_mm(segment.bore)} is not below the diameter of the shaft there ({_mm(least)}); take a smaller bore",
+                f"segments.{number}.bore",
+            )
 
 
 def _names(spec):
@@ -44,15 +47,15 @@ def _names(spec):
         names = [entry.name for entry in getattr(spec, table)]
         for number, name in enumerate(names):
             if name in TAKEN.get(table, ()):
-                raise SpecError(f"the name {name!r} is taken by a column of ours; choose another", f"{table}.{number}.name")
+                raise SpecError(f"the name {name!r} is reserved for a column of a table; choose another", f"{table}.{number}.name")
             if name in names[:number]:
-                raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{number}.name")
+                raise SpecError(f"the name {name!r} occurs twice; names in {table} must differ", f"{table}.{number}.name")
 
     stations = [station.name for station in spec.stations]
     for number, gear in enumerate(spec.gears):
         if gear.name in stations and (gear.mass or gear.unbalance):
             raise SpecError(
-                f"the name {gear.name!r} is that of a station, and both can be out of balance; choose another", f"gears.{number}.name"
+                f"the name {gear.name!r} is that of a station, and both can have an unbalance; choose another", f"gears.{number}.name"
             )
 
 
@@ -74,7 +77,7 @@ def _places(spec):
         for one, two in zip(entries, entries[1:], strict=False):
             if two.position - one.position <= NEAR * far:
                 raise SpecError(
-                    f"stands at {_mm(two.position)}, where {one.name!r} stands already; {table} need different places",
+                    f"is at {_mm(two.position)}, the position of {one.name!r}; {table} need different positions",
                     f"{table}.{two.name}.position",
                 )
 
@@ -84,8 +87,8 @@ def _widths(spec):
         room = 2 * min(bearing.position, spec.length - bearing.position)
         if bearing.width and bearing.width > room + NEAR * spec.length:
             raise SpecError(
-                f"its seat of {_mm(bearing.width)} about {_mm(bearing.position)} overhangs the end of the shaft; {_mm(max(room, 0.0))} "
-                "have room there",
+                f"its seat of {_mm(bearing.width)} about {_mm(bearing.position)} overhangs the end of the shaft; at most "
+                f"{_mm(max(room, 0.0))} fit there",
                 f"bearings.{bearing.name}.width",
             )
 
@@ -102,7 +105,8 @@ def _bearings(spec):
             for key in ("axial_stiffness", "tilt_stiffness"):
                 if getattr(bearing, key) is not None:
                     raise SpecError(
-                        f"a rolling bearing has its own; leave it out, or give radial_stiffness instead of {given[0]}", f"{where}.{key}"
+                        f"a rolling bearing has its own stiffness; leave it out, or give radial_stiffness instead of {given[0]}",
+                        f"{where}.{key}",
                     )
             continue
         for key in ("preload", "free"):
@@ -110,7 +114,7 @@ def _bearings(spec):
                 raise SpecError(f"belongs to a rolling bearing ({', '.join(ROLLING)})", f"{where}.{key}")
         if bearing.radial_clearance is not None and (bearing.radial_stiffness in (None, float("inf")) or bearing.radial_clearance < 0):
             raise SpecError(
-                "a clearance above 0 goes with a rolling bearing or with a radial_stiffness that is not rigid", f"{where}.radial_clearance"
+                "a clearance above 0 needs a rolling bearing or a radial_stiffness that is not rigid", f"{where}.radial_clearance"
             )
 
 
@@ -120,17 +124,17 @@ def _refuse_half_matrix(bearing, where):
     if len(lacking) == 1:
         raise SpecError(f"is missing beside {next(key for key in PLANES if key not in lacking)}; give both", f"{where}.{lacking[0]}")
     if bearing.radial_damping and bearing.damping_xx is not None and bearing.damping_yy is not None:
-        raise SpecError("counts for nothing beside damping_xx and damping_yy; leave it out", f"{where}.radial_damping")
+        raise SpecError("has no effect beside damping_xx and damping_yy; leave it out", f"{where}.radial_damping")
     springs = [getattr(bearing, key) for key in PLANES] if not lacking else [bearing.radial_stiffness]
     for key in CROSS:
         if getattr(bearing, key) and not all(spring and spring < float("inf") for spring in springs):
-            raise SpecError("goes with a radial_stiffness, or stiffness_xx and stiffness_yy, that is not rigid", f"{where}.{key}")
+            raise SpecError("needs a radial_stiffness, or stiffness_xx and stiffness_yy, that is not rigid", f"{where}.{key}")
 
 
 def _places_of_loads(spec):
     for number, load in enumerate(spec.loads):
         if (load.station is None) == (load.position is None):
-            raise SpecError("give the station or the position, one of the two", f"loads.{number}")
+            raise SpecError("give either station or position", f"loads.{number}")
 
 
 def _stations_of_loads(spec):
@@ -171,7 +175,7 @@ def _notches(spec):
         wanted, where = WANTED.get(notch.kind, ()), f"notches.{notch.name}"
         for key in ("depth", "width", "radius", "diameter"):
             if key in wanted and getattr(notch, key) is None:
-                raise SpecError(f"is missing: a {notch.kind} wants {', '.join(wanted)}", f"{where}.{key}")
+                raise SpecError(f"is missing: a {notch.kind} needs {', '.join(wanted)}", f"{where}.{key}")
             if key not in wanted and getattr(notch, key) is not None:
                 raise SpecError(f"does not belong to a {notch.kind}; leave it out", f"{where}.{key}")
 
@@ -186,12 +190,12 @@ def _lubrication(spec):
 def _duty(spec):
     total = sum(case.share for case in spec.duty)
     if spec.duty and abs(total - 1) > WHOLE:
-        raise SpecError(f"the shares of the time sum to {total:.6g}; together they are 1", "duty")
+        raise SpecError(f"the shares of the time sum to {total:.6g}; they must sum to 1", "duty")
     if spec.drive is None and any(case.speed is None for case in spec.duty):
         number = next(n for n, case in enumerate(spec.duty) if case.speed is None)
-        raise SpecError("is missing, and there is no [drive] speed it could be", f"duty.{number}.speed")
+        raise SpecError("is missing, and there is no [drive] speed to use instead", f"duty.{number}.speed")
     if spec.duty and not any(duty_speed(spec, case) for case in spec.duty):
-        raise SpecError("nothing turns in it; give one of its cases a speed", "duty")
+        raise SpecError("all speeds are 0; give at least one case a speed", "duty")
 
 
 def duty_speed(spec: ShaftTables, case: DutyCase) -> float:

@@ -36,10 +36,10 @@ def rolling(model: ShaftModel, done: Answers) -> Answer:
         stiffness = stiffness_values(name, shafts.support_stiffness(at_rest, number, model.direction))
         values |= stiffness
         if not stiffness:
-            findings.append(f"stiffness of bearing {name!r} is absent: nothing loads it")
+            findings.append(f"stiffness of bearing {name!r} is absent: it carries no load")
     findings += [*_catalogue_findings(model), *_axial_findings(model, at_rest)]
     states = _states(model, at_rest)
-    findings += [f"bearing {name!r} carries nothing under these loads" for name in model.rolling if name not in states]
+    findings += [f"bearing {name!r} carries no load" for name in model.rolling if name not in states]
     findings += _preload_findings(model, states)
     for name, state in states.items():
         values |= load_values(name, state)
@@ -78,8 +78,8 @@ def _axial_findings(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Iter
     """Where nothing holds a shaft on rolling bearings along its axis."""
     if model.rolling and shafts.slides_freely(at_rest):
         yield (
-            "nothing holds the shaft along its axis: no bearing takes an axial force, which is in order only where gears or couplings do; "
-            "take a bearing that locates, or give one an axial_stiffness"
+            "no bearing locates the shaft along its axis, which is correct only where gears or couplings do; take a locating bearing, or "
+            "give one an axial_stiffness"
         )
 
 
@@ -89,7 +89,7 @@ def _preload_findings(model: ShaftModel, states: Mapping[str, BearingEquilibrium
         state = states.get(bearing.name)
         if bearing.preload and state is not None and abs(state.force[2]) < FELT * bearing.preload:
             yield (
-                f"the preload of bearing {bearing.name!r} has no effect: no other bearing takes it, and the shaft gives way along it; "
+                f"the preload of bearing {bearing.name!r} has no effect: no other bearing takes it, and the shaft moves freely; "
                 "preload it against a bearing that takes the opposite force"
             )
 
@@ -160,7 +160,7 @@ def _static_checks(model: ShaftModel, name: str, state: BearingEquilibrium) -> I
     limits, shock = model.spec.limits, model.spec.limits.shock_factor
     if state.pressures.max() > 0:
         under = f", at {shock:g} times the load" if shock > 1 else ""
-        message = f"static safety of bearing {name!r}, by its contact pressure{under}"
+        message = f"static safety of bearing {name!r}, by its contact pressure{under}; take a larger bearing"
         yield Check(f"static_safety.{name}", state.static_safety / shock, limits.static_safety, ">=", "-", message, (name,))
 
 
@@ -170,5 +170,5 @@ def _life_checks(model: ShaftModel, lives: Mapping[str, Value]) -> Iterator[Chec
         for name in model.rolling if limit else ():
             value = lives.get(f"bearings.{name}.{kind}.time")
             if value is not None and limit:
-                message = f"{kind.replace('_', ' ')} of bearing {name!r}"
+                message = f"{kind.replace('_', ' ')} of bearing {name!r}; take a bearing of larger dynamic rating"
                 yield Check(f"{check}.{name}", value.value, limit, ">=", "s", message, (name,))

@@ -73,7 +73,7 @@ def _highest_speed(model: ShaftModel, lowest: float | None) -> float:
 def _stability_check(model: ShaftModel, values: dict[str, Value]) -> Iterator[Check]:
     least = values.get("stability.log_decrement")
     if least is not None:
-        message = "smallest log decrement, of all whirls at the speed of the shaft; below 0 a whirl grows by itself"
+        message = "minimum log decrement, of all whirls at the speed of the shaft; below 0 a whirl is unstable; give more damping"
         yield Check("stability", least.value, model.spec.limits.log_decrement, ">=", "-", message, ("shaft",))
 
 
@@ -83,7 +83,8 @@ def _separation_check(model: ShaftModel, critical: Sequence[shafts.CriticalSpeed
     excited = [each.speed for each in critical if each.forward or not round_]
     if drive is not None and excited:
         nearest = min(abs(speed / drive.speed - 1) for speed in excited)
-        message = "separation margin, distance of the nearest unbalance-excited critical speed over the speed of the shaft"
+        meaning = "separation margin, distance of the nearest unbalance-excited critical speed over the speed of the shaft"
+        message = f"{meaning}; change the speed, or the stiffness of shaft or bearings"
         yield Check("separation_margin", nearest, model.spec.limits.separation_margin, ">=", "-", message, ("shaft",))
 
 
@@ -100,12 +101,12 @@ def unbalance(model: ShaftModel, done: Answers) -> Answer:
     """Orbits of stations and gears at the speed of the shaft and over all speeds, by their unbalances, else by the balance grade."""
     turning, vibration, drive = done["whirl"].data, done["modes"].data, model.spec.drive
     if turning is None or drive is None:
-        return Answer(findings=("the unbalance response is absent: there is no whirl",), outcome="left out")
+        return Answer(findings=("the unbalance response is absent: there are no results for whirl",), outcome="left out")
     given, findings = unbalances(model), []
     if not any(part.unbalance for part in model.turning_parts):
         findings.append(
-            f"nothing on the shaft has an unbalance: the permissible one of balance grade {drive.balance_grade} at the speed of the shaft "
-            "(ISO 21940-11) is shared among stations and gears by their masses, all at one angle"
+            f"no unbalance is given: the permissible one of balance grade {drive.balance_grade} at the speed of the shaft (ISO 21940-11) "
+            "is distributed over stations and gears in proportion to their masses, all at one angle"
         )
     stiffness = np.array([tangent[:2, :2] for tangent in vibration.equilibrium.tangent])
     places, names = [part.position for part in model.turning_parts], [part.name for part in model.turning_parts]
@@ -143,4 +144,5 @@ def _amplitude_checks(model: ShaftModel, values: dict[str, Value]) -> Iterator[C
     limit = model.spec.limits.unbalance
     for part in model.turning_parts if limit else ():
         value = values[f"unbalance.{part.name}.amplitude"]
-        yield Check.of(value, f"unbalance.{part.name}", float(limit or 0), "<=", value.meaning, ("shaft",))
+        message = f"{value.meaning}; take a finer balance grade or more damping"
+        yield Check.of(value, f"unbalance.{part.name}", float(limit or 0), "<=", message, ("shaft",))

@@ -15,13 +15,13 @@ def solid(model: ShaftModel, done: Answers) -> Answer:
     except InputError as error:
         return Answer(findings=(f"the solid check is absent: {error}",), outcome="left out")
     deviation = solid_check.relative_difference(beam, found.flexibility)
-    meaning = "largest difference of beam and solid, over the geometric mean of the two diagonals"
+    meaning = "maximum deviation of the beam from the solid, over the geometric mean of the two diagonals"
     values = {
-        "solid.deviation": Value(deviation, "-", meaning),
+        "solid.deviation": Value(deviation, "-", meaning, label="Maximum deviation of beam from solid"),
         "solid.unknowns": Value(float(found.unknowns), "-", "unknowns of the finite elements"),
-        "solid.seconds": Value(float(found.seconds), "s", "time to mesh and solve"),
+        "solid.seconds": Value(float(found.seconds), "s", "time for meshing and solution"),
     }
-    words = "solid flexibility {a!r}/{b!r}, displacement of {a!r} by a unit force at {b!r}"
+    words = "solid flexibility {a!r}/{b!r}, displacement of {a!r} under a unit force at {b!r}"
     values |= pair_values("solid.flexibility", model.names, found.flexibility, "m/N", words)
     arrays = {
         "solid.flexibility": station_array(model.names, found.flexibility, "m/N"),
@@ -29,5 +29,14 @@ def solid(model: ShaftModel, done: Answers) -> Answer:
     }
     last, allowed = len(model.names) - 1, solid_check.allowed_difference(model.shaft)
     table = solid_check.surface_table(found, last, title=f"Shaft as a solid, force at {model.names[last]}")
-    check = Check("solid", deviation, allowed, "<=", "-", "beam against solid, over the diagonals", ("shaft",))
+    check = Check(
+        "solid",
+        deviation,
+        allowed,
+        "<=",
+        "-",
+        "maximum deviation of the beam from the solid, over the geometric mean of the two diagonals",
+        ("shaft",),
+        label="Deviation of beam from solid",
+    )
     return Answer(values, (table,), (check,), (), arrays)

@@ -23,7 +23,7 @@ def statics(model: ShaftModel, done: Answers) -> Answer:
     loaded = shafts.apply_loads(model.shaft, model.loads, [notch.position for notch in model.spec.notches])
     values, checks = _linear_stiffness(model), tuple(_slenderness(model))
     if not model.loaded:
-        findings = ("there are no loads: deflections and stresses are absent, flexibility is that of the unloaded shaft",)
+        findings = ("there are no loads: deflections and stresses are absent, and the flexibility is that of the unloaded shaft",)
         return Answer(values, (), checks, findings, data=loaded)
     along = shafts.diagram(loaded, SAMPLES)
     values |= station_values(loaded.equilibrium, model.direction) | support_values(loaded.equilibrium, model.direction)
@@ -68,7 +68,7 @@ def _force_vectors(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Table
 def _slenderness(model: ShaftModel) -> Iterator[Check]:
     """Whether a length may have been given in a wrong unit."""
     ratio = model.shaft.length / min(min(s.start, s.end) for s in model.shaft.sections)
-    limits, words = model.spec.limits, "length over least diameter; far off, a unit may have slipped"
+    limits, words = model.spec.limits, "length over minimum diameter; check the units of lengths and diameters"
     yield Check("slenderness", ratio, limits.slenderness, "<=", "-", f"slenderness of the shaft, {words}", ("shaft",))
     yield Check("stockiness", ratio, limits.stockiness, ">=", "-", f"stockiness of the shaft, {words}", ("shaft",))
 
@@ -76,28 +76,31 @@ def _slenderness(model: ShaftModel) -> Iterator[Check]:
 def _checks(model: ShaftModel, loaded: shafts.LoadedShaft, along: shafts.Diagram) -> Iterator[Check]:
     limits, shock, own = model.spec.limits, model.spec.limits.shock_factor, ("shaft",)
     at_rest = loaded.equilibrium
-    under, beyond = f", at {shock:g} times the load" if shock > 1 else "", "beyond it the linear theory does not hold"
+    under, beyond = f", at {shock:g} times the load" if shock > 1 else "", "above the limit, linear beam theory does not hold"
+    stiffen = "stiffen the shaft or the bearings"
     stress = float(along.von_mises.max())
     if model.yield_strength and stress > 0:
-        message = f"nominal yield safety, yield strength over the largest von Mises stress{under}"
+        message = (
+            f"nominal yield safety, yield strength over the maximum von Mises stress{under}; take a larger diameter or a stronger material"
+        )
         yield Check("yield_safety", model.yield_strength / (shock * stress), limits.yield_safety, ">=", "-", message, own)
-    message = "equilibrium of the shaft, forces and moments out of balance over the sum of all"
+    message = "equilibrium of the shaft, unbalanced forces and moments over the sum of all"
     yield Check("equilibrium", shafts.imbalance(loaded, model.loads), BALANCED, "<=", "-", message, own)
-    farthest, message = (
-        shafts.largest_displacement(loaded, along),
-        f"relative deflection, the largest over the length of the shaft: {beyond}",
-    )
+    farthest, message = (shafts.largest_displacement(loaded, along), f"maximum relative deflection, over the length of the shaft; {beyond}")
     yield Check("small_deflections", farthest / model.shaft.length, limits.largest_deflection, "<=", "-", message, own)
     slope = float(np.hypot(*along.slope.T).max())
-    yield Check("small_slopes", slope, limits.largest_slope, "<=", "rad", f"largest slope: {beyond}", own)
+    yield Check("small_slopes", slope, limits.largest_slope, "<=", "rad", f"maximum slope; {beyond}", own)
     pressed = along.axial.min() < -NO_FORCE * np.abs(loaded.force).max(initial=0)
     factor = shafts.buckling_factor_under(model.shaft, model.loads) if pressed else None
     if factor is not None:
-        message = f"buckling safety, axial force at buckling over axial force{under}"
+        message = f"buckling safety, buckling load over axial force{under}; take a larger diameter or a shorter shaft"
         yield Check("buckling", factor / shock, limits.buckling, ">=", "-", message, own)
     if limits.deflection:
         for station in model.shaft.stations:
-            size, message = float(np.hypot(*at_rest.displacement_at(station.position))), f"deflection of station {station.name!r}"
+            size, message = (
+                float(np.hypot(*at_rest.displacement_at(station.position))),
+                f"deflection of station {station.name!r}; {stiffen}",
+            )
             yield Check(f"deflection.{station.name}", size, limits.deflection, "<=", "m", message, own)
     yield from _gear_checks(model, at_rest)
     for bearing, reaction in zip(model.spec.bearings, at_rest.reactions, strict=True):
@@ -110,16 +113,20 @@ def _gear_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium) -> Iterato
         for key, limit in (("deflection", model.spec.limits.deflection), ("slope", model.spec.limits.gear_slope)):
             if limit:
                 value = values[f"{name}.{key}"]
-                yield Check.of(value, f"{key}.{gear.name}", limit, "<=", value.meaning, ("shaft",))
+                message = f"{value.meaning}; stiffen the shaft or the bearings"
+                yield Check.of(value, f"{key}.{gear.name}", limit, "<=", message, ("shaft",))
 
 
 def _bearing_checks(model: ShaftModel, at_rest: shafts.ShaftEquilibrium, bearing: Bearing, force: float, under: str) -> Iterator[Check]:
     limits, own = model.spec.limits, (bearing.name,)
     if limits.slope:
-        slope, message = float(np.hypot(*at_rest.slope_at(bearing.position))), f"slope of the shaft in bearing {bearing.name!r}"
+        slope, message = (
+            float(np.hypot(*at_rest.slope_at(bearing.position))),
+            f"slope of the shaft in bearing {bearing.name!r}; stiffen the shaft, or take a self-aligning bearing",
+        )
         yield Check(f"slope.{bearing.name}", slope, limits.slope, "<=", "rad", message, own)
     if bearing.static_rating and force > 0:  # of a rolling bearing beside the check of its pressure
         name = "static_rating" if bearing.name in model.rolling else "static_safety"
-        message = f"static safety C0/Fr of bearing {bearing.name!r}, static rating over radial force{under}"
+        message = f"static safety C0/Fr of bearing {bearing.name!r}, static rating over radial force{under}; take a larger bearing"
         safety = bearing.static_rating / (limits.shock_factor * force)
         yield Check(f"{name}.{bearing.name}", safety, limits.static_safety, ">=", "-", message, own)

@@ -29,12 +29,12 @@ def _by_yield_alone(spec):
 
 
 def _assumptions(spec, sections):
-    """What the strength takes for want of a word in the spec."""
+    """What the strength assumes where the spec does not give it."""
     if worst_factor(spec) > 1:
-        yield f"strength is judged under the largest loads of the duty cycle, {worst_factor(spec):g} times those given"
+        yield f"strength is computed for the maximum loads of the duty cycle, {worst_factor(spec):g} times those given"
     if _by_yield_alone(spec):
         yield (
-            "the tensile strength is not given: the yield strength, which is less, stands for it, so that fatigue safeties are low; "
+            "the tensile strength is not given: the yield strength, which is lower, is used instead, so fatigue safeties are conservative; "
             "give material.tensile_strength or a card"
         )
     fillets = shafts.assumed_fillets(sections)
@@ -65,7 +65,7 @@ def strength(model: ShaftModel, done: Answers) -> Answer:
         return Answer(findings=(f"strength is absent: {error}",), outcome="left out")
     values = shafts.strength_values(rows)
     if not values:
-        return Answer(findings=("strength is absent: the loads do not stress the shaft",))
+        return Answer(findings=("strength is absent: the loads cause no stress in the shaft",))
     values |= _material_values(given)
     tables = (shafts.strength_table(rows), shafts.haigh_table(rows, given))
     return Answer(values, tables, tuple(_checks(spec, values)), tuple(_assumptions(spec, sections)))
@@ -96,14 +96,15 @@ def _checks(spec: ShaftSpec, values: dict[str, Value]) -> Iterator[Check]:
     least = values["strength.min_safety"]
     where = least.meaning.partition(", at ")[2]
     for key, limit, label, words in (
-        ("fatigue_safety", spec.limits.fatigue_safety, "fatigue safety", "least fatigue safety"),
+        ("fatigue_safety", spec.limits.fatigue_safety, "fatigue safety", "minimum fatigue safety"),
         (
             "static_safety",
             spec.limits.yield_safety,
             "yield safety at notches",
-            "least yield safety, under the shock load with the notch factors",
+            "minimum yield safety, under the shock load with the notch factors",
         ),
     ):
         value = values[f"strength.{key}"]
         section = f"; weakest section: {where}" if value.value == least.value else ""
-        yield Check.of(value, f"strength.{key}", limit, ">=", words + section, ("shaft",), label)
+        message = f"{words}; take a larger diameter, a larger fillet radius or a stronger material{section}"
+        yield Check.of(value, f"strength.{key}", limit, ">=", message, ("shaft",), label)

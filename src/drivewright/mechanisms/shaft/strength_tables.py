@@ -1,4 +1,4 @@
-"""What the user says of the strength of a shaft: its notches, and its operating conditions."""
+"""Tables of the spec for the strength of a shaft: notches and operating conditions."""
 
 from typing import Literal
 
@@ -8,7 +8,7 @@ from drivewright.spec.fields import Field
 from drivewright.units import Length
 
 NotchKind = Literal["round-groove", "retaining-ring", "cross-hole", "keyway", "press-fit", "spline"]
-WANTED: dict[str, tuple[str, ...]] = {  # keys that a kind wants, and no other has
+WANTED: dict[str, tuple[str, ...]] = {  # keys that a kind needs, and no other has
     "round-groove": ("depth", "radius"),
     "retaining-ring": ("depth", "width", "radius"),
     "cross-hole": ("diameter",),
@@ -16,22 +16,22 @@ WANTED: dict[str, tuple[str, ...]] = {  # keys that a kind wants, and no other h
 
 
 class NotchTable(Spec):
-    """A notch of the shaft beside its steps: groove, hole, keyway, press fit or spline."""
+    """A notch of the shaft in addition to its steps: groove, hole, keyway, press fit or spline."""
 
     name: Name = Field(description="name", examples=["ring"])
-    kind: NotchKind = Field(description="kind of notch", examples=["keyway"])
+    kind: NotchKind = Field(title="Kind of notch", description="kind of notch", examples=["keyway"])
     position: Length = Field(
-        description="distance from the left end of the shaft; of a notch with a length that of its left end", examples=["100 mm"]
+        description="distance from the left end of the shaft; for a notch with a length, to its left end", examples=["100 mm"]
     )
-    length: Length = Field("0 mm", ge=0, description="length of a keyway, press fit or spline, judged where the stress is largest")
+    length: Length = Field("0 mm", ge=0, description="length of a keyway, press fit or spline, checked where the stress is maximum")
     depth: Length | None = Field(None, gt=0, description="depth of a groove", examples=["1.5 mm"])
     width: Length | None = Field(None, gt=0, description="width of a retaining-ring groove", examples=["1.6 mm"])
     radius: Length | None = Field(
-        None, gt=0, description="radius of a round groove's bottom, or of a retaining-ring groove's corners", examples=["0.2 mm"]
+        None, gt=0, description="radius at the bottom of a round groove, or at the corners of a retaining-ring groove", examples=["0.2 mm"]
     )
     diameter: Length | None = Field(None, gt=0, description="diameter of a cross hole", examples=["5 mm"])
-    keys: Integer = Field(1, ge=1, le=2, description="number of keyways around the shaft")
-    form: Literal["straight", "serrated", "involute"] = Field("involute", description="flanks of a spline")
+    keys: Integer = Field(1, ge=1, le=2, title="Number of keyways", description="number of keyways around the shaft")
+    form: Literal["straight", "serrated", "involute"] = Field("involute", title="Spline form", description="form of the flanks of a spline")
 
     def notch(self) -> shafts.Notch:
         """The notch in plain data."""
@@ -53,7 +53,7 @@ class StrengthTable(Spec):
     """Operating conditions for the fatigue strength."""
 
     torsion: Literal["constant", "pulsating", "alternating"] = Field(
-        "constant", description="course of the torque over time; pulsating: between 0 and its value, as where a drive starts and stops"
+        "constant", description="time course of the torque; pulsating: between 0 and its value, as for a drive that starts and stops"
     )
     surface: Literal["ground", "machined", "hot-rolled", "forged"] = Field("machined", description="surface finish of the shaft")
     reliability: Number = Field(0.99, ge=0.5, lt=1, description="reliability of the endurance limit")

@@ -74,17 +74,24 @@ class ChainModel:
         given, radius = self.spec.wear, self.pins.radius if isinstance(self.pins, HingePin) else 0.0
         if given is None or self.spec.drive is None or self.link.radius:
             return None
-        forces, length = self.strands, self.contact_length if self.spec.roller else min(self.spec.plate.lacing) * self.sheet
-        turns = wear.articulations(self.teeth, forces.tension, forces.slack + forces.centrifugal)
+        length = self.contact_length if self.spec.roller else min(self.spec.plate.lacing) * self.sheet
+        turns = self._articulations()
         depths = wear.joint_wear(given.coefficients, 2 * radius, length, turns, self.rows)
-        time = self.spec.links * self.spec.pitch / forces.speed
+        time = self.spec.links * self.spec.pitch / self.chain_speed
         return wear.JointWear(wear.sliding_per_revolution(2 * radius, turns), np.asarray(depths), time)
+
+    def _articulations(self) -> tuple[wear.Articulation, ...]:
+        """Turns of a joint in a revolution of the chain, on all that bends it, under the pulls of the chain as it was new."""
+        if self.plain:
+            return wear.articulations(self.teeth, self.strands.tension, self.strands.slack + self.strands.centrifugal)
+        return wear.path_articulations(balanced(bare_drive(self, new=True)))
 
     @cached_property
     def elongation(self) -> float:
         """Of the chain relative to its pitch, as given and by wear over the running time  [-]."""
-        given, worn = self.spec.wear, self.joint_wear
-        if given is None or worn is None or not given.running_time:
+        given = self.spec.wear
+        worn = self.joint_wear if given and given.running_time else None
+        if given is None or worn is None:
             return self.spec.closure.elongation
         total = self.spec.closure.elongation + float(worn.elongation(given.running_time, self.spec.pitch)[0])
         if total > LONGEST:
@@ -164,10 +171,13 @@ class ChainModel:
         if self.plain:
             density = self.link_mass.mass / pitch
             return strand_forces(pitch, self.teeth, self.spec.links, density, drive.speed, self.preload, abs(drive.load_torque))
-        worn = self.spec.wear is not None and self.spec.wear.running_time
-        found = balanced(bare_drive(self, new=True)) if worn else self.balance  # wear goes by the pulls of the chain as it was new
-        speed = float(chain_speed(pitch, self.teeth[0], drive.speed))
-        return StrandForces(speed, found.centrifugal, float(np.max(found.pulls)), float(np.min(found.pulls)))
+        pulls = self.balance.pulls
+        return StrandForces(self.chain_speed, self.balance.centrifugal, float(np.max(pulls)), float(np.min(pulls)))
+
+    @property
+    def chain_speed(self) -> float:
+        """Mean speed of the chain [m/s]."""
+        return float(chain_speed(self.link.pitch, self.teeth[0], self.drive.speed))
 
     @property
     def free_plates(self) -> float:

@@ -6,6 +6,7 @@ from drivewright.chains import wear as joint
 from drivewright.chains.standards import ansi_power, strand_factor
 from drivewright.mechanisms.silent_chain.build import ChainModel
 from drivewright.mechanisms.silent_chain.sizing import size_of
+from drivewright.mechanisms.silent_chain.taut import slack_warnings, taut_checks
 from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
 GIVEN = "given"  # interval of what follows from a range that the spec gives
@@ -18,8 +19,8 @@ def wear(model: ChainModel, done: Answers) -> Answer:
     """Elongation by wear of the joints over time, and the time until it reaches its limit."""
     found = model.joint_wear
     assert found is not None and model.spec.wear is not None
-    drive, pitch = model.drive, model.spec.pitch
-    limit = joint.elongation_limit(model.spec.wear.elongation_limit, model.teeth)
+    pitch = model.spec.pitch
+    limit = joint.elongation_limit(model.spec.wear.elongation_limit, (*model.teeth, *(each.teeth for each in model.spec.sprockets)))
     lives = found.turn_time * np.asarray(joint.revolutions_to(limit, pitch, found.depths))
     life = _interval(lives[0], lives[1:], "s", "wear life: time until wear elongates the chain to its elongation limit")
     values = {
@@ -39,8 +40,9 @@ def wear(model: ChainModel, done: Answers) -> Answer:
     return Answer(
         values,
         (_wear_table(found, pitch, limit, float(lives[0])),),
-        tuple(_wear_checks(model, life, values)),
-        tuple(_wear_remarks(model, drive)),
+        (*_wear_checks(model, life, values), *taut_checks(model, done)),
+        tuple(_wear_remarks(model)),
+        warnings=tuple(slack_warnings(model)),
     )
 
 
@@ -62,9 +64,7 @@ def _wear_checks(model, life, values):
         )
 
 
-def _wear_remarks(model, drive):
-    if model.strands.slack < 0:
-        yield "the slack strand has no tension: a joint articulates in it without wear"
+def _wear_remarks(model):
     if model.spec.roller:
         yield (
             "wear lengthens only the pitches with outer plates, by twice the mean; the closure and the running chain use the mean for "

@@ -33,7 +33,7 @@ class Wear(Spec):
         0.03,
         gt=0,
         le=0.05,
-        description="elongation at which the chain is replaced; 2 over the number of teeth of the larger sprocket if that is smaller",
+        description="elongation at which the chain is replaced; 2 over the number of teeth of the largest sprocket if that is smaller",
     )
 
     @property

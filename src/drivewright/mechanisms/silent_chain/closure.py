@@ -12,10 +12,9 @@ from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import bare_drive
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.mechanisms.silent_chain.phased_rows import phased_rows
-from drivewright.mechanisms.silent_chain.tensioned import wrap_check
+from drivewright.mechanisms.silent_chain.tensioned import SLACK, wrap_check
 from drivewright.result import Answer, Answers, Check, Value
 
-SLACK = 0.01  # of it that a fixed one may be shorter
 RIGID_ERROR = "transmission error over one tooth, peak-to-peak: angle of the driven sprocket minus that by the tooth ratio, rigid chain"
 FREE = 1e-3  # of the taut centre distance: a fixed one that is longer would stretch the chain
 
@@ -133,5 +132,5 @@ def _remarks(model):
     if model.elongation:
         yield (
             f"the chain is elongated by {100 * model.elongation:.3g} %: the closure places it, rigid, on the polygon of its own pitch; "
-            "the analysis 'quasi_static' computes which flanks it then touches"
+            "the analysis 'quasi_static' computes where it then touches the teeth"
         )

@@ -4,6 +4,7 @@ from drivewright.chains.standards import articulation_pressure, tensile_safety
 from drivewright.chains.stress import pins, rolling
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import ChainModel
+from drivewright.mechanisms.silent_chain.taut import slack_pull, slack_warnings, taut_checks
 from drivewright.result import Answer, Answers, Check, Value
 
 
@@ -31,11 +32,8 @@ def contact(model: ChainModel, done: Answers) -> Answer:
     else:
         values |= bent
         checks.append(safe)
-    if model.spec.drive:
-        message = "tension of the slack strand under preload and load torque, without the centrifugal tension; more preload increases it"
-        slack = values["strand.slack_force"].value
-        checks.append(Check("strand.taut", slack, 0.0, ">=", "N", message, ("chain",), label="Slack strand tension"))
-    return Answer(values, (), tuple(checks), tuple(findings))
+    checks += taut_checks(model, done)
+    return Answer(values, (), tuple(checks), tuple(findings), warnings=tuple(slack_warnings(model)))
 
 
 def _strands(model):
@@ -68,7 +66,7 @@ def _strength(model):
             safety, "-", "static safety factor: breaking load over the tension of the tight strand, centrifugal tension included"
         ),
     }
-    if drive:
+    if drive and slack_pull(model) >= 0:
         mean = 0.5 * (model.strands.tight + model.strands.slack) + model.strands.centrifugal
         meaning = "breaking load over the mean tension of tight and slack strand, centrifugal tension included"
         label = "Static safety factor, mean tension"

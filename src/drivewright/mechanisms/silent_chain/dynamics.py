@@ -28,8 +28,8 @@ MOST_STEPS = 2e10  # of a link, in all runs: about ten minutes
 MOST_LISTED = 3  # statistics that have not settled, by name
 MOST_FRICTION = 0.3  # coefficient of friction of dry steel on steel; lubricated about 0.1
 HINT = (
-    "shorten the step; if that does not help, look for a slack strand (check strand.taut), for a speed, wear or tooth form at which the "
-    "chain leaves its teeth, and for a tensioner that hits the chain; see also the analysis 'quasi_static'"
+    "raise the preload or the tensioner's force, increase the damping of the tensioner, or reduce the speed or the wear; the check "
+    "strand.taut shows whether the slack strand is under tension, and the analysis 'quasi_static' computes the chain at rest under its load"
 )
 ORDERS = 8  # of the mesh frequency, up to which the spectrum is shown
 WATCHED = 0
@@ -52,9 +52,10 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
         *_whole(model, runs.members),
     )
     tables = (signal_table(runs.first), spectrum_table(runs, ORDERS), *_tensioner_tables(runs.first))
-    reason = runs.advice or next((check.message for check in checks if not check.ok), "")
-    if reason:
-        findings = (f"the run failed and its statistics are left out: {reason}; {HINT}",)
+    reasons = [runs.advice] if runs.advice else []
+    reasons += [_failing(check) for check in checks if not check.ok and check.name != "energy_drift"]
+    if reasons:
+        findings = (f"the run failed and its statistics are left out: {'; '.join(reasons)}. {_hint(runs.advice)}",)
         return Answer({"dynamics.energy_drift": drift}, tables, checks, findings, outcome="partial")
     found = signal_values(runs) | force_values(runs) | tensioner_values(runs)
     if not model.plain:
@@ -63,6 +64,18 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
     checks = (*checks, settled(values), *_travels(model, values))
     values["dynamics.energy_drift"] = drift
     return Answer(values, tables, checks, tuple(_remarks(runs, values)), data=runs, warnings=tuple(_slipping(values)))
+
+
+def _failing(check: Check) -> str:
+    """What a check found, in numbers."""
+    most = "at most" if check.sense == "<=" else "at least"
+    unit = "" if check.unit == "-" else f" {check.unit}"
+    return f"{check.name} is {check.value:.3g}{unit} and must be {most} {check.limit:.3g}{unit} ({check.message})"
+
+
+def _hint(advice: str = "") -> str:
+    """What to try; after the run's own advice, which is a shorter step."""
+    return f"Where a shorter step does not help, {HINT}" if advice else f"{HINT[0].upper()}{HINT[1:]}"
 
 
 def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> Answer:
@@ -82,7 +95,14 @@ def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> 
     }
     checks = tuple(_whole(model, (run,), 1 if "jumps" in failed.reason else 0))
     tables = (signal_table(run), *_tensioner_tables(run)) if len(run.t) > 2 else ()
-    return Answer(values, tables, checks, (f"the run failed and its statistics are left out; {HINT}",), outcome="partial", stopped=(stop,))
+    return Answer(
+        values,
+        tables,
+        checks,
+        (f"the run failed and its statistics are left out: {failed.reason}. {_hint()}",),
+        outcome="partial",
+        stopped=(stop,),
+    )
 
 
 def _tensioner_tables(run):
@@ -94,11 +114,11 @@ def _whole(model: ChainModel, members: Sequence[Motion], jumped: int = 0) -> Ite
     limits, seated = model.spec.limits, _seated_links(model, members[0].model)
     touching = min(run.mean(run.column("contacts")) for run in members) / seated
     message = (
-        "mean number of links that press on their teeth over the number of links on sprockets; a smaller share means overspeed, where "
-        "centrifugal tension and impacts lift the chain off: lower the speed or increase the preload"
+        "mean number of tooth contacts for each link on a sprocket; few contacts mean overspeed, where centrifugal tension and impacts "
+        "of the teeth lift the chain off: lower the speed or increase the preload"
     )
-    label = "Share of links in tooth contact"
-    yield Check("running.overspeed", touching, limits.contact_share, ">=", "-", message, ("chain",), label=label)
+    label = "Tooth contacts per seated link"
+    yield Check("running.tooth_contacts", touching, limits.contact_share, ">=", "-", message, ("chain",), label=label)
     message = (
         f"share of time in which {SLACK} or more joints have no tension at once, so that a strand is slack; increase the preload, or add a "
         "tensioner"
@@ -132,9 +152,9 @@ def _travels(model: ChainModel, values: Mapping[str, Value]) -> Iterator[Check]:
 def _seated(model: ChainModel, runs: Ensemble) -> Iterator[Check]:
     """Whether the chain is still on its teeth."""
     first = runs.first
-    message = "mean number of flanks in contact, at least one on each sprocket; with fewer the chain has left its teeth"
+    message = "mean number of tooth contacts, at least one on each sprocket; with fewer the chain has left its teeth"
     touching, least = touching_flanks(runs), float(len(first.model.sprockets))
-    yield Check.of(touching, "running.contacts", least, ">=", message, ("chain",), "Flanks in contact, mean")
+    yield Check.of(touching, "running.contacts", least, ">=", message, ("chain",), "Mean number of tooth contacts")
     if model.plain:
         off = abs(runs.estimate(mean_of(lambda run: run.centre_distance)).value - model.closure.mean)
         message = "mean centre distance of the run minus that of the rigid chain, magnitude; beyond the limit the chain has left its teeth"

@@ -6,6 +6,7 @@ from drivewright.chains import standards
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS, Measure
+from drivewright.mechanisms.silent_chain.taut import slack_warnings, taut_checks
 from drivewright.mechanisms.silent_chain.tensioned import path_checks, path_findings, path_values
 from drivewright.result import Answer, Answers, Check, Value
 
@@ -15,7 +16,7 @@ MODES = 2  # of a strand
 def layout(model: ChainModel, done: Answers) -> Answer:
     """Formulas of the field, for two sprockets; with further ones, guides or a fixed centre distance those of the path in balance."""
     values = {name: measure.value() for k, side in enumerate(SIDES) for name, measure in side_measures(model, side, k)}
-    findings, checks = [], list(teeth_checks(model))
+    findings, checks, warnings = [], list(teeth_checks(model)), []
     try:
         if model.plain or not model.spec.drive:
             values |= {} if model.spec.sprockets else _pair(model)
@@ -23,10 +24,12 @@ def layout(model: ChainModel, done: Answers) -> Answer:
             values |= path_values(model) | meshing_values(model)
             checks += path_checks(model)
             findings += path_findings(model)
+        checks += taut_checks(model, done)
+        warnings += slack_warnings(model)
     except InputError as reason:
         way = " by pitch circles" if model.plain else ""
-        findings.append(f"the layout{way} is left out: {reason}")
-    return Answer(values, (), tuple(checks), (*findings, *_remarks(model.spec)))
+        warnings.append(f"the layout{way} is left out: {reason}")
+    return Answer(values, (), tuple(checks), (*findings, *_remarks(model.spec)), warnings=tuple(warnings))
 
 
 def teeth_checks(model: ChainModel) -> Iterator[Check]:

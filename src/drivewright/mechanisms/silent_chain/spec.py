@@ -393,7 +393,7 @@ class Limits(Spec):
     teeth: Integer = Field(8, ge=3, description="minimum number of teeth of a sprocket")
     wrap: Angle = Field("120 deg", ge=0, description="minimum wrap angle of driving and driven sprocket")
     contact_share: Number = Field(
-        0.2, ge=0, le=1, description="minimum share of the links on sprockets that press on their teeth; a smaller share means overspeed"
+        0.2, ge=0, le=1, description="minimum number of tooth contacts for each link on a sprocket; fewer contacts mean overspeed"
     )
     slack_share: Number = Field(0.05, ge=0, le=1, description="maximum share of time in which three or more joints have no tension at once")
     shakedown_safety: Number = Field(1.0, gt=0, description="minimum of the shakedown limit of the pins over their Hertz pressure")

@@ -18,6 +18,7 @@ from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.result import Check, Value
 
 OUTWARD = "positive in the direction in which its spring presses"
+SLACK = 0.01  # of the taut centre distance that a fixed one may be shorter
 LITTLE = 0.05  # of the load's pull: strands that differ by less are alike
 
 
@@ -82,7 +83,7 @@ def path_values(model: ChainModel) -> dict[str, Value]:
         values[f"layout.tensioner.{name}.travel"] = Value(q, "m", travel, convention=OUTWARD)
         values[f"layout.tensioner.{name}.force"] = Value(slide.force - slide.stiffness * q, "N", force)
     limit = model.limit_speed
-    if np.isfinite(limit):
+    if 0 < limit < np.inf:  # at 0 a strand is slack for another reason
         meaning = "speed of the driving sprocket at which the tension of the slack strand falls to zero"
         values["layout.limit_speed"] = Value(limit, "rad/s", meaning, label="Limit speed of the driving sprocket")
     return values
@@ -117,13 +118,21 @@ def path_checks(model: ChainModel) -> Iterator[Check]:
             message = f"arc of guide {guide.name} beyond both ends of its contact with the chain; if negative, lengthen or turn the arc"
             spare, label = _spare_arc(path, place, guide), f"Spare arc of guide {guide.name}"
             yield Check(f"guide.{guide.name}.reach", spare, 0.0, ">=", "rad", message, (guide.name,), label=label)
-    limit = model.limit_speed
-    if np.isfinite(limit):
+    if balance.slack and spec.driven.centre_distance:
         message = (
-            "speed of the driving sprocket; at the limit the centrifugal tension leaves the slack strand without tension: lower the speed "
-            "or tension the chain more"
+            "length of the chain beyond its taut path, which sags in the slack strand; above the limit the chain can jump teeth: increase "
+            "the centre distance or take fewer links"
         )
-        yield Check("chain.overspeed", model.drive.speed, limit, "<=", "rad/s", message, ("chain",), label="Speed below the limit speed")
+        most, label = 2 * SLACK * spec.driven.centre_distance, "Excess length of the chain"
+        yield Check("chain.slack", balance.slack, most, "<=", "m", message, ("chain",), label=label)
+    limit = model.limit_speed
+    if 0 < limit < np.inf:
+        message = (
+            "speed of the driving sprocket; at the limit the centrifugal tension leaves the slack strand without tension, impacts of the "
+            "teeth not included: lower the speed or tension the chain more"
+        )
+        label = "Speed below the centrifugal limit"
+        yield Check("chain.overspeed", model.drive.speed, limit, "<=", "rad/s", message, ("chain",), label=label)
 
 
 def wrap_check(model: ChainModel, side: str, wrap: float) -> Check:

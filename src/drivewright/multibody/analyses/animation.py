@@ -5,6 +5,7 @@ from collections.abc import Iterable, Iterator, Mapping
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.cycle_poses import FINE, CyclePoses, cycle_poses
 from drivewright.multibody.analyses.magnified_play import bearing_shapes, journal_body, magnify_play
 from drivewright.multibody.analyses.simulation_model import SimulationModel
@@ -37,11 +38,10 @@ def animate(model: SimulationModel, points: Mapping[str, Floats]) -> Scene:
     }
     colours = ["ground", *(COLOURS[n % len(COLOURS)] for n in range(len(model.bodies)))]
     bodies = [
-        Body(name, name.replace("_", " "), tuple(shapes[name]), cycle.frames(name), colour)
-        for name, colour in zip(names, colours, strict=True)
+        Body(name, in_words(name), tuple(shapes[name]), cycle.frames(name), colour) for name, colour in zip(names, colours, strict=True)
     ]
     bodies += [*_spring_bodies(springs, cycle, half_width), *(journal_body(play) for play in plays)]
-    traces = tuple(Trace(o.name, f"path of {o.name.replace('_', ' ')}", o.body, o.marker[1:]) for o in model.outputs if o.point)
+    traces = tuple(Trace(o.name, f"path of {in_words(o.name)}", o.body, o.marker[1:]) for o in model.outputs if o.point)
     still = np.zeros((len(cycle.cycle), 3))
     table = "motion" if model.outputs else "drive" if model.assembly.model.drives else ""
     return Scene(
@@ -91,7 +91,7 @@ def _spring_bodies(springs: Iterable[PointSpring], cycle: CyclePoses, half_width
         angle, name = np.unwrap(np.arctan2(between[:, 1], between[:, 0])), spring.name
         coil = 0.7 * lengths.min()
         rod = min(lengths.max() - 0.6 * coil, lengths.min())
-        label = name if name.startswith("spring ") else f"spring {name.replace('_', ' ')}"
+        label = name if name.startswith("spring ") else f"spring {in_words(name)}"
         shapes = coil_symbol(coil, 0.8 * half_width), polygon([(0, 0), (-rod, 0)], closed=False)
         for part, shape, end in zip(("coil", "rod"), shapes, ends, strict=True):
             yield Body(f"{part} {name}", label, (Shape("body", shape),), np.column_stack([end[::FINE], angle]), "steel")

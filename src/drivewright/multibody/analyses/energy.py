@@ -1,8 +1,9 @@
 """Energy audit and drive torque."""
 
-from drivewright.multibody.analyses.energy_audit import audit_table
+from drivewright.labels import in_words
+from drivewright.multibody.analyses.energy_audit import audit_table, error_check, error_values
 from drivewright.multibody.analyses.ensemble import statistics
-from drivewright.multibody.analyses.simulation_model import ROWS, SimulationModel, cycle_columns, last_turn, run_of
+from drivewright.multibody.analyses.simulation_model import ROWS, SimulationModel, cycle_columns, last_turn, over_last_turn, run_of
 from drivewright.multibody.analyses.turns import audit_of_run, driven_columns, energy_numbers
 from drivewright.multibody.observe import POWER_FIELDS
 from drivewright.multibody.system import joints_with_friction
@@ -12,7 +13,7 @@ UNITS = {"torque": "N m", "force": "N"}  # of drives that turn, and of those tha
 MEANING = {
     "springs": "springs, dampers and bushings",
     "applied": "applied torques and forces",
-    "pins": "pins with play",
+    "pins": "pins with clearance",
     "friction": "friction in ideal joints",
     "drives": "drives",
 }
@@ -28,15 +29,19 @@ def energy(model: SimulationModel) -> Answer:
 def work_audit(model: SimulationModel) -> Answer:
     """Work of every kind of element over the run, and what the audits leave over."""
     numbers = statistics(model, energy_numbers)
-    told = [name for name in POWER_FIELDS if name != "friction" or len(joints_with_friction(model.assembly.system))]
-    values = {f"energy.{name}": Value.of(numbers.of_run(name), "J", f"work of {MEANING[name]} over the run") for name in told}
-    values["energy.gap"] = Value(numbers.worst("gap"), "J", "largest gap of the energy audit")
-    values["energy.error"] = Value(numbers.worst("error"), "-", "largest gap over the energy exchanged")
+    kinds = [name for name in POWER_FIELDS if name != "friction" or len(joints_with_friction(model.assembly.system))]
+    values = {
+        f"energy.{name}": Value.of(numbers.of_run(name), "J", f"work of {MEANING[name]} over the run", f"work of {MEANING[name]}")
+        for name in kinds
+    }
+    values |= error_values(numbers.worst("gap"), numbers.worst("error"))
     limit, checks = model.limits.energy_error, []
-    checks.append(Check("energy_audit", values["energy.error"].value, limit, "<=", "-", values["energy.error"].meaning))
+    remedy = "; lower simulate.relative_tolerance"
+    checks.append(error_check(values["energy.error"].value, limit, remedy))
     if model.assembly.model.drives:
-        words = "largest gap between work of the drives and change of energy with losses, over the work of the drives"
-        checks.append(Check("power_audit", numbers.worst("power_error"), limit, "<=", "-", words))
+        words = "maximum difference between the work of the drives and the change of energy plus losses, relative to the work of the drives"
+        label = "drive work balance error, relative"
+        checks.append(Check("power_audit", numbers.worst("power_error"), limit, "<=", "-", words + remedy, label=label))
     return Answer(values, (), tuple(checks))
 
 
@@ -45,11 +50,13 @@ def drive_torque(model: SimulationModel) -> Answer:
     if not model.assembly.model.drives:
         return Answer()
     values = {
-        f"drive.max_{kind}": Value.of(statistics(model).of_run(f"drive.{kind}"), UNITS[kind], f"largest {kind} of the drive, either way")
+        f"drive.max_{kind}": Value.of(
+            statistics(model).of_run(f"drive.{kind}"), UNITS[kind], f"peak magnitude of the drive {kind}", f"peak drive {kind}"
+        )
         for kind in driven_columns(model)
     }
     torque, limit = values.get("drive.max_torque"), model.limits.drive_torque
-    checks = (Check.of(torque, "drive_torque", limit, "<=", "largest torque of the drive"),) if limit and torque else ()
+    checks = (Check.of(torque, "drive_torque", limit, "<=", "peak drive torque"),) if limit and torque else ()
     return Answer(values, (), checks)
 
 
@@ -60,9 +67,9 @@ def _torque_tables(model):
         return ()
     turn = last_turn(model)
     columns = [
-        Column(f"{kind}_{names[k]}", UNITS[kind], f"{kind} of the drive at joint {names[k]!r}", turn.drives[:, k])
+        Column(f"{kind}_{names[k]}", UNITS[kind], f"drive {kind} at joint {in_words(names[k])}", turn.drives[:, k])
         for kind, chosen in driven_columns(model).items()
         for k in chosen
     ]
-    told = " and ".join(driven_columns(model)).capitalize()
-    return (Table("drive", f"{told} of the drive over the last turn", (*cycle_columns(model, turn.t), *columns)),)
+    kinds = " and ".join(driven_columns(model))
+    return (Table("drive", f"Drive {kinds}{over_last_turn(model)}", (*cycle_columns(model, turn.t), *columns)),)

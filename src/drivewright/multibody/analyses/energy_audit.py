@@ -83,9 +83,12 @@ def audit_table(audit: Audit, meanings: Mapping[str, str], most: int) -> Table:
     rows = slice(None, None, max(1, len(audit.t) // most))
     columns = (
         Column("time", "s", "time", audit.t[rows]),
-        Column("stored", "J", "kinetic energy and energy of gravity, from the start", (audit.gap + np.sum(audit.works, axis=1))[rows]),
-        *(Column(f"work_{name}", "J", f"work of {words}", audit.works[rows, k]) for k, (name, words) in enumerate(meanings.items())),
-        Column("gap", "J", "change of energy less all work: the audit's error", audit.gap[rows]),
+        Column("stored", "J", "kinetic and gravitational energy, change since the start", (audit.gap + np.sum(audit.works, axis=1))[rows]),
+        *(
+            Column(f"work_{name}", "J", f"work of {words}", audit.works[rows, k], f"work of {words}")
+            for k, (name, words) in enumerate(meanings.items())
+        ),
+        Column("gap", "J", "change of energy minus the work of all elements", audit.gap[rows], "energy audit error"),
     )
     return Table("energy", "Energy audit", columns)
 
@@ -95,7 +98,20 @@ def audit_answer(audit: Audit, meanings: Mapping[str, str], limit: float, most: 
     values = {
         f"energy.{name}": Value(float(audit.works[-1, k]), "J", f"work of {words}") for k, (name, words) in enumerate(meanings.items())
     }
-    values["energy.gap"] = Value(float(np.max(np.abs(audit.gap))), "J", "largest gap of the energy audit")
-    values["energy.error"] = Value(audit.error, "-", "largest gap over the energy exchanged")
-    check = Check("energy_audit", audit.error, limit, "<=", "-", values["energy.error"].meaning)
-    return Answer(values, (audit_table(audit, meanings, most),), (check,))
+    values |= error_values(float(np.max(np.abs(audit.gap))), audit.error)
+    return Answer(values, (audit_table(audit, meanings, most),), (error_check(audit.error, limit),))
+
+
+def error_values(gap: float, error: float) -> dict[str, Value]:
+    """The error of an audit [J], and relative to the energy exchanged, as values."""
+    meaning = "maximum difference between the change of energy and the work of all elements"
+    return {
+        "energy.gap": Value(gap, "J", meaning, label="energy audit error"),
+        "energy.error": Value(error, "-", f"{meaning}, relative to the energy exchanged", label="energy audit error, relative"),
+    }
+
+
+def error_check(error: float, limit: float, remedy: str = "") -> Check:
+    """The check of an audit: its error relative to the energy exchanged."""
+    label, words = "energy audit error, relative", "change of energy against the work of all elements, relative to the energy exchanged"
+    return Check("energy_audit", error, limit, "<=", "-", words + remedy, label=label)

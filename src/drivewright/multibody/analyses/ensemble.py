@@ -79,8 +79,7 @@ def settled_check(name: str, estimates: Iterable[Value], label: str = "Settled s
     """The check that the statistics of a run no longer drift: how many of them have settled, of all."""
     settled = [estimate.settled for estimate in estimates]
     message = (
-        "statistics of the run that have stopped drifting, of all that are estimated; where some have not, or have too few turns, raise "
-        "simulate.turns, or discard more of them"
+        "number of statistics that no longer drift, of all estimated ones; raise simulate.turns or simulate.discard until all have settled"
     )
     return Check(name, float(sum(settled)), float(len(settled)), ">=", "-", message, label=label)
 
@@ -89,7 +88,7 @@ def unsettled(values: Mapping[str, Value]) -> tuple[str, ...]:
     """A finding that names the values which still drifted; none where all have settled."""
     names = [name for name, value in values.items() if not value.settled]
     listed = ", ".join(names[:MOST_NAMED]) + (f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else "")
-    return (f"not settled, and so no headline values: {listed}; give simulate.turns more, or discard more of them",) if names else ()
+    return (f"not settled, therefore not among the headline values: {listed}; raise simulate.turns or simulate.discard",) if names else ()
 
 
 @lru_cache(maxsize=12)

@@ -6,6 +6,7 @@ from typing import TypeAlias
 import numpy as np
 
 from drivewright import cases
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.ensemble import Statistics, ensemble_run, orbit_turns
 from drivewright.multibody.analyses.simulation_model import Output, SimulationModel, simulate_ideal
 from drivewright.multibody.analyses.turns import RunNumbers, acceleration, add_impact_load, start_of_window, turn_ends
@@ -16,12 +17,12 @@ from drivewright.result import Answer, Column, Table
 Point: TypeAlias = tuple[float, float]  # speed of the drive [rad/s], clearance of every joint with play [m]
 LOAD_WORDS = {
     "coefficient": "impact load coefficient",
-    "largest": "largest peak over the ideal one",
-    "percentile": "95th percentile over it",
-    "rms": "root mean square over it",
-    "turn_mean": "mean largest peak of a turn over it",
-    "turn_spread": "standard deviation of it",
-}  # by the fields of an ImpactLoad
+    "largest": "peak ratio",
+    "percentile": "95th-percentile ratio",
+    "rms": "RMS ratio",
+    "turn_mean": "mean turn peak ratio",
+    "turn_spread": "std. dev. of turn peak ratio",
+}  # by the fields of an ImpactLoad: labels; all are over the peak of the ideal mechanism
 
 
 def load_table(
@@ -38,15 +39,19 @@ def load_table(
     speed, clearance = (np.array([row.case[k] for row in good]) for k in (0, 1))
     loads = [_load_columns(name, words, output, [row.value for row in good]) for name, words in LOAD_WORDS.items()]
     columns = (
-        Column("speed", "rad/s", "speed of the drive", speed),
-        Column("clearance", "m", "radial clearance of every joint with play", clearance),
+        Column("speed", "rad/s", "drive speed", speed),
+        Column("clearance", "m", "radial clearance of every joint with clearance", clearance, "radial clearance"),
         *sum(loads, ()),
         Column(
-            "ideal_peak", acceleration_unit(output), "largest acceleration without play", np.array([ideal[row.case[0]] for row in good])
+            "ideal_peak",
+            acceleration_unit(output),
+            "peak acceleration of the mechanism with ideal joints",
+            np.array([ideal[row.case[0]] for row in good]),
+            "ideal peak acceleration",
         ),
     )
     return Answer(
-        tables=(Table("load_table", f"Impact load of {output.name!r}", columns),),
+        tables=(Table("load_table", f"Impact load of {in_words(output.name)}", columns),),
         findings=failed,
         outcome="partial" if rows.interrupted else "complete",
     )
@@ -56,7 +61,7 @@ def _load_columns(name: str, words: str, output: Output, cases: Sequence[Statist
     """A number of the impact load with its interval, of the `Statistics` of every case."""
     of_cases = [each.of_run(f"{output.name}.{name}", f"{output.name}.peak") for each in cases]
     value, low, high = np.array([(each.value, each.low, each.high) for each in of_cases]).reshape(-1, 3).T
-    column = Column(name, "-", words, value)
+    column = Column(name, "-", f"{words} of the acceleration, relative to its peak with ideal joints", value, words)
     return column, *column.bounds(low, high)
 
 

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.ensemble import statistics
-from drivewright.multibody.analyses.simulation_model import ROWS, SimulationModel, cycle_columns, run_of
+from drivewright.multibody.analyses.simulation_model import ROWS, SimulationModel, cycle_columns, over_last_turn, run_of
 from drivewright.multibody.analyses.turns import joint_force_numbers, start_of_window
 from drivewright.multibody.observe import Observed, concatenate, observe
 from drivewright.multibody.reactions import reactions, unbounded_joints
@@ -20,38 +21,52 @@ def observe_last_turn(model: SimulationModel) -> Observed:
 
 
 def joint_forces(model: SimulationModel) -> Answer:
-    """Largest force of every joint in the window, the forces over the last turn, and what Newton's and Euler's equations leave over."""
+    """Largest force of every joint in the window, the forces over the last turn, and the residual of the Newton-Euler equations."""
     observed, numbers = observe_last_turn(model), statistics(model, joint_force_numbers)
     t, forces = observed.t, reactions(model.assembly, run_of(model).end[0], observed)
     values, checks, columns = largest_joint_forces(model), [], list(cycle_columns(model, t))
     for name, joint in forces.joints.items():
         if name.endswith(" (link)"):
             continue
-        size = np.hypot(*joint.force.T)
+        size, joint_name = np.hypot(*joint.force.T), f"joint {in_words(name)}"
+        columns.append(Column(f"{name}.force", "N", f"force in {joint_name}", size))
         columns += [
-            Column(f"{name}.force", "N", f"force in joint {name!r}", size),
-            Column(f"{name}.force_x", "N", f"force of joint {name!r} on its first body, x", joint.force[:, 0]),
-            Column(f"{name}.force_y", "N", f"force of joint {name!r} on its first body, y", joint.force[:, 1]),
+            Column(
+                f"{name}.force_{axis}",
+                "N",
+                f"{axis} component of the force of {joint_name} on its first body",
+                joint.force[:, k],
+                f"force {axis} of {joint_name}",
+            )
+            for k, axis in enumerate("xy")
         ]
     for name, tension in forces.tensions.items():
-        columns.append(Column(f"{name}.tension", "N", f"tension of the massless link of joint {name!r}; below 0 contact is lost", tension))
+        joint_name = f"joint {in_words(name)}"
+        meaning = f"tension of the massless link of {joint_name}; below 0 contact is lost"
+        columns.append(Column(f"{name}.tension", "N", meaning, tension, f"link tension, {joint_name}"))
         share, least = numbers.mean(f"{name}.pushed"), Value.of(numbers.of_run(f"{name}.tension"), "N", "")
-        values[f"joints.{name}.pushed_share"] = Value.of(share, "-", f"share of the time in which the link of joint {name!r} is pushed")
+        meaning = f"share of the time in which the massless link of {joint_name} is in compression"
+        values[f"joints.{name}.pushed_share"] = Value.of(share, "-", meaning, f"compression time share, {joint_name}")
         checks.append(
             Check.of(
                 least,
                 f"contact.{name}",
                 -model.limits.link_compression,
                 ">=",
-                f"least tension of the massless link of joint {name!r}: a pin that is pushed has lost contact",
+                f"minimum tension of the massless link of joint {name!r}; in compression the pin has lost contact: simulate it with "
+                'model = "dry"',
                 (name,),
+                label=f"minimum link tension, {joint_name}",
             )
         )
-    words = "what Newton's and Euler's equations of the bodies leave over, as a part of the largest force"
-    values["forces.residual"] = Value(float(forces.residual.max()), "-", words)
+    words, label = (
+        "residual of the Newton-Euler equations of all bodies, relative to the largest force",
+        "residual of the equations of motion",
+    )
+    values["forces.residual"] = Value(float(forces.residual.max()), "-", words, label=label)
     return Answer(
         values,
-        (Table("forces", "Forces in the joints over the last turn", tuple(columns)),),
+        (Table("forces", f"Joint forces{over_last_turn(model)}", tuple(columns)),),
         tuple(checks),
         tuple(_fold_findings(model, _unbounded(model))),
     )
@@ -62,7 +77,7 @@ def largest_joint_forces(model: SimulationModel) -> dict[str, Value]:
     numbers, hidden = statistics(model, joint_force_numbers), {*model.pins, *_unbounded(model)}
     names = [key.removesuffix(".force") for key in numbers.members[0].whole if key.endswith(".force")]
     return {
-        f"joints.{name}.max_force": Value.of(numbers.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}")
+        f"joints.{name}.max_force": Value.of(numbers.of_run(f"{name}.force"), "N", f"peak force in joint {in_words(name)}")
         for name in names
         if name not in hidden and not name.endswith(" (link)")  # the other end of a link without mass: the same force
     }
@@ -82,8 +97,8 @@ def _fold_findings(model, unbounded):
     if unbounded:
         names, time = ", ".join(map(repr, unbounded)), max(unbounded.values())
         yield (
-            f"the force in joints {names} grows without bound towards the singular position at t = {time:.6g} s: links in line cannot "
-            "carry a load across them. Its largest value does not exist; elastic links or play would bound it"
+            f"the force in joints {names} grows without bound towards the singular position at t = {time:.6g} s, because collinear links "
+            "cannot carry a transverse load. It has no peak value; elastic links or joint clearance would bound it"
         )
     elif run_of(model).passages:
-        yield "joint forces in the middle of a singular position are limits of those beside it; they are left out of tables and extremes"
+        yield "joint forces at a singular position are limits of those beside it; tables and peak values leave them out"

@@ -22,7 +22,7 @@ def lyapunov(model: SimulationModel, turns: int, discard: int) -> Answer:
     """Largest Lyapunov exponent per turn of the drive, by Benettin's method over so many turns behind the discarded ones."""
     system = model.assembly.system
     if model.assembly.freedom == 0:
-        return Answer(findings=("the Lyapunov exponent does not exist: the drive leaves the mechanism no freedom",))
+        return Answer(findings=("the Lyapunov exponent does not exist: with its drive the mechanism has no degree of freedom",))
     free = len(system.stored) + len(system.independent)
     scales = tolerances(system, model.settings, TURN / model.turn_length) / model.settings.rtol
     inside = np.arange(len(scales)) < free
@@ -42,7 +42,7 @@ def lyapunov(model: SimulationModel, turns: int, discard: int) -> Answer:
 
     pairs = [row.value for row in cases.run(one, range(min(PAIRS_OF_TWINS, model.ensemble)), workers=None).rows if row.ok]
     if not pairs:
-        return Answer(findings=("the Lyapunov exponent is left out: the motion leaves the finite numbers",), outcome="partial")
+        return Answer(findings=("the Lyapunov exponent is left out: the motion diverges",), outcome="partial")
     return exponent_answer(pairs)
 
 
@@ -51,13 +51,22 @@ def exponent_answer(pairs: Sequence[Exponent]) -> Answer:
     history = np.mean([pair.history for pair in pairs], axis=0)
     turns = np.arange(1.0, len(history) + 1)
     growth = np.diff([pair.history * turns for pair in pairs], axis=1, prepend=0.0)
-    exponent = Value.of(estimate(growth), "-", "largest Lyapunov exponent per turn; above 0: chaos")
+    exponent = Value.of(
+        estimate(growth), "-", "largest Lyapunov exponent per turn", convention="above 0: chaotic motion; 0 or below: regular motion"
+    )
     error = float(np.sqrt(np.sum([pair.error**2 for pair in pairs])) / len(pairs))
-    values = {"lyapunov_exponent.per_turn": exponent, "lyapunov_exponent.error": Value(error, "-", "its standard error")}
+    meaning = "standard error of the largest Lyapunov exponent per turn"
+    values = {
+        "lyapunov_exponent.per_turn": exponent,
+        "lyapunov_exponent.error": Value(error, "-", meaning, label="standard error of Lyapunov exponent"),
+    }
     table = Table(
         "lyapunov",
-        "Largest Lyapunov exponent: convergence",
-        (Column("turn", "-", "turns counted", turns), Column("exponent", "-", "mean growth per turn so far", history)),
+        "Convergence of the Lyapunov exponent",
+        (
+            Column("turn", "-", "turns evaluated", turns),
+            Column("exponent", "-", "mean logarithmic growth of the separation per turn", history, "Lyapunov exponent, running mean"),
+        ),
     )
     return Answer(values, (table,), (settled_check("settled.lyapunov", [exponent], "Settled Lyapunov exponent"),))
 
@@ -75,7 +84,7 @@ class TurnMap:
         # Every turn is run from time 0: the drive's angle is the same, and the state carries all that pins remember.
         run = simulate(self.model.assembly, self.model.turn_length, self.settings, samples=np.empty(0), state=state)
         if run.advice:
-            raise SolverError(f"a turn did not end: {run.stop}")
+            raise SolverError(f"a turn was not completed: {run.stop}")
         end = convert_state(*run.end, self.model.assembly.system)  # the coordinates may have been split anew on the way
         end[self.spinning] %= TURN  # a link that spins would drown the separation in the rounding of its angle
         return end

@@ -70,7 +70,7 @@ def journal_body(play: MagnifiedPlay) -> Body:
     shapes = (Shape("roller", circle((0, 0), radius)), Shape("axis", polygon([(0, 0), (radius, 0)], closed=False)))
     return Body(
         f"journal {play.joint.name}",
-        f"{play.joint.play.noun} drawn ×{play.factor:g}",
+        f"{play.joint.play.noun} magnified ×{play.factor:g}",
         shapes,
         play.poses,
         "ground",

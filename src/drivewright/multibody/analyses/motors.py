@@ -3,6 +3,7 @@
 import numpy as np
 
 from drivewright._typing import Floats
+from drivewright.labels import in_words
 from drivewright.motion.motor_sizing import MotorSizing, size_motor
 from drivewright.multibody.analyses.actuation import Actuation, actuations, observe_run
 from drivewright.multibody.analyses.simulation_model import SimulationModel, run_of
@@ -11,19 +12,20 @@ from drivewright.multibody.curves import curve_slope, curve_values
 from drivewright.multibody.forces.joint_friction import JointFrictions
 from drivewright.multibody.observe import Observed, observe
 from drivewright.multibody.records import table_of
-from drivewright.multibody.simulate import states_outside_folds
+from drivewright.multibody.simulate import simulate, states_outside_folds
 from drivewright.multibody.system import PIECE, System
+from drivewright.numerics.signals import time_mean
 from drivewright.result import Answer, Column, Table, Value
 
 POSITIONS = 73  # at which the inertia is felt
 QUANTITIES = (
-    # key, of MotorSizing, unit where it turns, unit where it slides, words, what they mean
-    ("rms", "rms_torque", "N m", "N", "rms {effort}", "root mean square over the time of the window"),
-    ("peak", "peak_torque", "N m", "N", "peak {effort}", "the largest, either way"),
-    ("mean_power", "mean_power", "W", "W", "mean power", "from the drive into the mechanism"),
-    ("peak_power", "peak_power", "W", "W", "peak power", "from the drive into the mechanism"),
-    ("braking_power", "braking_power", "W", "W", "braking power", "the largest that flows back into the drive"),
-    ("peak_speed", "peak_speed", "rad/s", "m/s", "peak {rate}", "the largest, either way"),
+    # key, of MotorSizing, unit where it turns, unit where it slides, words, convention
+    ("rms", "rms_torque", "N m", "N", "RMS {effort}", ""),
+    ("peak", "peak_torque", "N m", "N", "peak {effort}", "magnitude"),
+    ("mean_power", "mean_power", "W", "W", "mean power", "positive from the drive into the mechanism"),
+    ("peak_power", "peak_power", "W", "W", "peak power", "positive from the drive into the mechanism"),
+    ("braking_power", "braking_power", "W", "W", "peak braking power", "positive from the mechanism back into the drive"),
+    ("peak_speed", "peak_speed", "rad/s", "m/s", "peak {rate}", "magnitude"),
 )
 
 
@@ -42,8 +44,7 @@ def motors(model: SimulationModel) -> Answer:
     """Sizing of every drive and motor: values and a table with a row each."""
     observed, values, rows = observe_window(model), {}, []
     for one in actuations(model, observed):
-        sizing, inertia = size_motor(observed.t, one.effort, one.rate), felt_inertia(model, one)
-        own = {**_sizing_values(one, sizing), **_inertia_values(one, inertia)}
+        own = {**_sizing_values(one, size_motor(observed.t, one.effort, one.rate)), **_inertia_values(model, one)}
         values |= {f"drives.{one.name}.{key}": value for key, value in own.items()}
         rows.append((one, own))
     return Answer(values, (_table(rows),) if rows else ())
@@ -52,21 +53,26 @@ def motors(model: SimulationModel) -> Answer:
 def _sizing_values(one: Actuation, sizing: MotorSizing) -> dict[str, Value]:
     effort, rate = ("torque", "speed") if one.turns else ("force", "velocity")
     values = {}
-    for key, field, turning, sliding, words, meaning in QUANTITIES:
+    for key, field, turning, sliding, words, convention in QUANTITIES:
         name = f"{key}_{effort}" if key in ("rms", "peak") else key
-        told = f"{words.format(effort=effort, rate=rate)} of drive {one.name!r}, {meaning}"
-        values[name] = Value(getattr(sizing, field), turning if one.turns else sliding, told)
+        label = f"{words.format(effort=effort, rate=rate)} of drive {in_words(one.name)}"
+        unit, meaning = turning if one.turns else sliding, f"{label} over the window"
+        values[name] = Value(getattr(sizing, field), unit, meaning, label=label, convention=convention)
     return values
 
 
-def _inertia_values(one: Actuation, inertia: Floats) -> dict[str, Value]:
+def _inertia_values(model: SimulationModel, one: Actuation) -> dict[str, Value]:
+    times, inertia = felt_inertia(model, one)
     if not len(inertia):
         return {}
     unit, word = ("kg m^2", "inertia") if one.turns else ("kg", "mass")
-    where = f"reflected {word} of drive {one.name!r}, {{}} over the positions in the window, other drives held"
+    drive = f"drive {in_words(one.name)}"
+    positions = "over the positions of a turn with ideal joints" if model.has_play else "over the positions in the window"
+    of_all = {f"reflected_{word}": ("mean", time_mean(times, inertia)), f"max_reflected_{word}": ("maximum", np.max(inertia))}
+    where = f"{positions}, other drives held"
     return {
-        f"reflected_{word}": Value(float(np.mean(inertia)), unit, where.format("mean")),
-        f"max_reflected_{word}": Value(float(np.max(inertia)), unit, f"largest {where.format('largest')}"),
+        key: Value(float(value), unit, f"{kind} reflected {word} of {drive}, {where}", label=f"{kind} reflected {word}, {drive}")
+        for key, (kind, value) in of_all.items()
     }
 
 
@@ -82,32 +88,45 @@ def _table(rows) -> Table:
     for kind, unit, there in (("torque", "N m", turning), ("force", "N", sliding)):
         if there:
             columns += [
-                column(f"rms_{kind}", unit, f"rms {kind}", [f"rms_{kind}"]),
+                column(f"rms_{kind}", unit, f"RMS {kind}", [f"rms_{kind}"]),
                 column(f"peak_{kind}", unit, f"peak {kind}", [f"peak_{kind}"]),
             ]
     columns += [column(key, "W", words, [key]) for key, _, unit, _, words, _ in QUANTITIES if unit == "W"]
     for kind, unit, there in (("inertia", "kg m^2", turning), ("mass", "kg", sliding)):
         if there:
-            columns.append(column(f"reflected_{kind}", unit, f"reflected {kind}, mean over positions", [f"reflected_{kind}"]))
-            columns.append(column(f"max_reflected_{kind}", unit, f"largest reflected {kind}", [f"max_reflected_{kind}"]))
+            columns.append(column(f"reflected_{kind}", unit, f"mean reflected {kind}", [f"reflected_{kind}"]))
+            columns.append(column(f"max_reflected_{kind}", unit, f"maximum reflected {kind}", [f"max_reflected_{kind}"]))
     return Table("motors", "Motor sizing", tuple(columns))
 
 
 # ---------------------------------------------------------------------------------------------------------- reflected inertia
 
 
-def felt_inertia(model: SimulationModel, one: Actuation) -> Floats:
-    """Inertia [kg m^2], or mass [kg], (m,) that a drive feels at positions over the window: how much more it gives for a unit more of
-    acceleration, other drives as they are and without friction; nothing of a motor, which does not prescribe a motion."""
-    run, felt = run_of(model), []
+def felt_inertia(model: SimulationModel, one: Actuation) -> tuple[Floats, Floats]:
+    """(times [s], inertia [kg m^2] or mass [kg]) (m,) that a drive feels at positions over the window, nothing of a motor.
+
+    It is how much more the drive gives for a unit more of acceleration, other drives as they are and without friction.  A pin with play
+    passes on no acceleration at an instant, only what presses it: there the inertia is that without play.
+    """
+    times, felt = [], []
     number = next((k for k, drive in enumerate(model.assembly.model.drives) if drive.joint == one.name), None)
     if number is None:
-        return np.zeros(0)
-    for system, t, y in states_outside_folds(run, start_of_window(model, run.end[1]), POSITIONS):
+        return np.zeros(0), np.zeros(0)
+    for system, t, y in _positions(model):
         for k in range(len(t)):
             steady, faster = (_drive_effort(model, system, number, t[k], y[k], acceleration) for acceleration in (0.0, 1.0))
+            times.append(t[k])
             felt.append(faster - steady)
-    return np.array(felt)
+    return np.array(times), np.array(felt)
+
+
+def _positions(model):
+    """(system, times, states) over the window; of the mechanism without play over a turn, or the whole run, where pins have play."""
+    if not model.has_play:
+        run = run_of(model)
+        return states_outside_folds(run, start_of_window(model, run.end[1]), POSITIONS)
+    length = model.period or model.run_length
+    return states_outside_folds(simulate(model.ideal, length, model.settings, samples=np.linspace(0.0, length, POSITIONS)))
 
 
 def _drive_effort(model, system, number, t, y, acceleration):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.simulation_model import TURN, SimulationModel
 from drivewright.multibody.forces.contact import Lubricated
 from drivewright.result import Answer, Value
@@ -22,11 +23,12 @@ def oil_films(model: SimulationModel) -> Answer:
             form = long_bearing if oil.film == "long" else short_bearing
             solved = film_map(slenderness, eccentricities, directions)
             off = film_deviation(closed_form_map(form, slenderness, eccentricities, directions), solved)
+            meaning = f"median relative deviation of the {oil.film}-bearing solution from Reynolds' equation, joint {in_words(joint.name)}"
             values[f"joints.{joint.name}.film_error"] = Value(
-                float(np.median(off)), "-", f"median deviation of the closed form, {oil.film} bearing, from Reynolds' equation"
+                float(np.median(off)), "-", meaning, label=f"oil film model error, joint {in_words(joint.name)}"
             )
             findings.append(
-                f'joint {joint.name!r}: film = "{oil.film}" is off by {np.median(off):.0%} in the median, {off.max():.0%} '
-                f"at worst, from Reynolds' equation for length/diameter = {slenderness:.3g}"
+                f'joint {joint.name!r}: film = "{oil.film}" deviates from Reynolds\' equation for length/diameter = {slenderness:.3g} by '
+                f'{np.median(off):.0%} in the median and by {off.max():.0%} at most; film = "reynolds" avoids this error'
             )
     return Answer(values, findings=tuple(findings))

@@ -1,11 +1,17 @@
 """Forces, impacts and orbits of pins with play."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.ensemble import settled_check, statistics, unsettled
-from drivewright.multibody.analyses.simulation_model import SimulationModel, cycle_columns, last_turn, run_of
+from drivewright.multibody.analyses.simulation_model import SimulationModel, cycle_columns, last_turn, over_last_turn, run_of
+from drivewright.multibody.forces.contact import AMBROSIO, COULOMB
 from drivewright.multibody.observe import PIN_FIELDS
 from drivewright.result import Answer, Check, Column, Table, Value
+
+FULL = 0.9  # of the coefficient stated: with less a finding says so
 
 
 def pins(model: SimulationModel) -> Answer:
@@ -21,20 +27,36 @@ def pins(model: SimulationModel) -> Answer:
             (limits.penetration or model.assembly.system.contacts[number].clearance, "penetration"),
         ):
             if limit:
-                checks.append(Check.of(numbers[f"max_{key}"], f"{key}.{name}", limit, "<=", f"largest {key} in joint {name!r}", (name,)))
+                peak, remedy = numbers[f"max_{key}"], "reduce the speed or the clearance, or enlarge the bearing"
+                words = f"{peak.meaning}; {remedy}"
+                checks.append(Check.of(peak, f"{key}.{name}", limit, "<=", words, (name,), peak.label))
     settled = settled_check("settled.joints", values.values(), "Settled statistics of the joints")
-    return Answer(values, tuple(tables), (*checks, settled), unsettled(values))
+    return Answer(values, tuple(tables), (*checks, settled), (*unsettled(values), *_smoothed_friction(model)))
+
+
+def _smoothed_friction(model) -> Iterator[str]:
+    """A finding on each pin that slides so slowly that the smoothing of its law about standstill takes a good part of its friction."""
+    for name, contact in zip(model.pins, model.assembly.system.contacts, strict=True):
+        found = statistics(model).members[0].whole[f"{name}.coefficient"]
+        if contact.law in (COULOMB, AMBROSIO) and found < FULL * contact.friction:
+            yield (
+                f"joint {name!r} slides too slowly for its smoothed friction law: the mean coefficient of friction is {found:.2g}, not "
+                f"{contact.friction:.3g}, because friction_speed = {1e3 * contact.slip_speed:.3g} mm/s is not small compared with the "
+                'sliding speed. Give a smaller friction_speed, or friction_law = "lugre"'
+            )
 
 
 def _pin_values(model, name):
     """{key: Value} of one pin with play."""
-    run_statistics = statistics(model)
+    run_statistics, joint = statistics(model), f"joint {in_words(name)}"
+    contact = f"share of the time in which journal and bearing of {joint} are in contact"
+    lost = f"mean power lost to friction in {joint}"
     numbers = {
-        "max_force": Value.of(run_statistics.of_run(f"{name}.force"), "N", f"largest force in joint {name!r}"),
-        "max_penetration": Value.of(run_statistics.of_run(f"{name}.depth"), "m", f"largest penetration in joint {name!r}"),
-        "impacts_per_turn": Value.of(run_statistics.mean(f"{name}.hits"), "-", f"impacts of joint {name!r}"),
-        "contact_share": Value.of(run_statistics.mean(f"{name}.touching"), "-", f"share of the time in which joint {name!r} touches"),
-        "friction_power": Value.of(run_statistics.mean(f"{name}.lost"), "W", f"mean power lost by friction in joint {name!r}"),
+        "max_force": Value.of(run_statistics.of_run(f"{name}.force"), "N", f"peak force in {joint}"),
+        "max_penetration": Value.of(run_statistics.of_run(f"{name}.depth"), "m", f"peak penetration in {joint}"),
+        "impacts_per_turn": Value.of(run_statistics.mean(f"{name}.hits"), "-", f"impacts per turn in {joint}"),
+        "contact_share": Value.of(run_statistics.mean(f"{name}.touching"), "-", contact, f"contact time share, {joint}"),
+        "friction_power": Value.of(run_statistics.mean(f"{name}.lost"), "W", lost, f"mean friction power, {joint}"),
     }
     return numbers if model.period else {key: value for key, value in numbers.items() if key != "impacts_per_turn"}
 
@@ -45,9 +67,9 @@ def _impact_table(model, run):
         "impacts",
         "Impacts",
         (
-            Column("time", "s", "time of the impact", t),
+            Column("time", "s", "time of impact", t),
             Column("joint", "-", "joint", np.array(model.pins)[pin.astype(int)]),
-            Column("speed", "m/s", "speed of approach", speed),
+            Column("speed", "m/s", "approach speed at impact", speed),
         ),
     )
 
@@ -58,16 +80,16 @@ def _pin_table(model, record, number, name):
     away = clearance + pin["depth"]  # distance of the centres
     return Table(
         f"pin.{name}",
-        f"Joint {name!r} over the last turn" if model.period else f"Joint {name!r}",
+        f"Joint {in_words(name)}{over_last_turn(model)}",
         (
             *cycle_columns(model, record.t),
-            Column("x", "m", "journal's centre from the bearing's, x", -away * pin["nx"]),
-            Column("y", "m", "journal's centre from the bearing's, y", -away * pin["ny"]),
-            Column("depth", "m", "penetration, below 0 in flight", pin["depth"]),
-            Column("force", "N", "force between journal and bearing", np.hypot(pin["fx"], pin["fy"])),
-            Column("force_x", "N", "force on the journal's body, x", -pin["fx"]),
-            Column("force_y", "N", "force on the journal's body, y", -pin["fy"]),
+            Column("x", "m", "journal centre relative to bearing, x", -away * pin["nx"], "journal position x"),
+            Column("y", "m", "journal centre relative to bearing, y", -away * pin["ny"], "journal position y"),
+            Column("depth", "m", "penetration of the journal into the bearing, negative in flight", pin["depth"], "penetration"),
+            Column("force", "N", "force between journal and bearing", np.hypot(pin["fx"], pin["fy"]), "contact force"),
+            Column("force_x", "N", "force on the journal, x", -pin["fx"], "force x on the journal"),
+            Column("force_y", "N", "force on the journal, y", -pin["fy"], "force y on the journal"),
             Column("slip", "m/s", "sliding speed", pin["slip"]),
-            Column("contact", "-", "1 in contact, 0 in flight", (pin["depth"] > 0).astype(float)),
+            Column("contact", "-", "1 in contact, 0 in flight", (pin["depth"] > 0).astype(float), "contact state"),
         ),
     )

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from drivewright.labels import in_words
 from drivewright.result import Plot, Table
 
 STILL = 1e-9  # a column that varies less than this part of the largest of its unit does not move
@@ -30,39 +31,37 @@ def _with_folds(tables: Mapping[str, Table], plot: Plot) -> Plot:
     names = {column.name for column in table.columns} if table else set()
     if "fold" not in names or plot.shade or plot.equal:
         return plot
-    return plot._replace(shade="fold", title=f"{plot.title}; loops fold where shaded")
+    return plot._replace(shade="fold", meaning=f"{plot.meaning} Shaded: near a singular position.".strip())
 
 
 def _output_plots(tables: Mapping[str, Table], name: str, of_point: bool, has_play: bool) -> Iterator[Plot]:
     """Motion, path and spectrum of an output; without play dashed beside it."""
-    table, beside = tables.get("motion"), ", dashed without play" if has_play else ""
+    table, beside = tables.get("motion"), "Dashed: with ideal joints." if has_play else ""
     if table:
         fields = _moving(table, name, ("x", "y", "vx", "vy", "ax", "ay") if of_point else ("angle", "w", "alpha"))
         reference = tuple(f"{name}.ideal_{field}" for field in fields) if beside else ()
         yield Plot(
             f"motion.{name}",
-            f"Motion of {_spaced(name)}{beside}",
+            f"Motion of {in_words(name)}",
             "motion",
             table.columns[0].name,
             tuple(f"{name}.{field}" for field in fields),
             reference=reference,
+            meaning=beside,
         )
     if table and of_point and _is_curved(table, name):
-        yield Plot(f"path.{name}", f"Path of {_spaced(name)}", "motion", f"{name}.x", (f"{name}.y",), equal=True)
+        yield Plot(f"path.{name}", f"Path of {in_words(name)}", "motion", f"{name}.x", (f"{name}.y",), equal=True)
     yield Plot(
         f"spectrum.{name}",
-        f"Acceleration of {_spaced(name)} by orders of the drive{beside}",
+        f"Acceleration spectrum, {in_words(name)}",
         f"spectrum.{name}",
         "order",
         ("amplitude",),
         style="stems",
         log=True,
         reference=("ideal_amplitude",) if beside else (),
+        meaning=beside,
     )
-
-
-def _spaced(name: str) -> str:
-    return name.replace("_", " ")
 
 
 def _moving(table: Table, name: str, fields: tuple[str, ...]) -> tuple[str, ...]:
@@ -85,9 +84,11 @@ def _pin_plots(tables: Mapping[str, Table], joint: str, clearance: float | None)
     table = tables.get(f"pin.{joint}")
     if table is None or clearance is None:
         return
-    title, x = f"pin {_spaced(joint)}", table.columns[0].name
-    yield Plot(f"orbit.{joint}", f"Orbit of the journal in {title}", table.name, "x", ("y",), equal=True, rings=((clearance, "play"),))
-    yield Plot(f"force.{joint}", f"Force and sliding in {title}, shaded in contact", table.name, x, ("force", "slip"), shade="contact")
+    title, x, columns = f"joint {in_words(joint)}", table.columns[0].name, ("force", "slip")
+    yield Plot(f"orbit.{joint}", f"Journal orbit in {title}", table.name, "x", ("y",), equal=True, rings=((clearance, "clearance"),))
+    yield Plot(
+        f"force.{joint}", f"Force and sliding speed, {title}", table.name, x, columns, shade="contact", meaning="Shaded: in contact."
+    )
     yield Plot(f"polar.{joint}", f"Force on the journal of {title}", table.name, "force_x", ("force_y",), equal=True)
 
 
@@ -96,7 +97,7 @@ def _run_plots(tables: Mapping[str, Table], joints: list[str]) -> Iterator[Plot]
     forces = tables.get("forces")
     if forces:
         names = [joint for joint in joints if f"{joint}.force" in {c.name for c in forces.columns}]
-        yield Plot("forces", "Forces in the joints", "forces", forces.columns[0].name, tuple(f"{name}.force" for name in names))
+        yield Plot("forces", "Joint forces", "forces", forces.columns[0].name, tuple(f"{name}.force" for name in names))
         tensions = tuple(c.name for c in forces.columns if c.name.endswith(".tension"))
         if tensions:
             yield Plot(
@@ -110,15 +111,15 @@ def _run_plots(tables: Mapping[str, Table], joints: list[str]) -> Iterator[Plot]
         limits = (("drive_torque", "limit"), ("-drive_torque", "limit"))
         torques, forces = (tuple(c.name for c in drive.columns if c.name.startswith(kind)) for kind in ("torque_", "force_"))
         if torques:
-            yield Plot("drive", "Torque of the drive", "drive", drive.columns[0].name, torques, limits)
+            yield Plot("drive", "Drive torque", "drive", drive.columns[0].name, torques, limits)
         if forces:
-            yield Plot("drive.force", "Force of the drive", "drive", drive.columns[0].name, forces)
+            yield Plot("drive.force", "Drive force", "drive", drive.columns[0].name, forces)
     if energy:
         columns = tuple(c.name for c in energy.columns[1:] if c.name != "gap" and np.any(c.data))
         if len(columns) > 1:  # energy that nothing works on stays where it is
             yield Plot("energy", "Energy balance", "energy", "time", columns)
-    yield Plot("poincare", "Poincare section at crank angle zero", "poincare", "position", ("velocity",), style="points")
-    yield Plot("lyapunov", "Largest Lyapunov exponent, converging", "lyapunov", "turn", ("exponent",), ((0.0, "chaos above 0"),))
+    yield Plot("poincare", "Poincaré section at crank angle zero", "poincare", "position", ("velocity",), style="points")
+    yield Plot("lyapunov", "Convergence of the Lyapunov exponent", "lyapunov", "turn", ("exponent",), ((0.0, "chaos above 0"),))
 
 
 def _friction_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
@@ -131,7 +132,7 @@ def _friction_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
         rubbing = tuple(name for name in names if name.endswith(".friction") and table[name].unit == unit)
         if rubbing:
             yield Plot(f"friction.{'torque' if unit == 'N m' else 'force'}", f"Friction {word}", "friction", x, rubbing)
-    yield Plot("friction.loss", "Power lost by friction", "friction", x, tuple(name for name in names if name.endswith(".loss")))
+    yield Plot("friction.loss", "Friction power loss", "friction", x, tuple(name for name in names if name.endswith(".loss")))
 
 
 def _study_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
@@ -140,22 +141,22 @@ def _study_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
         if name.startswith("tolerances."):
             yield Plot(
                 name,
-                f"Deviation of {_spaced(name[11:])}, dashed by linear theory",
+                f"Deviation of {in_words(name[11:])}",
                 name,
                 "deviation",
                 ("share",),
                 reference=("linear_share",),
+                meaning="Dashed: linear theory.",
             )
         if name.startswith("wear.") and name.endswith(".cycles"):
-            yield Plot(name, f"Wear of pin {_spaced(name[5:-7])}", name, "cycles", ("max_depth", "volume"))
+            yield Plot(name, f"Wear history of joint {in_words(name[5:-7])}", name, "cycles", ("max_depth", "volume"))
         elif name.startswith("wear."):
-            yield Plot(name, f"Depth of wear of pin {_spaced(name[5:])}", name, "angle", ("first", "middle", "last"))
+            yield Plot(name, f"Wear profile of joint {in_words(name[5:])}", name, "angle", ("first", "middle", "last"))
     bifurcation = tables.get("bifurcation")
     if bifurcation and len(bifurcation["parameter"].data):
-        over = bifurcation["parameter"].meaning
-        yield Plot("bifurcation", f"Bifurcation over {over}", "bifurcation", "parameter", ("position", "velocity"), style="points")
+        yield Plot("bifurcation", "Bifurcation diagram", "bifurcation", "parameter", ("position", "velocity"), style="points")
     table = tables.get("load_table")
     if table and len(table["speed"].data):
         by_speed = len(set(table["speed"].data.tolist())) > 1
         x, by = ("speed", "clearance") if by_speed else ("clearance", "speed")
-        yield Plot("load_table", f"Impact load over the {x}", "load_table", x, ("coefficient",), by=by)
+        yield Plot("load_table", f"Impact load over {x}", "load_table", x, ("coefficient",), by=by)

@@ -7,6 +7,7 @@ import numpy as np
 
 from drivewright._typing import Bools, Floats
 from drivewright.errors import SolverError
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.simulation_model import Output, SimulationModel, ideal_record
 from drivewright.multibody.record import record
 from drivewright.multibody.simulate import Run, Settings, simulate
@@ -36,33 +37,34 @@ def section_answer(
     """
     t, position, velocity, (where, rate) = section
     kept = t >= start * (1 - 1e-9)
-    words = f"of {name!r} at {at}"
+    words = f"of {in_words(name)} at {at}"
     points = np.stack([position[kept], velocity[kept]], axis=1)
     enough, turns = len(points) >= 6, 0
     if enough:
         turns = orbit_period(points / np.maximum(np.ptp(points, axis=0), still * spans), SAME)
     visits = kept if enough and not turns else np.full(len(t), False)
     values = {
-        "poincare.position": _visit(position, visits, where, f"position {words} after the last whole turn"),
-        "poincare.velocity": _visit(velocity, visits, rate, f"velocity {words} after the last whole turn"),
+        "poincare.position": _visit(position, visits, where, f"position {words} after the last whole turn", f"final position at {at}"),
+        "poincare.velocity": _visit(velocity, visits, rate, f"velocity {words} after the last whole turn", f"final velocity at {at}"),
     }
     if enough:
-        values["poincare.period"] = Value(float(turns), "-", "turns after which the motion repeats itself; 0: it does not")
+        meaning, label = "number of turns after which the motion repeats itself", "period of the motion in turns"
+        values["poincare.period"] = Value(float(turns), "-", meaning, label=label, convention="0: the motion does not repeat itself")
     table = Table(
         "poincare",
-        f"Poincare section of {name!r}",
+        f"Poincaré section of {in_words(name)}",
         (
-            Column("position", where, f"position {words}", position[kept]),
-            Column("velocity", rate, f"velocity {words}", velocity[kept]),
+            Column("position", where, f"position {words}", position[kept], f"position at {at}"),
+            Column("velocity", rate, f"velocity {words}", velocity[kept], f"velocity at {at}"),
             Column("turn", "-", "turn of the drive", np.round(t[kept] / period)),
         ),
     )
     return Answer(values, (table,))
 
 
-def _visit(visited: Floats, drawn: Bools, unit: str, meaning: str) -> Value:
+def _visit(visited: Floats, drawn: Bools, unit: str, meaning: str, label: str) -> Value:
     """The last of the visits (m,); of a motion that does not repeat itself with the range in which 95 % of those drawn lie."""
-    last = Value(float(visited[-1]), unit, meaning)
+    last = Value(float(visited[-1]), unit, meaning, label=label)
     if not np.any(drawn):
         return last
     low, high = np.percentile(visited[drawn], [2.5, 97.5])

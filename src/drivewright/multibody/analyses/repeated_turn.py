@@ -12,7 +12,6 @@ from drivewright.multibody.analyses.turns import start_of_window
 from drivewright.multibody.continuation import WEAK, carry_on
 from drivewright.multibody.forces.load import ANGLE, TIME
 from drivewright.multibody.observe import FIELDS, observe
-from drivewright.multibody.simulate import GRID
 from drivewright.multibody.system import System
 
 OVERLAP = 4  # samples beyond the turn: each sample of a turn has neighbours on both sides, as in the middle of a longer run
@@ -29,7 +28,7 @@ def repeated_turn(model: SimulationModel) -> SimulationModel:
     """
     if not _may_repeat(model):
         return model
-    turn = replace(model, duration=model.turn_length * (1 + OVERLAP / GRID), window_start=0.0)
+    turn = replace(model, duration=model.turn_length * (1 + OVERLAP / model.settings.samples), window_start=0.0)
     return turn if _repeats(turn) else model
 
 
@@ -37,9 +36,11 @@ def _may_repeat(model):
     """Whether the samples of all turns are alike, at least a turn of them counts, and no load says that a turn is unlike another."""
     if model.period is None or model.assembly.freedom or model.has_play:
         return False
-    samples = np.array([model.run_length, model.run_length - start_of_window(model, model.run_length)]) * GRID / model.period
+    samples = (
+        np.array([model.run_length, model.run_length - start_of_window(model, model.run_length)]) * model.settings.samples / model.period
+    )
     aligned = abs(samples[0] - np.rint(samples[0])) < ALIGNED
-    return bool(aligned and samples[1] > GRID + OVERLAP - ALIGNED and _loads_repeat(model.assembly.system, model.period))
+    return bool(aligned and samples[1] > model.settings.samples + OVERLAP - ALIGNED and _loads_repeat(model.assembly.system, model.period))
 
 
 def _loads_repeat(system: System, period: float) -> bool:
@@ -59,7 +60,11 @@ def _repeats(turn):
     run = run_of(turn)
     t, y = (np.concatenate([getattr(part, name) for part in run.stretches]) for name in ("t", "y"))
     later = np.max(np.abs(t[-COUNT:] - t[:COUNT] - turn.turn_length))
-    if run.advice or any(len(part.system.chart.offsets) for part in run.stretches) or later > ALIGNED * turn.turn_length / GRID:
+    if (
+        run.advice
+        or any(len(part.system.chart.offsets) for part in run.stretches)
+        or later > ALIGNED * turn.turn_length / turn.settings.samples
+    ):
         return False
     return _ends_as_it_began(turn, t, y) and _splits_alike(turn, run)
 
@@ -73,7 +78,7 @@ def _splits_alike(turn, run):
         return True
     if run.refined_until > turn.turn_length or last.t[0] > turn.turn_length:
         return False
-    grid = np.linspace(0.0, run.until, GRID + COUNT)
+    grid = np.linspace(0.0, run.until, turn.settings.samples + COUNT)
     again, code = carry_on(last.system, 0.0, grid, run.until, turn.assembly.state)
     return code == WEAK and again.t_end == first.t_end
 

@@ -102,7 +102,7 @@ class SimulationModel:
     def run_length(self) -> float:
         """Length of the run [s]."""
         if self.duration is None:
-            raise SolverError("the mechanism has neither a run nor a drive at constant speed whose turn could stand for it")
+            raise SolverError("the mechanism has neither a [simulate] table nor a drive at constant speed, so there is nothing to simulate")
         return self.duration
 
     def output(self, name: str) -> Output:
@@ -116,7 +116,7 @@ class SimulationModel:
     def turn_length(self) -> float:
         """Duration of a turn of the drive [s]."""
         if self.period is None:
-            raise SolverError("the drive has no constant speed, so that there are no turns")
+            raise SolverError("no drive has a constant speed, so turns are not defined")
         return self.period
 
     def crank_angle(self, t: ArrayLike) -> Floats:
@@ -164,7 +164,7 @@ def ideal_record(model: SimulationModel) -> Record:
     with collect_stops():
         ideal = _ideal_record(model)
     if model.has_play and ideal.stop:
-        note_stop(ideal.stop._replace(where=f"without play, {ideal.stop.where}"))
+        note_stop(ideal.stop._replace(where=f"with ideal joints, {ideal.stop.where}"))
     return ideal
 
 
@@ -190,14 +190,19 @@ def ideal_at(model: SimulationModel, times: ArrayLike) -> Mapping[str, Floats]:
 
 
 def last_turn(model: SimulationModel) -> Record:
-    """The record of the last whole turn (of the whole run without turns), thinned to at most ROWS rows."""
+    """The record of the last whole turn (of the whole run without turns), thinned to about ROWS rows, or as many as are asked for."""
     record = record_of(model)
     turns = np.floor(record.t[-1] / model.period + 1e-9) if model.period else 0
     start = (turns - 1) * model.turn_length if turns >= 1 else 0.0
     end = turns * model.turn_length if turns >= 1 else record.t[-1]
     rows = np.flatnonzero((record.t >= start * (1 - 1e-12)) & (record.t <= end * (1 + 1e-12)))
-    stride = max(1, -(-len(rows) // ROWS))
+    stride = max(1, -(-len(rows) // max(ROWS, model.samples_per_turn + 1)))
     return record.take(rows[::stride])
+
+
+def over_last_turn(model: SimulationModel) -> str:
+    """What the title of a table of `last_turn` ends with."""
+    return " over the last turn" if model.period else ""
 
 
 def cycle_columns(model: SimulationModel, t: Floats) -> tuple[Column, ...]:
@@ -206,7 +211,7 @@ def cycle_columns(model: SimulationModel, t: Floats) -> tuple[Column, ...]:
     if model.period:
         turn = np.floor(t[0] / model.period + 1e-9)
         angle = (t - turn * model.period) * TURN / model.period
-        columns = (Column("crank_angle", "rad", "angle of the drive since the start of the turn", angle), *columns)
+        columns = (Column("crank_angle", "rad", "drive angle since start of turn", angle), *columns)
     return columns
 
 
@@ -214,4 +219,5 @@ def _folds(run, t):
     if not run.passages:
         return ()
     near = [np.abs(t - passed.time) < passed.system.chart.reach * passed.system.chart.pace for passed in run.passages]
-    return (Column("fold", "-", "1 near a singular position, where loops fold", np.any(near, axis=0).astype(float)),)
+    meaning, label = "1 near a singular position, where loops fold; 0 elsewhere", "near a singular position"
+    return (Column("fold", "-", meaning, np.any(near, axis=0).astype(float), label),)

@@ -21,7 +21,7 @@ def singular_positions(model: SimulationModel) -> Answer:
 
 def passage_count(model: SimulationModel) -> Answer:
     """Number of singular positions passed."""
-    return Answer({"singular.count": Value(float(len(run_of(model).passages)), "-", "singular positions passed in the run")})
+    return Answer({"singular.count": Value(float(len(run_of(model).passages)), "-", "singular positions passed")})
 
 
 def _table(model, passages):
@@ -37,12 +37,19 @@ def _table(model, passages):
             Column(
                 "smallest_singular_value",
                 "-",
-                "smallest singular value of the loops over its median in the run",
+                "smallest singular value of the loop closure Jacobian, relative to its median in the run",
                 np.array([each.smallest / typical for each in passages]),
+                "smallest singular value, relative",
             ),
-            Column("branches", "-", "branches that meet, at most", np.array([each.tangents for each in passages])),
-            Column("branch", "-", "branch taken, by angular velocities", np.array([_rates(model, each) for each in passages])),
-            Column("rule", "-", "rule by which it is taken", np.array(rules)),
+            Column("branches", "-", "maximum number of branches that meet", np.array([each.tangents for each in passages])),
+            Column(
+                "branch",
+                "-",
+                "branch taken: angular velocities of the bodies, relative to the largest",
+                np.array([_rates(model, each) for each in passages]),
+                "branch taken",
+            ),
+            Column("rule", "-", "rule by which the branch is taken", np.array(rules), "branch selection rule"),
         ),
     )
 
@@ -75,7 +82,7 @@ def _finding(model, passages):
     where = f", drive at {np.degrees(_drive_angle(model, passages)[0]):.4g} deg" if model.period else ""
     many = f"{len(passages)} singular positions" if len(passages) > 1 else "a singular position"
     return (
-        f"the mechanism passes {many} (the first at t = {first.time:.6g} s{where}): loops fold there and up to {first.tangents} "
-        "branches of the motion meet. The motion follows the smooth one, on which velocities are continuous; what a real mechanism "
-        'does there is decided by its play and its loads (simulate.singular = "stop" ends the run before)'
+        f"the mechanism passes {many} (the first at t = {first.time:.6g} s{where}), where loops fold and up to {first.tangents} "
+        "branches of the motion meet. The run follows the smooth branch, on which velocities are continuous; in a real mechanism "
+        'clearances and loads select the branch. simulate.singular = "stop" ends the run before the first singular position'
     )

@@ -4,6 +4,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.errors import counted
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.simulation_model import SimulationModel, ideal_record, record_of
 from drivewright.multibody.analyses.turns import acceleration
 from drivewright.multibody.record import record
@@ -22,9 +23,9 @@ def spectrum(model: SimulationModel) -> Answer:
     start, period = model.window_start, model.turn_length
     turns = int(np.floor((run_record.t[-1] - start) / period + 1e-9))
     if turns < 1:
-        return Answer(findings=("the spectrum is left out: the window has no whole turn",))
+        return Answer(findings=("the spectrum is left out: the evaluation window has no whole turn; raise simulate.turns",))
     samples = max(2 * model.samples_per_turn, PER_OSCILLATION * ORDERS)
-    count = counted(turns * samples, MOST_STATES, "samples of the spectrum", "lower samples_per_turn, or ask for fewer turns")
+    count = counted(turns * samples, MOST_STATES, "samples of the spectrum", "lower samples_per_turn or turns")
     times = start + np.linspace(0, turns * period, count + 1)
     run = simulate(model.assembly, model.run_length, model.settings, samples=np.minimum(times, model.run_length))
     even, ideal = record(run, model.markers), ideal_record(model)
@@ -33,16 +34,19 @@ def spectrum(model: SimulationModel) -> Answer:
         data, unit, word = acceleration(even, output)
         same, _, _ = acceleration(ideal, output)
         amplitude, low, high = amplitudes(spectrogram(even.t, data, period, orders)[1])
-        column = Column("amplitude", unit, f"amplitude of the {word}", amplitude)
+        column, beside = (
+            Column("amplitude", unit, f"{word} amplitude", amplitude, "amplitude"),
+            order_spectrum(ideal.t, same, period, orders),
+        )
         tables.append(
             Table(
                 f"spectrum.{output.name}",
-                f"Spectrum of the {word} of {output.name!r}",
+                f"{word.capitalize()} spectrum, {in_words(output.name)}",
                 (
-                    Column("order", "-", "oscillations per turn", orders),
+                    Column("order", "-", "order, oscillations per turn", orders, "order of the drive"),
                     column,
                     *(column.bounds(low, high) if turns > 1 else ()),
-                    Column("ideal_amplitude", unit, "the same without play", order_spectrum(ideal.t, same, period, orders)),
+                    Column("ideal_amplitude", unit, f"{word} amplitude, ideal joints", beside, "amplitude, ideal joints"),
                 ),
             )
         )

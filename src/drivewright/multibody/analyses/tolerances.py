@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.simulation_model import SimulationModel
 from drivewright.multibody.tolerance import CIRCLE, READINGS, Source, deviations, gradient, posture, sample, shares, worst_moves
 from drivewright.numerics.samples import mean_of, share_of, sigma_of
@@ -25,7 +26,7 @@ def tolerances(model: SimulationModel, sources: Sequence[Source], angle: float, 
     parts = shares(sources, slopes)
     closed = np.isfinite(mechanisms.deviations).all(axis=(1, 2))
     unclosed = share_of(int(np.sum(~closed)), np.size(closed))
-    values, tables = {"tolerances.unclosed": unclosed.named("-", "share of the random mechanisms that do not close")}, []
+    values, tables = {"tolerances.unclosed": unclosed.named("-", "share of samples that do not close")}, []
     bent = []
     for number, output in enumerate(model.outputs):
         for reading in ("x", "y") if output.point else ("angle",):
@@ -58,19 +59,28 @@ def _values(name, unit, data, share, corner):
     """Numbers of one reading; nan, and so left out, where no mechanism closes."""
     worst, sigma = share
     mean, spread = (float(np.mean(data)) if data.size else np.nan, float(np.std(data, ddof=1)) if data.size > 1 else np.nan)
+    output = in_words(name)
     estimates = {
-        "mean": mean_of(mean, spread, data.size).named(unit, f"mean deviation of {name!r}"),
-        "sigma": sigma_of(spread, data.size).named(unit, f"standard deviation of {name!r}"),
+        "mean": mean_of(mean, spread, data.size).named(unit, f"mean deviation of {output}"),
+        "sigma": sigma_of(spread, data.size).named(unit, f"standard deviation of {output}"),
     }
     numbers = {
-        "worst": (np.max(np.abs(data), initial=0.0) if data.size else np.nan, "largest deviation among the samples, either way"),
-        "linear_sigma": (np.sqrt(np.sum(sigma**2)), "standard deviation by linear theory"),
-        "linear_worst": (np.sum(worst), "worst case by linear theory (normal dimensions at three standard deviations)"),
-        "corner": (corner, "worst combination by linear theory, closed exactly: largest deviation"),
+        "worst": (
+            np.max(np.abs(data), initial=0.0) if data.size else np.nan,
+            "maximum magnitude of the deviation among the samples",
+            "maximum deviation",
+        ),
+        "linear_sigma": (np.sqrt(np.sum(sigma**2)), "standard deviation by linear theory", "linear std. deviation"),
+        "linear_worst": (
+            np.sum(worst),
+            "worst-case deviation by linear theory (normal dimensions at three standard deviations)",
+            "linear worst case",
+        ),
+        "corner": (corner, "deviation at the worst-case combination of linear theory, with loops closed exactly", "exact worst case"),
     }
     return {f"tolerances.{name}.{key}": value for key, value in estimates.items() if np.isfinite(value.value)} | {
-        f"tolerances.{name}.{key}": Value(float(value), unit, f"{words} of {name!r}")
-        for key, (value, words) in numbers.items()
+        f"tolerances.{name}.{key}": Value(float(value), unit, f"{words}, {output}", label=f"{label}, {output}")
+        for key, (value, words, label) in numbers.items()
         if np.isfinite(value)
     }
 
@@ -80,15 +90,16 @@ def _histogram(name, unit, data, share):
     sigma = float(np.sqrt(np.sum(share[1] ** 2)))
     reach = max(float(np.max(np.abs(data), initial=0.0)), 3 * sigma) or 1.0
     edges = np.linspace(-reach, reach, BARS + 1)
+    middles = 0.5 * (edges[1:] + edges[:-1])
     counts = np.histogram(data, edges)[0]
     normal = np.diff([0.5 * math.erfc(-edge / (math.sqrt(2) * sigma)) for edge in edges]) if sigma > 0 else np.zeros(BARS)
     return Table(
         f"tolerances.{name}",
-        f"Deviation of {name!r}",
+        f"Deviation of {in_words(name)}",
         (
-            Column("deviation", unit, f"deviation of {name!r}, middle of the bar", 0.5 * (edges[1:] + edges[:-1])),
-            Column("share", "-", "share of the samples in the bar", counts / max(len(data), 1)),
-            Column("linear_share", "-", "the same of a normal distribution, by linear theory", normal),
+            Column("deviation", unit, f"deviation of {in_words(name)} at the bar centre", middles, "deviation at bar centre"),
+            Column("share", "-", "share of samples in the bar", counts / max(len(data), 1)),
+            Column("linear_share", "-", "share of a normal distribution by linear theory", normal, "share by linear theory"),
         ),
     )
 
@@ -98,16 +109,27 @@ def _tornado(name, unit, sources, share):
     worst, sigma = share
     order = np.argsort(-worst, kind="stable")
     reach, variance = np.array([source.reach for source in sources]), np.sum(sigma**2)
+    labels, output = np.array([_label(sources[k]) for k in order]), in_words(name)
     return Table(
         f"tornado.{name}",
-        f"What makes {name!r} deviate",
+        f"Deviation contributions, {output}",
         (
-            Column("source", "-", "joint with play, or point with a tolerance", np.array([_label(sources[k]) for k in order])),
-            Column("worst", unit, f"largest deviation of {name!r} from it alone", worst[order]),
-            Column("sigma", unit, f"standard deviation of {name!r} from it alone", sigma[order]),
-            Column("variance_share", "-", "its share in the variance", sigma[order] ** 2 / (variance if variance > 0 else 1.0)),
+            Column("source", "-", "joint with clearance, or point with a tolerance", labels, "source of deviation"),
+            Column("worst", unit, f"maximum deviation of {output} from this source alone", worst[order], "maximum deviation"),
+            Column("sigma", unit, f"standard deviation of {output} from this source alone", sigma[order], "standard deviation"),
             Column(
-                "sensitivity", "-" if unit == "m" else f"{unit}/m", f"deviation of {name!r} over that of the point", (worst / reach)[order]
+                "variance_share",
+                "-",
+                f"share of this source in the variance of {output}",
+                sigma[order] ** 2 / (variance if variance > 0 else 1.0),
+                "share of variance",
+            ),
+            Column(
+                "sensitivity",
+                "-" if unit == "m" else f"{unit}/m",
+                f"deviation of {output} relative to the displacement of the source",
+                (worst / reach)[order],
+                "sensitivity",
             ),
         ),
     )
@@ -115,26 +137,26 @@ def _tornado(name, unit, sources, share):
 
 def _label(source):
     if source.law == CIRCLE:
-        return f"play {source.name}"
+        return f"clearance {source.name}"
     return f"{source.name} [{source.direction[0]:.3g}, {source.direction[1]:.3g}]"
 
 
 def _bent(names):
     if names:
         yield (
-            f"tolerances: the worst combination by linear theory, closed exactly, is more than {STRAIGHT:.0%} off what linear theory says "
-            f"of it: {', '.join(names)}"
+            f"tolerances: at the worst-case combination, linear theory deviates by more than {STRAIGHT:.0%} from the exactly closed "
+            f"mechanism for {', '.join(names)}; use the Monte Carlo values there"
         )
 
 
 def _findings(sources, closed, samples):
     if not closed.all():
         yield (
-            f"tolerances: {np.sum(~closed)} of {len(closed)} random mechanisms do not close and are left out of the numbers; the "
-            "deviations are too large for this position"
+            f"tolerances: {np.sum(~closed)} of {len(closed)} sampled mechanisms do not close and are left out of the statistics; the "
+            "deviations are too large for this position: choose another angle or smaller tolerances"
         )
     for source in sources:
         if not source.ends and not source.marks:
-            yield f"tolerances: {source.name} carries no joint and no output; its tolerance moves nothing"
+            yield f"tolerances: {source.name} carries neither a joint nor an output, so its tolerance has no effect"
     if len(closed) < samples:
         yield f"tolerances: interrupted after {len(closed)} of {samples} samples"

@@ -174,6 +174,7 @@ def _pin(model, run, record, number, name, ends, numbers):
         }
     )
     numbers.whole.update({f"{name}.{key}": float(mean_per_turn(record.t, x, record.t[[0, -1]])[0]) for key, x in means.items()})
+    numbers.whole[f"{name}.coefficient"] = _mean_coefficient(record.t, pin)
     if len(ends) > 1:
         numbers.turns.update(
             {
@@ -183,6 +184,13 @@ def _pin(model, run, record, number, name, ends, numbers):
             }
         )
         numbers.turns.update({f"{name}.{key}": mean_per_turn(record.t, x, ends) for key, x in means.items()})
+
+
+def _mean_coefficient(t, pin):
+    """Work of friction over that of the normal force times the sliding path: the coefficient at which the pin slid; nan without sliding."""
+    pressed, lost = np.abs(pin["normal"] * pin["slip"]), np.abs(pin["friction"] * pin["slip"])
+    work = time_mean(t, pressed)
+    return float(time_mean(t, lost) / work) if work > 0.0 else np.nan
 
 
 def largest_per_turn(t: Floats, x: Floats, ends: Floats) -> Floats:

@@ -11,6 +11,7 @@ import numpy as np
 from drivewright import cases
 from drivewright._typing import Floats
 from drivewright.contact.wear import deposit, extrapolate_wear
+from drivewright.labels import in_words
 from drivewright.multibody.analyses.ensemble import Statistics, orbit_turns, perturbed_start
 from drivewright.multibody.analyses.simulation_model import TURN, SimulationModel
 from drivewright.multibody.analyses.turns import RunNumbers, acceleration, ideal_peak, mean_per_turn, start_of_window, turn_ends
@@ -96,7 +97,7 @@ def wear(model: SimulationModel, bearing: WearingBearing) -> Answer:
     jump = bearing.cycles / bearing.jumps
     findings = _findings(bearing, first.depth, max((jump * np.max(stage.per_turn) for stage in first.stages), default=0.0))
     if first.advice:
-        findings = (*findings, f"wear ends after {count} of {bearing.jumps} jumps: {first.advice}")
+        findings = (*findings, f"wear stops after {count} of {bearing.jumps} jumps: {first.advice}")
     return Answer(
         _values(bearing, run_statistics, count * jump), tables, findings=findings, outcome="partial" if first.advice else "complete"
     )
@@ -192,18 +193,17 @@ def _loads(record, model):
 
 
 def _values(joint: WearingBearing, run_statistics: Statistics, cycles: float):
-    name = joint.joint
+    name, label = joint.joint, f"joint {in_words(joint.joint)}"
 
-    def of(key, unit, meaning):
-        return Value.of(run_statistics.of_run(key, "rubbing"), unit, meaning)
+    def of(key, unit, meaning, short):
+        return Value.of(run_statistics.of_run(key, "rubbing"), unit, f"{meaning} of {label}", f"{short}, {label}")
 
+    growth = "maximum growth of the radial clearance (half the wear of two opposite sides)"
     return {
-        f"wear.{name}.max_depth": of("max_depth", "m", f"largest depth worn off the bearing of joint {name!r}"),
-        f"wear.{name}.volume": of("volume", "m^3", f"volume worn off the bearing of joint {name!r}"),
-        f"wear.{name}.clearance_growth": of(
-            "clearance_growth", "m", f"largest growth of the radial clearance of joint {name!r}: half of what two opposite sides lost"
-        ),
-        f"wear.{name}.cycles": Value(float(cycles), "-", "turns of the drive behind it"),
+        f"wear.{name}.max_depth": of("max_depth", "m", "maximum wear depth of the bearing", "maximum wear depth"),
+        f"wear.{name}.volume": of("volume", "m^3", "wear volume of the bearing", "wear volume"),
+        f"wear.{name}.clearance_growth": of("clearance_growth", "m", growth, "maximum clearance growth"),
+        f"wear.{name}.cycles": Value(float(cycles), "-", "turns of the drive that the wear covers", label=f"turns with wear, {label}"),
     }
 
 
@@ -223,12 +223,18 @@ def _profiles(joint, histories):
     middle, bins = after.shape[1] // 2, after.shape[2]
     return Table(
         f"wear.{joint.joint}",
-        f"Wear of the bearing of joint {joint.joint!r}",
+        f"Wear profile of joint {in_words(joint.joint)}",
         (
-            Column("angle", "rad", f"place on the bearing, in the frame of {joint.body!r}", np.arange(bins) * TURN / bins),
-            *_columns("first", "m", "depth after the first jump", after[:, 0]),
-            *_columns("middle", "m", f"depth after jump {middle + 1} of {after.shape[1]}", after[:, middle]),
-            *_columns("last", "m", "depth at the end", after[:, -1]),
+            Column(
+                "angle",
+                "rad",
+                f"angle on the bearing, in the frame of {in_words(joint.body)}",
+                np.arange(bins) * TURN / bins,
+                "bearing angle",
+            ),
+            *_columns("first", "m", "wear depth after the first jump", after[:, 0]),
+            *_columns("middle", "m", f"wear depth after jump {middle + 1} of {after.shape[1]}", after[:, middle]),
+            *_columns("last", "m", "wear depth at the end", after[:, -1]),
         ),
     )
 
@@ -240,18 +246,18 @@ def _development(model, joint, histories):
         return np.array([[number(stage) for stage in each.stages] for each in histories])
 
     loads = [
-        _columns(f"impact_load.{output.name}", "-", f"impact load coefficient of {output.name!r}", stages(lambda at, k=k: at.loads[k]))
+        _columns(f"impact_load.{output.name}", "-", f"impact load, {in_words(output.name)}", stages(lambda at, k=k: at.loads[k]))
         for k, output in enumerate(model.outputs)
     ]
     return Table(
         f"wear.{joint.joint}.cycles",
-        f"Joint {joint.joint!r} while it wears",
+        f"Wear history of joint {in_words(joint.joint)}",
         (
-            Column("cycles", "-", "turns of the drive behind it", np.array([stage.cycles for stage in histories[0].stages])),
-            *_columns("max_depth", "m", "largest depth", stages(lambda at: np.max(at.depth))),
-            *_columns("volume", "m^3", "volume worn off", stages(lambda at: volume_of(joint, at.depth))),
-            *_columns("volume_per_turn", "m^3", "volume that a turn wears off", stages(lambda at: volume_of(joint, at.per_turn))),
-            *_columns("max_force", "N", f"largest force in joint {joint.joint!r}", stages(lambda at: at.force)),
+            Column("cycles", "-", "turns of the drive with wear", np.array([stage.cycles for stage in histories[0].stages])),
+            *_columns("max_depth", "m", "maximum wear depth", stages(lambda at: np.max(at.depth))),
+            *_columns("volume", "m^3", "wear volume", stages(lambda at: volume_of(joint, at.depth))),
+            *_columns("volume_per_turn", "m^3", "wear volume per turn", stages(lambda at: volume_of(joint, at.per_turn))),
+            *_columns("max_force", "N", "peak force in the joint", stages(lambda at: at.force)),
             *sum(loads, ()),
         ),
     )
@@ -268,13 +274,13 @@ def _findings(joint, depth, step):
     findings, slope = [], float(np.max(np.abs(np.diff(depth, append=depth[0])))) * len(depth) / TURN
     if slope > FLAT * joint.clearance:
         findings.append(
-            f"wear of joint {joint.joint!r}: the worn profile has slopes of {1e3 * slope:.3g} mm/rad beside a clearance of "
-            f"{1e3 * joint.clearance:.3g} mm. The contact is looked for on the side where the journal's centre is; that is good up to "
-            f"slopes of about {FLAT:g} times the clearance. Take fewer cycles, or fewer bins"
+            f"wear of joint {joint.joint!r}: the worn profile has slopes up to {1e3 * slope:.3g} mm/rad at a clearance of "
+            f"{1e3 * joint.clearance:.3g} mm. The contact is evaluated in the direction of the journal's centre, which is accurate up to "
+            f"slopes of about {FLAT:g} times the clearance. Use fewer cycles or fewer bins"
         )
     if step > SMALL * joint.clearance:
         findings.append(
-            f"wear of joint {joint.joint!r}: a jump takes off up to {1e3 * step:.3g} mm, {step / joint.clearance:.2g} times the "
-            f"clearance of {1e3 * joint.clearance:.3g} mm, as if the motion stayed the same meanwhile; take more jumps"
+            f"wear of joint {joint.joint!r}: one jump removes up to {1e3 * step:.3g} mm, {step / joint.clearance:.2g} times the clearance "
+            f"of {1e3 * joint.clearance:.3g} mm, while the motion is assumed unchanged; increase jumps"
         )
     return tuple(findings)

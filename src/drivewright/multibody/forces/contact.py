@@ -56,7 +56,7 @@ class Dry:
     friction: Friction = Friction()
     law: tuple[Any, ...] | None = None  # a law of `contact.normal_force` instead; stiffness and exponent tell roughly how hard it is
 
-    noun: ClassVar[str] = "play"
+    noun: ClassVar[str] = "clearance"
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Lubricated:
     film: str = "long"  # long | short | reynolds: of its length, by a table
     roughness: float = 1e-6  # least film thickness; film and contact blend over this depth [m]
 
-    noun: ClassVar[str] = "play"
+    noun: ClassVar[str] = "clearance"
 
     @property
     def clearance(self) -> float:

@@ -20,7 +20,7 @@ class MasslessLink:
     damping: float = 0.0  # of the link's own rotation [N m s/rad]
     angle: float = 0.0  # start angle, from the centre of the first body's pin towards that of the second's [rad]
 
-    noun: ClassVar[str] = "play"
+    noun: ClassVar[str] = "clearance"
 
 
 Play: TypeAlias = MasslessLink | Dry | Lubricated | Bushing

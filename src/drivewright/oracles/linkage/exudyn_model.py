@@ -96,7 +96,7 @@ class _Twin:
     @singledispatchmethod
     def add(self, element: object) -> None:
         raise InputError(
-            f"verify: Exudyn's twin has no {type(element).__name__} ('{getattr(element, 'name', '')}'); it knows revolute, "
+            f"verify: the Exudyn model does not support {type(element).__name__} ('{getattr(element, 'name', '')}'); it supports revolute, "
             "prismatic and pin-slot joints, springs, constant torques and forces, and drives of constant speed."
         )
 
@@ -107,7 +107,9 @@ class _Twin:
         elif isinstance(joint.model, mb.Ideal):
             self.system.AddObject(item.ObjectJointRevolute2D(markerNumbers=[self.marker(joint.first), self.marker(joint.second)]))
         else:
-            raise InputError(f"verify: joint '{joint.name}' is a {type(joint.model).__name__}; Exudyn's twin knows ideal and dry pins.")
+            raise InputError(
+                f"verify: joint '{joint.name}' is a {type(joint.model).__name__}; the Exudyn model supports ideal and dry pins."
+            )
 
     def _contact(self, joint):
         dry, gap = joint.model, _checked_gap(joint, self.place(joint.first) - self.place(joint.second))
@@ -196,7 +198,7 @@ class _Twin:
         if not isinstance(joint, mb.Revolute) or np.any(drive.motion.coefficients[:, 2:]) or np.ptp(drive.motion.coefficients[:, 1]):
             raise InputError(
                 f"verify: the drive of '{drive.joint}' does not turn a revolute joint at constant speed; "
-                "Exudyn's twin knows no other drive."
+                "the Exudyn model supports no other drive."
             )
         first, second = joint.first.body, joint.second.body
         self.system.AddObject(
@@ -214,28 +216,28 @@ def _checked_gap(joint, eccentricity):
     gap = dry.clearance - abs(eccentricity)
     if not 0 < gap < dry.clearance:
         raise InputError(
-            f"verify: joint '{joint.name}' starts {abs(eccentricity):.3g} m off centre with a play of {dry.clearance:.3g} m; "
-            "Exudyn must start between centre and contact. Give start poses that part the two by half the play."
+            f"verify: joint '{joint.name}' starts {abs(eccentricity):.3g} m off centre with a clearance of {dry.clearance:.3g} m; "
+            "Exudyn must start between centre and contact. Give start poses with an eccentricity of half the clearance."
         )
     if dry.law is not None or dry.cylinder or not dry.hysteresis < 1.5:
         other = "the cylinder law" if dry.cylinder else f"a hysteresis of {dry.hysteresis:g}"
         law = other if dry.law is None else f"a law of its own, {type(dry.law).__name__},"
         raise InputError(
             f"verify: joint '{joint.name}' has {law}; Exudyn's contact is K d^n with a hysteresis below 1.5. "
-            "Take another law or a higher restitution."
+            "Use another law or a higher restitution."
         )
     law, coefficient, dead = dry.friction.law, dry.friction.coefficient, dry.friction.dead_speed
     if law != "none" and coefficient and (law != "ambrosio" or dead):
         raise InputError(
             f"verify: joint '{joint.name}' has friction '{law}' with a dead speed of {dead:g} m/s; Exudyn's is a ramp from 0. "
-            "Take 'ambrosio' with dead_speed 0."
+            "Use 'ambrosio' with dead_speed 0."
         )
     return gap
 
 
 def _constant(name, curve):
     if np.any(curve.coefficients[:, 1:]) or np.ptp(curve.coefficients[:, 0]):
-        raise InputError(f"verify: '{name}' is not constant; Exudyn's twin knows constant torques and forces.")
+        raise InputError(f"verify: '{name}' is not constant; the Exudyn model supports constant torques and forces only.")
     return float(curve.coefficients[0, 0])
 
 
@@ -253,4 +255,4 @@ def _solve(system, duration, step, samples):
     try:
         system.SolveDynamic(settings, solverType=exudyn.DynamicSolverType.TrapezoidalIndex2)
     except Exception as error:  # Exudyn's own errors share no base class
-        raise SolverError(f"verify: Exudyn gave up on the linkage ({error}); try a smaller step.") from None
+        raise SolverError(f"verify: Exudyn did not solve the linkage ({error}); use a smaller step.") from None

@@ -115,10 +115,17 @@ def _turn(model, chain):
     for k, row in ((1, COUPLER_TURN), (2, ROCKER_TURN)):
         name = chain.bodies[k]
         apart = np.angle(e[k] / other[k])
-        yield f"{name}, angle: largest difference over a turn", 0.0, float(np.max(np.abs(apart))), "rad", 1e-9, ROUTE
+        yield f"{name}, angle: maximum difference over a turn", 0.0, float(np.max(np.abs(apart))), "rad", 1e-9, ROUTE
         alpha, closed = observed.body(model.assembly.names.index(name), "alpha"), bent[row].real * speed**2
         worst, size = np.argmax(np.abs(alpha - closed)), float(np.max(np.abs(closed)))
-        yield f"{name}, angular acceleration where it is farthest", float(alpha[worst]), float(closed[worst]), "rad/s^2", 1e-9 * size, ROUTE
+        yield (
+            f"{name}, angular acceleration at the maximum difference",
+            float(alpha[worst]),
+            float(closed[worst]),
+            "rad/s^2",
+            1e-9 * size,
+            ROUTE,
+        )
 
 
 # -- massless links --------------------------------------------------------------------------------------------------------------

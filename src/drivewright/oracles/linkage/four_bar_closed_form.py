@@ -213,7 +213,7 @@ def ideal_motion(bar: FourBar, crank: Floats) -> tuple[Complexes, Complexes, Com
     if np.any(wrong := (gap > l3 + l4) | (gap < abs(l3 - l4))):
         raise DoesNotAssemble(
             f"linkage: at crank angle {np.degrees(crank[wrong][0]):.1f} deg A and O4 are {gap[wrong][0]:.6g} m apart, but coupler and "
-            f"rocker reach over {abs(l3 - l4):.6g} .. {l3 + l4:.6g} m. Change a length or keep the crank out of there."
+            f"rocker span {abs(l3 - l4):.6g} to {l3 + l4:.6g} m. Change a length, or restrict the crank angle."
         )
     e, still = plain(positions)(tight, crank, np.zeros(4)), np.zeros(4)
     v, a = np.empty((2, 5, crank.size), np.complex128)

@@ -54,12 +54,12 @@ def _closed_joints(model, states):
     for kind, miss in misses.items():
         if miss:
             yield (
-                f"joints without play, {kind.__name__.lower()}: largest gap",
+                f"ideal joints, {kind.__name__.lower()}: maximum gap",
                 0.0,
                 float(np.max(miss)),
                 "m",
                 1e-9 * places.size,
-                "places of both halves from the bodies' poses",
+                "joint positions from the poses of both bodies",
             )
 
 
@@ -91,14 +91,14 @@ def _newton_euler(model, states):
     """What no reactions of the joints could make up for in the equations of every body; the drives' torques by these equations."""
     solved = [reactions(model.assembly, system, observed) for system, observed in states]
     left = max(float(np.max(solution.residual)) for solution in solved)
-    yield "Newton and Euler for every body: largest remainder, over the largest force", 0.0, left, "-", 1e-8, ABSOLUTE
+    yield "Newton-Euler equations: maximum residual, relative to the largest force", 0.0, left, "-", 1e-8, ABSOLUTE
     ours, other = (
         np.concatenate(parts) for parts in ([observed.drives for _, observed in states], [solution.drives for solution in solved])
     )
     for k, drive in enumerate(model.assembly.model.drives):
         worst, size = np.argmax(np.abs(ours[:, k] - other[:, k])), float(np.max(np.abs(ours[:, k])))
         unit = "N" if isinstance(next(j for j in model.assembly.model.joints if j.name == drive.joint), Prismatic) else "N m"
-        name = f"drive of {drive.joint!r}, where it is farthest from the other"
+        name = f"drive of {drive.joint!r}, at the maximum difference"
         yield name, float(ours[worst, k]), float(other[worst, k]), unit, 1e-8 * size + 1e-12, ABSOLUTE
 
 
@@ -111,7 +111,7 @@ def _friction(model, states):
         ours, other = (np.concatenate(part) for part in zip(*parts, strict=True))
         worst, size = np.argmax(np.abs(ours - other)), float(np.max(np.abs(other)))
         unit = "N m" if isinstance(joint, (Revolute, Rolling)) else "N"
-        name = f"friction in {joint.name!r} over its coefficient, where it is farthest"
+        name = f"friction in {joint.name!r} over its coefficient, at the maximum difference"
         yield name, float(ours[worst]), float(other[worst]), unit, 1e-7 * size + 1e-12, ABSOLUTE
 
 
@@ -141,12 +141,12 @@ def _differences(model):
         bent = (angle[2:] - 2 * angle[1:-1] + angle[:-2]) / step**2
         worst, size = np.argmax(np.abs(bent - alpha)), float(np.max(np.abs(alpha)))
         yield (
-            f"{output.name}, angular acceleration where it is farthest",
+            f"{output.name}, angular acceleration at the maximum difference",
             float(alpha[worst]),
             float(bent[worst]),
             "rad/s^2",
             1e-4 * size + 1e-14 / step**2,
-            "differences of the angle",
+            "finite differences of the angle",
         )
 
 
@@ -156,7 +156,7 @@ def _differences(model):
 def _exudyn_rows(model):
     """The rows of Exudyn, or why there are none."""
     if missing := _missing_in_exudyn(model):
-        yield LeftOut(IN_EXUDYN, f"its model in Exudyn does not know {missing}")
+        yield LeftOut(IN_EXUDYN, f"its Exudyn model does not support {missing}")
         return
     try:
         yield from _exudyn(model)
@@ -175,8 +175,8 @@ def _missing_in_exudyn(model):
     smooth_joints = model.assembly.freedom == 0 or not any(joint.friction_force for joint in wide.joints)
     massive = all(body.mass > 0 and body.inertia > 0 for body in wide.bodies)
     known = {
-        "the law of a joint with play": smooth,
-        "a kind of joint": joints,
+        "the law of a joint with clearance": smooth,
+        "a type of joint": joints,
         "friction in ideal joints": smooth_joints,
         "loads from a table": not tables,
         "a drive of variable speed": steady,
@@ -200,7 +200,7 @@ def _exudyn(model):
     kind = "dry" if model.pins else "smooth"
     state = _start(model)
     if state is None:
-        yield LeftOut(IN_EXUDYN, "at no recorded instant are all pins in flight")
+        yield LeftOut(IN_EXUDYN, "there is no recorded instant at which all pins are in flight")
         return
     system, t, y, start = state
     length = _until_lasting(model, system, t, y, min(PART[kind] * (model.period or LONGEST), model.run_length))
