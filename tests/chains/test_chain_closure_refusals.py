@@ -13,7 +13,7 @@ JOINT = design_link(9.525e-3, 1.2e-3, np.pi / 6, 2.6e-3)
 GOOD = Drive(JOINT, 35, 37, 82)
 
 CASES = [
-    ({"links": 30}, DoesNotAssemble, "30 links do not reach around the sprocket with 37 teeth, let alone both. Take at least 59, with"),
+    ({"links": 30}, DoesNotAssemble, "30 links do not reach around the sprocket with 37 teeth and the other one. Take at least 59, with"),
     ({"driver_teeth": 37, "links": 38}, DoesNotAssemble, "38 links around 37 and 37 teeth leave no free plate in a strand, at a centre d"),
     ({"driven_teeth": 5, "links": 40}, DoesNotAssemble, "40 links around 35 and 5 teeth leave fewer than two plates on a sprocket"),
     ({"links": 82.0}, InputError, "chain: links = 82.0; it must be a whole number from 1 up"),
@@ -21,7 +21,7 @@ CASES = [
     ({"driven_teeth": True}, InputError, "chain: driven_teeth = true; it must be a whole number from 5 up"),
     ({"driven_teeth": np.nan}, InputError, "chain: driven_teeth = nan"),
     ({"strands": "strait"}, UnknownName, "no form of the strands is called 'strait' (did you mean 'straight'?); known: equilibrium, str"),
-    ({"link": Link(9e-3, 4.5e-3, 0.5, 3e-3)}, InputError, "hole pitch 9 mm and rolling radius 4.5 mm; the radius must be 0 or more, and"),
+    ({"link": Link(9e-3, 4.5e-3, 0.5, 3e-3)}, InputError, "hole pitch 9 mm and rolling radius 4.5 mm; the radius must be at least"),
     ({"link": Link(9e-3, -1e-3, 0.5, 3e-3)}, InputError, "rolling radius -1 mm"),
     ({"link": Link(np.nan, 1e-3, 0.5, 3e-3)}, InputError, "hole pitch nan mm"),
     ({"link": Link(np.inf, 1e-3, 0.5, 3e-3)}, InputError, "hole pitch inf mm"),
@@ -64,7 +64,7 @@ def test_a_departure_checks_its_input(teeth, strands, kind, message):
 
 
 @pytest.mark.parametrize(
-    "outcome, what", [(tracking.LOST, "position of the plates is not found"), (tracking.RESTLESS, "seats of the plates do not settle")]
+    "outcome, what", [(tracking.LOST, "position of the plates is not found"), (tracking.RESTLESS, "seats of the plates do not converge")]
 )
 def test_a_solver_that_gives_up_says_where_and_hands_over_what_it_had(monkeypatch, outcome, what):
     follow = tracking.follow
@@ -78,7 +78,8 @@ def test_a_solver_that_gives_up_says_where_and_hands_over_what_it_had(monkeypatc
     with pytest.raises(SolverError) as caught:
         close(GOOD)
     angle = np.degrees(caught.value.partial.driver_angle[-1])
-    assert f"the {what} beyond {angle:.4f} deg of the driver, after 20 samples, at a centre distance of about 219.1 mm" in str(caught.value)
+    words = f"the {what} beyond a driver angle of {angle:.4f} deg, after 20 samples, at a centre distance of about 219.1 mm"
+    assert words in str(caught.value)
     assert len(caught.value.partial.driver_angle) == 20
     monkeypatch.setattr(tracking, "solve_at", lambda *given: np.inf)
     with pytest.raises(SolverError, match="states_at: a position between two samples is not found"):

@@ -45,7 +45,7 @@ def test_chains(change, told):
     [
         ({"contact": ChainContact(0.0)}, "sprocket 2: contact stiffness must be finite and above 0, got 0"),
         ({"inertia": 0.0}, "sprocket 2: inertia of a sprocket without a drive must be finite and above 0"),
-        ({"mass": 0.0}, "sprocket 2: mass of what slides"),
+        ({"mass": 0.0}, "sprocket 2: mass of a body on a slide"),
         ({"tip_radius": 0.01, "form_radius": 0.02}, "sprocket 2: tip radius 0.01 m must exceed form radius 0.02 m"),
         ({"slide": Slide(0.0, 1.0, damping=-1.0)}, "sprocket 2: slide damping must be finite and 0 or more"),
     ],
@@ -56,7 +56,7 @@ def test_sprockets(change, told):
 
 
 def test_drives():
-    with pytest.raises(InputError, match="1 sprocket cannot hold a loop"):
+    with pytest.raises(InputError, match="1 sprocket is not enough for a loop"):
         ChainDrive(CHAIN, (DRIVER,))
     with pytest.raises(InputError, match="no sprocket is driven"):
         ChainDrive(CHAIN, (DRIVEN, DRIVEN))
@@ -71,7 +71,7 @@ def test_a_step_beyond_stability_names_the_largest():
 
 def test_literal_contact_damping_is_told_as_over_critical():
     stiff = with_sprocket(MODEL, 0, contact=ChainContact(1e7, 1e4))
-    with pytest.raises(InputError, match="damping of joints or contacts is .* times critical; take that step, .* or solve implicitly"):
+    with pytest.raises(InputError, match="damping of joints or contacts is .* times critical; take that step, .* or integrate implicitly"):
         simulate(stiff, 0.01)
 
 
@@ -83,7 +83,7 @@ def test_a_flank_too_short_for_its_seat():
 
 
 def test_loops_that_do_not_close():
-    with pytest.raises(DoesNotAssemble, match="takes .* pitches, the chain has 24"):
+    with pytest.raises(DoesNotAssemble, match="needs .* pitches, the chain has 24"):
         start(with_sprocket(MODEL, 1, slide=None, centre=(0.09, 0.0)))
     with pytest.raises(InputError, match="leaves the chain slack .*point its direction outward"):
         start(with_sprocket(MODEL, 1, slide=Slide(0.0, -150.0)))

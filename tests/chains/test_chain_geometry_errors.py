@@ -70,7 +70,7 @@ def test_plate_refuses_steep_flanks_and_unknown_sides():
 
 
 def test_a_stack_needs_alternating_sheets():
-    refuses("lacing 1 x 3: sheets that alternate", sheet_heights, design_plate(CHAIN), (1, 3))
+    refuses("lacing 1 x 3: alternating plates", sheet_heights, design_plate(CHAIN), (1, 3))
 
 
 @pytest.mark.parametrize(

@@ -31,16 +31,16 @@ def model(force=75.0, stiffness=1e8, speed=-60.0, torque=0.0):
 @pytest.mark.parametrize(
     "call, says",
     [
-        (lambda: equilibrium("drive"), "equilibrium: wants a ChainDrive, got str"),
+        (lambda: equilibrium("drive"), "equilibrium: needs a ChainDrive, got str"),
         (lambda: equilibrium(model(), 0), "positions = 0; it must be a whole number from 1 up"),
         (lambda: equilibrium(model(), 4, teeth=1.5), "teeth = 1.5; it must be a whole number"),
-        (lambda: equilibrium(model(force=0.0)), "nothing holds the slide of sprocket 2; give it a force or a stiffness"),
-        (lambda: simulate("drive", 1.0), "simulate: wants a ChainDrive, got str"),
+        (lambda: equilibrium(model(force=0.0)), "the slide of sprocket 2 has neither force nor stiffness; give one of them"),
+        (lambda: simulate("drive", 1.0), "simulate: needs a ChainDrive, got str"),
         (lambda: simulate(model(), -1.0), "the duration must be finite and above 0 s, got -1"),
         (lambda: simulate(model(), 1.0, Settings(rho=1.2)), "rho = 1.2; the highest frequencies shrink by a factor from 0 to 1"),
         (lambda: simulate(model(), 1.0, Settings(step=0.0)), "step must be above 0, got 0"),
         (lambda: simulate(model(), 1.0, Settings(samples_per_tooth=5)), "5 samples per tooth alias"),
-        (lambda: simulate(model(speed=0.0), 1.0), "the driver stands still"),
+        (lambda: simulate(model(speed=0.0), 1.0), "the driver does not turn"),
         (lambda: simulate(model(), 1.0, Settings(joints=(24,))), "there is no joint 24; the chain has 0 .. 23"),
     ],
 )
@@ -52,13 +52,13 @@ def test_refusals_say_what_and_how_much(call, says):
 
 def test_no_rest_under_more_torque_than_the_chain_carries():
     """The driven sprocket jumps teeth for ever: the message says how much is unbalanced and what to try."""
-    with pytest.raises(SolverError, match=r"position 0 of 4 per tooth .* N stay unbalanced, more than .* slide's force") as error:
+    with pytest.raises(SolverError, match=r"position 0 of 4 per tooth .* N remains unbalanced, more than .* slide's force") as error:
         equilibrium(model(torque=500.0), 4)
     assert error.value.partial is None
 
 
 def test_step_that_does_not_settle():
-    with pytest.raises(SolverError, match=r"does not settle at t = .* shorten the step of 0\.00\d+ s") as error:
+    with pytest.raises(SolverError, match=r"does not converge at t = .* shorten the step of 0\.00\d+ s") as error:
         simulate(model(torque=300.0), 0.1, Settings(step=4e-4))
     assert len(error.value.partial.t) >= 1
 

@@ -231,7 +231,7 @@ def test_a_fixed_chain_loses_its_pull_where_the_centrifugal_force_is_its_tension
         (lambda: drive(idler(travel=(-0.015, 0.015)), links=104), r"104 links are .* links \(.* mm\) too long: .*'idler' moves by 15 mm"),
         (
             lambda: drive(idler(travel=(-0.015, 0.015)), links=92),
-            r"92 links are .* too short: .* Take \d*[02468] links more, give it more travel",
+            r"92 links are .* too short: .* Take \d*[02468] more links, give it more travel",
         ),
         (lambda: drive(wheel(15, (0.13, 0.0), name="lost")), "does not reach sprocket 'lost': the nearest strand passes .* mm away"),
         (lambda: drive(wheel(15, (0.13, 0.09), outside=True)), "does not reach sprocket 3"),
@@ -265,7 +265,7 @@ def test_bodies_that_are_too_near_are_named():
 def test_teeth_outside_meet_rollers_only():
     from drivewright.chains.tooth import Tooth
 
-    with pytest.raises(InputError, match="sprocket 3: teeth outside of the loop meet rollers only"):
+    with pytest.raises(InputError, match="sprocket 3: outside of the loop it meshes with roller chains only"):
         drive(replace(wheel(15, (0.13, 0.036), outside=True), tooth=Tooth(15, 0.02, -0.01)))
 
 

@@ -56,12 +56,12 @@ def test_least_wrap():
 
 
 def test_loops():
-    refused("wants two circles or more, got 1", s.loop_length, [(0, 0, 1)])
+    refused("needs two circles or more, got 1", s.loop_length, [(0, 0, 1)])
     refused("turn of circle 2 must be .1 .counter-clockwise. or -1, got 0", s.loop_length, [(0, 0, 1), (5, 0, 1, 0)])
-    refused("circle 1 wants a finite centre and a radius of 0 or more", s.loop_length, [(0, NAN, 1), (5, 0, 1)])
-    refused("circle 2 wants a finite centre and a radius of 0 or more", s.loop_length, [(0, 0, 1), (5, 0, -1)])
+    refused("circle 1 needs a finite centre and a radius of 0 or more", s.loop_length, [(0, NAN, 1), (5, 0, 1)])
+    refused("circle 2 needs a finite centre and a radius of 0 or more", s.loop_length, [(0, 0, 1), (5, 0, -1)])
     refused(
-        "no strand fits between circle 1 and the next: their centres are 1000 mm apart, and it takes more than 2000 mm",
+        "no strand fits between circle 1 and the next: their centres are 1000 mm apart and must be more than 2000 mm apart",
         s.loop_length,
         [(0, 0, 1), (1, 0, 3)],
     )
@@ -111,8 +111,8 @@ def test_numbers_of_silent_chains_that_mean_nothing():
     refused("pitch and width of 'SC300' must be above 0", s.silent_chain, "SC300")
     refused("pitch must be a multiple of 1/8 in and its width of 1/4 in, got 3 and 2.2", s.silent_number, P, 14e-3)
     refused("1/16 in and its width of 1/32 in, got 2.52 and 8", s.silent_number, 4e-3, 6.35e-3)
-    refused("no number says 3 steps of pitch and 100 of width", s.silent_number, P, 25 * 25.4e-3)
-    refused("no number says 100 steps of pitch", s.silent_number, 12.5 * 25.4e-3, 25 * 25.4e-3)
+    refused("no chain number exists for 3 steps of pitch and 100 of width", s.silent_number, P, 25 * 25.4e-3)
+    refused("no chain number exists for 100 steps of pitch", s.silent_number, 12.5 * 25.4e-3, 25 * 25.4e-3)
 
 
 def test_forces():
@@ -127,7 +127,7 @@ def test_forces():
 
 def test_strands():
     refused(
-        "at 40 m/s it is faster than its waves, 37.79.*the tension must exceed the centrifugal one",
+        "speed of 40 m/s exceeds the wave speed of 37.79.*the tension must exceed the centrifugal tension",
         s.strand_frequency,
         1000.0,
         0.7,

@@ -83,10 +83,10 @@ def test_a_blade_gives_way_until_the_pitch_is_its_own():
 
 def test_what_gives_way_has_to_be_one_body():
     still = drive(wheel(21, (0.11, -0.08)), links=102, distance=0.3195)
-    with pytest.raises(InputError, match="nothing gives way"):
+    with pytest.raises(InputError, match="no body can move"):
         yielding(still, balanced(drive(distance=0.32)))
     both = drive(idler(), slide=Slide(0.0, 100.0))
-    with pytest.raises(InputError, match="2 bodies give way, so that forces decide"):
+    with pytest.raises(InputError, match="2 bodies can move, so that their positions depend on the forces"):
         yielding(both, balanced(both))
 
 

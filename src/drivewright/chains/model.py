@@ -214,12 +214,14 @@ def check(model: ChainDrive) -> None:
     """InputError where the description has no meaning."""
     _check_chain(model.chain)
     if len(model.sprockets) < 2:
-        raise InputError(f"chain drive: {len(model.sprockets)} sprocket cannot hold a loop; give two or more.")
+        raise InputError(f"chain drive: {len(model.sprockets)} sprocket is not enough for a loop; give two or more.")
     for number, sprocket in enumerate(model.sprockets, 1):
         _check_sprocket(sprocket, f"sprocket {number}")
     for number, sprocket in enumerate(model.sprockets, 1):
         if sprocket.outside and not isinstance(sprocket.tooth, RollerTooth):
-            raise InputError(f"sprocket {number}: teeth outside of the loop meet rollers only; press on the backs of plates with a guide.")
+            raise InputError(
+                f"sprocket {number}: outside of the loop it meshes with roller chains only; use a guide on the backs of plates."
+            )
     if not any(sprocket.drive for sprocket in model.sprockets):
         raise InputError("chain drive: no sprocket is driven; give one a SpeedRamp(speed).")
     for number, guide in enumerate(model.guides, 1):
@@ -276,7 +278,7 @@ def _check_guide(guide, where):
 def _check_slide(body, where):
     if body.slide is None:
         return
-    _above(where, "mass", body.mass, " of what slides")
+    _above(where, "mass", body.mass, " of a body on a slide")
     _from_zero(where, "slide damping", body.slide.damping)
     _from_zero(where, "slide stiffness", body.slide.stiffness)
     _finite(f"{where}: slide", (body.slide.direction, body.slide.force, *(body.slide.pivot or ())))

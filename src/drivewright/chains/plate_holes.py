@@ -178,7 +178,7 @@ class RockerPins(NamedTuple):
             raise InputError(
                 f"RockerPins: thickness = {t * 1e3:.4g} mm; with back_radius {b * 1e3:.4g} mm and clearance "
                 f"{self.clearance * 1e3:.4g} mm it lies "
-                f"between {(b + 0.5 * self.clearance) * 1e3:.4g} mm, where the neighbour's disk swallows the seat, and "
+                f"between {(b + 0.5 * self.clearance) * 1e3:.4g} mm, where the neighbour's rocker covers the seat, and "
                 f"{2e3 * b:.4g} mm, and the "
                 f"rolling radius ({link.radius * 1e3:.4g} mm) exceeds back_radius."
             )

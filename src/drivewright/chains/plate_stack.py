@@ -16,7 +16,7 @@ def sheet_heights(plate: Plate, lacing: tuple[int, int], play: float = 0.0) -> t
     a, b = lacing
     if not (a >= 1 and b >= 1 and abs(a - b) <= 1 and float(a).is_integer() and float(b).is_integer()):
         raise InputError(
-            f"lacing {a:g} x {b:g}: sheets that alternate need two whole numbers from 1 on that differ by one at most, such as 2 x 3."
+            f"lacing {a:g} x {b:g}: alternating plates need two whole numbers of at least 1 that differ by at most 1, such as 2 x 3."
         )
     step = plate.thickness + play
     z = (np.arange(float(a + b)) - 0.5 * (a + b)) * step + 0.5 * play

@@ -58,10 +58,10 @@ def equivalent_pitch_table(pitch: float, radius: float, offset: float, teeth: in
     equivalent = np.asarray(meshing.equivalent_pitch(meshing.hole_pitch(pitch, radius), radius, offset, half, half))
     return Table(
         "equivalent_pitch",
-        "Equivalent pitch as published",
+        "Equivalent pitch, published method",
         (
             Column("turn", "rad", "angle between neighbouring plates", 2 * half),
             Column("pitch", "m", "equivalent pitch p''", equivalent),
-            Column("ideal", "m", "ideal pitch p/cos of half the angle", pitch / np.cos(half)),
+            Column("ideal", "m", "ideal pitch p/cos(half angle)", pitch / np.cos(half), "Ideal pitch"),
         ),
     )

@@ -22,13 +22,13 @@ REFUSED = (
     (
         r"\d+[ -]?H.*|.*-[ ]?H",
         "a heavy-series chain, whose plates are those of the next larger size. Give plate.thickness, plate.link_mass and breaking_load of "
-        "the maker beside the number without H",
+        "the maker in addition to the number without H",
     ),
     (
         r"(?:C|CA)?20[4-9]\d.*|C?21[026]\d.*|C?2[012]\d[AB].*",
         "a double-pitch chain, which meshes with every other tooth of its sprockets. Give pitch, roller, joint and plate",
     ),
-    (r"SC.*", "an inverted-tooth chain, whose joint and plates no standard prints. Give pitch, joint and plate"),
+    (r"SC.*", "an inverted-tooth chain, whose joint and plates are not standardised. Give pitch, joint and plate"),
 )
 
 
@@ -88,7 +88,7 @@ def chain_size(text: str) -> ChainSize:
     rows = int(found["rows"] or 1)
     if rows not in size:
         made = "one row" if len(size) == 1 else f"1 to {len(size)} rows"
-        raise InputError(f"roller chain {text!r}: {size[1].number} is in the table with {made}, not with {rows}; take -{max(size)}")
+        raise InputError(f"roller chain {text!r}: {size[1].number} is available with {made}, not with {rows}; take -{max(size)}")
     return size[rows]
 
 
@@ -116,7 +116,7 @@ def _key(number: str, series: str) -> str:
 def _refuse_known(text: str, plain: str) -> None:
     for form, what in REFUSED:
         if re.fullmatch(PREFIX + f"(?:{form})", plain):
-            raise InputError(f"chain {text[:80]!r} is no size of the table: {what}.")
+            raise InputError(f"chain {text[:80]!r} is not in the table of sizes: it is {what}.")
 
 
 def _rows_of_one() -> Iterator[ChainSize]:

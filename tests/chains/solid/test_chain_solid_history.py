@@ -158,8 +158,8 @@ def test_the_stress_table_draws_the_deformed_skin(body, axes):
     table = tables.stress_table("t", "title", pulled(), body, 1)
     assert [column.name for column in table.columns] == ["x", "y", "depth", "mises"]
     corners(table, "x", "y")
-    assert ", displacements drawn " in table["x"].meaning
-    assert table["x"].meaning.endswith(" times as large")
+    assert ", displacements magnified " in table["x"].meaning
+    assert table["x"].meaning.endswith(" times")
     skin = pulled().skins[body].points
     for name, axis in zip(("x", "y", "depth"), axes, strict=True):
         reach = np.ptp(skin[:, axis])

@@ -79,7 +79,7 @@ def test_keys_beside_it_win_and_are_told_of():
     found = dw.build(spec('pitch="12 mm"', 'plate.link_mass="9 g"', 'roller.diameter="8.51 mm"'))
     assert found.spec.pitch == 12e-3 and found.link_mass.mass == 9e-3
     about_pitch, about_mass = found.findings
-    assert "pitch = 12 mm" in about_pitch and "08B-1 has 12.7 mm" in about_pitch
+    assert "pitch = 12 mm" in about_pitch and "12.7 mm of chain 08B-1" in about_pitch
     assert "plate.link_mass = 0.009 kg" in about_mass and "0.008763 kg" in about_mass
     assert any("pitch = 12 mm" in finding for finding in run('pitch="12 mm"').findings)
 
@@ -172,7 +172,7 @@ def test_rows_of_a_silent_chain_share_the_force():
         (("chain=07B",), "chain", "did you mean 06B"),
         (("chain=60H",), "chain", "heavy-series"),
         (("chain=",), "pitch", 'is missing; give it, or the number of a roller chain, e.g. chain = "08B"'),
-        (('joint.kind="round-pin"', 'joint.rolling_radius="1 mm"'), "joint.kind", "rollers turn on one pin"),
+        (('joint.kind="round-pin"', 'joint.rolling_radius="1 mm"'), "joint.kind", "a roller chain has revolute joints"),
         (("chain=", 'pitch="12 mm"', 'joint.kind="revolute"', "roller.tooth_space=0.5"), "roller.diameter", "is missing"),
     ],
 )

@@ -117,7 +117,7 @@ def test_without_damping_of_the_articulation_the_run_does_not_settle():
 def test_less_than_two_revolutions_cannot_tell():
     found = run('dynamics.duration="75 ms"', "dynamics.ensemble=2")
     assert not found.check("settled").ok and not found.values[FLUCTUATION].settled
-    assert any("less than two revolutions" in finding for finding in found.findings)
+    assert any("shorter than two revolutions" in finding for finding in found.findings)
     assert found.values[FLUCTUATION].interval == "ensemble"
 
 

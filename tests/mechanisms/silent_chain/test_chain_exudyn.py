@@ -142,7 +142,7 @@ def test_what_the_twin_does_not_know(model, reason):
 def test_the_twin_refuses_what_it_does_not_know():
     exudyn_model = pytest.importorskip("drivewright.oracles.silent_chain.exudyn_model", exc_type=ImportError)
     model = with_guides(small())
-    with pytest.raises(InputError, match="the chain has guides; Exudyn's twin knows"):
+    with pytest.raises(InputError, match="the chain has guides; the Exudyn model supports"):
         exudyn_model.run(model, start(model), 1e-4, 1e-7, 2)
 
 
@@ -223,7 +223,7 @@ def spec(preset="default", *changes):
 def test_a_chain_that_exudyn_does_not_run_is_left_out_with_the_reason():
     assert exudyn_rows.missing_in_exudyn(chain_drive(MECHANISM.build(spec("default")))) == ""
     (left,) = exudyn_rows.rows(MECHANISM.build(spec("default", 'drive.ramp="10 ms"')))
-    assert left == ("the running chain in Exudyn", "its model in Exudyn does not know a driver that changes its speed or slides", "")
+    assert left == ("the running chain in Exudyn", "the Exudyn model does not support a driver that changes its speed or slides", "")
 
 
 def test_more_than_two_sprockets_are_left_out_with_the_reason():

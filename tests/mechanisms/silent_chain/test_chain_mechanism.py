@@ -98,7 +98,7 @@ def test_what_cannot_be_drawn_stops_only_what_needs_it():
     found = run((), 'cutter.tip_depth="-1 mm"')
     assert not found.check("geometry.sprockets").ok
     assert "dynamics.centre_distance.mean" not in found.values and "centre_distance.mean" in found.values
-    assert any("dynamics is left out" in finding for finding in found.findings)
+    assert any("analysis 'dynamics' is left out" in finding for finding in found.findings)
 
 
 @pytest.mark.slow

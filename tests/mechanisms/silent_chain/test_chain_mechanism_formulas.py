@@ -30,7 +30,7 @@ from drivewright.spec.parsing import change_key
 pytestmark = pytest.mark.analytical
 
 MM = 1e-3
-SIGNAL = Signal("centre_distance", "m", "centre distance", lambda run: run.centre_distance)
+SIGNAL = Signal("centre_distance", "m", "centre distance", lambda run: run.centre_distance, "Dynamic centre distance")
 P = 9.525 * MM
 SPEC = """
 mechanism = "silent-chain"
@@ -87,7 +87,7 @@ def test_a_worn_chain_closes_as_a_new_one_of_its_longer_pitch():
     assert worn["centre_distance.mean"] > run("closure")["centre_distance.mean"] + MM
     for name, value in new.values.items():
         assert worn[name] == pytest.approx(value.value, rel=1e-9), name
-    assert any("is 1 % longer" in finding for finding in worn.findings)
+    assert any("elongated by 1 %" in finding for finding in worn.findings)
 
 
 def test_both_sides_of_the_closure_are_told_apart():
@@ -173,11 +173,11 @@ def test_findings_tell_what_is_off():
     def words(*changes):
         return " ".join(run(("meshing", "layout"), *changes).findings)
 
-    assert "base pitch" not in words() and "odd number" not in words() and "driven sprocket turns" not in words()
+    assert "base pitch" not in words() and "odd number" not in words() and "has more teeth" not in words()
     assert "base pitch" in words('cutter.pitch="9.6 mm"')
     assert "odd number of links" in words("links=67") and "odd number" not in words("links=67", "plate.lacing=[2, 2]")
     other = ('meshing.apothem_reference="pin"', 'plate.flank_angle="25 deg"', 'joint.offset="0.4 mm"')
-    assert f"{400 * np.sin(np.radians(25)):.4g} um per flank" in words(*other)
+    assert f"{400 * np.sin(np.radians(25)):.4g} µm off the flanks" in words(*other)
     assert not run("meshing", 'joint.offset="-1.5 mm"').check("offset").ok
     said = run("meshing", *other, "plate.apothem=", 'plate.standard_apothem="3.7 mm"')  # the flank's place does not depend on the reading
     assert said["standard_apothem"] == pytest.approx(3.7 * MM - 0.4 * MM * np.sin(np.radians(25)), rel=1e-12)
@@ -677,7 +677,7 @@ def test_the_check_settled_counts_what_has_settled(drifting, value, ok):
     values = {f"dynamics.centre_distance.{name}": Value(1.0, "m", "", settled=name not in (*drifting, "range")) for name in names}
     check = dynamics.settled(values)
     assert (check.value, check.sense, check.limit, check.ok) == (value, ">=", 2, ok)
-    assert check.display_label == "Settled statistics of centre distance" and "how many of the two have stopped drifting" in check.message
+    assert check.display_label == "Settled statistics, centre distance" and "number of settled statistics" in check.message
 
 
 def test_the_life_of_a_plate_in_revolutions_and_seconds(monkeypatch):

@@ -61,9 +61,9 @@ def test_what_has_one_radius_alone_is_left_out_with_the_reason():
     )
     text = " ".join(result.findings)
     for words in (
-        "the published method has pins of one radius",
-        "as two equal radii roll. Take round pins of twice the effective radius",
-        "it compares joints of two equal radii",
+        "the published method applies to pins of one radius",
+        "joints of two equal radii only. Take round pins of twice the effective radius",
+        "it is available for joints of two equal radii only",
         "walls and gaps of the plates are left out",
         "bending of the pins is left out",
         "the mass of a link is estimated",
@@ -79,10 +79,10 @@ def test_what_has_one_radius_alone_is_left_out_with_the_reason():
         (("joint.seat_radius=",), "joint.seat_radius", "is missing"),
         (("joint.seat_radius=0 mm",), "joint.seat_radius", "above 0"),
         (("joint.seat_radius=-1 mm",), "joint.seat_radius", "above 0"),
-        (("joint.kind=kidney", "joint.seat_radius=0.8 mm"), "joint.seat_radius", "does not take in a pin"),
-        (("joint.seat_radius=1e9 m",), "joint.seat_radius", "as good as flat"),
+        (("joint.kind=kidney", "joint.seat_radius=0.8 mm"), "joint.seat_radius", "is too narrow for a pin"),
+        (("joint.seat_radius=1e9 m",), "joint.seat_radius", "practically flat"),
         (("plate.apothem=", "plate.standard_apothem=3.7 mm"), "plate.apothem", "standard_apothem"),
-        (("joint.rolling_radius=",), "joint.rolling_radius", "needs its radius"),
+        (("joint.rolling_radius=",), "joint.rolling_radius", "is missing for a rolling joint"),
     ],
 )
 def test_refusals_name_the_key(changes, key, words):

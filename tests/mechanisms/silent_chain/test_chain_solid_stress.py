@@ -144,12 +144,13 @@ def test_findings_say_how_fine_and_what_is_assumed():
 @pytest.mark.parametrize(
     ("words", "changes"),
     [
-        ("joints whose two pins roll", ('joint.kind="revolute"', "joint.rolling_radius=")),
-        ("joints whose two pins roll", ('roller.diameter="6 mm"', 'joint.kind="revolute"', "joint.rolling_radius=")),
-        ("write [drive]", ("drive=",)),
-        ("shorter than a revolution of the chain; give dynamics.duration more", ('dynamics.duration="10 ms"',)),
+        ("rolling joints with two pins only", ('joint.kind="revolute"', "joint.rolling_radius=")),
+        ("rolling joints with two pins only", ('roller.diameter="6 mm"', 'joint.kind="revolute"', "joint.rolling_radius=")),
+        ("add [drive]", ("drive=",)),
+        ("shorter than a revolution of the chain; increase dynamics.duration", ('dynamics.duration="10 ms"',)),
         (
-            "0.08 mm is too much for small displacements around a pin of 1.2 mm in radius; give a clearance of 0.06 mm or less",
+            "0.08 mm is too large for the assumption of small displacements around a pin of 1.2 mm in radius; "
+            "give a clearance of 0.06 mm or less",
             ('solid.clearance="80 um"',),
         ),
     ],
@@ -161,9 +162,9 @@ def test_left_out_with_the_reason(words, changes):
 @pytest.mark.parametrize(
     ("width", "words"),
     [
-        (0.08, "on 0.08 mm, narrower than two elements of 0.1 mm; with a clearance of 40 um .* solid.fineness 2.5 or more, or a smaller"),
-        (0.05, "Give a smaller solid.clearance"),
-        (0.0, "a pin presses its seat on less than an element, .* Give a smaller solid.clearance"),
+        (0.08, "width of 0.08 mm, less than two elements of 0.1 mm; .* clearance of 40 µm .* solid.fineness 2.5 or more, or a smaller"),
+        (0.05, "Take a smaller solid.clearance"),
+        (0.0, "has a width of less than an element, .* Take a smaller solid.clearance"),
     ],
 )
 def test_a_contact_too_narrow_for_its_elements_is_told_with_the_keys_that_help(width, words):

@@ -23,13 +23,13 @@ def phase_map_table(drives: Sequence[Drive], numbers: Floats) -> Table:
     names = [f"r {1e3 * each.link.radius:.4g} mm, z {each.driver_teeth}/{each.driven_teeth}" for each in drives]
     return Table(
         "phase_map",
-        "Fluctuation by the number of links",
+        "Fluctuation over the number of links",
         (
-            Column("links", "-", "links of the chain", np.array([each.links for each in drives], float)),
+            Column("links", "-", "number of links", np.array([each.links for each in drives], float)),
             Column("rolling_radius", "m", "rolling radius", np.array([each.link.radius for each in drives], float)),
             Column("driven_teeth", "-", "teeth of the driven sprocket", np.array([each.driven_teeth for each in drives], float)),
-            Column("design", "-", "rolling radius and teeth", np.array(names)),
-            Column("fluctuation", "m", "fluctuation of the centre distance", numbers[:, 1]),
-            Column("transmission_error", "rad", "transmission error, greatest less least", numbers[:, 2]),
+            Column("design", "-", "design: rolling radius and numbers of teeth", np.array(names)),
+            Column("fluctuation", "m", "peak-to-peak centre distance", numbers[:, 1]),
+            Column("transmission_error", "rad", "peak-to-peak transmission error", numbers[:, 2]),
         ),
     )

@@ -66,7 +66,7 @@ def refuse_joint(joint: Link) -> None:
     if not (np.isfinite(joint.hole_pitch) and 0 <= joint.radius < joint.hole_pitch / 2):
         raise InputError(
             f"chain: a joint with hole pitch {joint.hole_pitch * 1e3:.4g} mm and rolling radius {joint.radius * 1e3:.4g} mm; the radius "
-            "must be 0 or more, and twice as much less than the hole pitch: what is left is the pitch of the chain."
+            "must be at least 0 and less than half the hole pitch."
         )
 
 
@@ -74,7 +74,7 @@ def refuse_pair(joint: Link) -> None:
     """InputError for rolling surfaces of two radii that do not touch on one line, or leave no pitch."""
     right, left = joint.radii
     if not (np.all(np.isfinite(joint)) and joint.pitch > 0):
-        raise InputError(f"chain: a joint with the radii {1e3 * right:.4g} and {1e3 * left:.4g} mm and no pitch between.")
+        raise InputError(f"chain: rolling radii of {1e3 * right:.4g} and {1e3 * left:.4g} mm leave no positive pitch; take smaller radii.")
     hertz.effective_radius(right, left)
 
 
@@ -85,7 +85,7 @@ def refuse_count(name: str, value: int, least: int) -> None:
 
 
 def refuse_strands(strands: str) -> None:
-    """UnknownName for a form of the strands that nobody wrote."""
+    """UnknownName for an unknown form of the strands."""
     if strands not in get_args(Strands):
         raise UnknownName("form of the strands", strands, get_args(Strands))
 
@@ -101,13 +101,14 @@ def _failure(drive, track, x):
     if outcome == tracking.NO_WRAP:
         return DoesNotAssemble(
             f"chain: {where} leave fewer than two plates on a sprocket, at a centre distance of about {distance:.4g} mm. "
-            "Take more teeth there, or tooth numbers nearer to each other and more links."
+            "Take more teeth there, or more links and more similar numbers of teeth."
         )
     count = track.length[0]
     angle = track.psi[count - 1] if count else 0.0
-    what = "seats of the plates do not settle" if outcome == tracking.RESTLESS else "position of the plates is not found"
+    what = "seats of the plates do not converge" if outcome == tracking.RESTLESS else "position of the plates is not found"
     return SolverError(
-        f"chain: {where}, rolling radius {drive.link.radius * 1e3:.4g} mm: the {what} beyond {np.degrees(angle):.4f} deg of the driver, "
+        f"chain: {where}, rolling radius {drive.link.radius * 1e3:.4g} mm: the {what} beyond a driver angle of {np.degrees(angle):.4f} "
+        "deg, "
         f"after {count} samples, at a centre distance of about {distance:.4g} mm. Change the links by one or the rolling radius a little.",
         partial=_closure(drive, track) if count > 1 else None,
     )

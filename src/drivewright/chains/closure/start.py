@@ -46,8 +46,8 @@ def _belt_distance(drive, r1, r2):
     low, high = abs(r2 - r1), 0.5 * drive.links
     if not _belt_length(low, r1, r2, *teeth) < drive.links:
         raise DoesNotAssemble(
-            f"chain: {drive.links} links do not reach around the sprocket with {max(teeth)} teeth, let alone both. "
-            f"Take at least {int(np.ceil(_belt_length(r1 + r2, r1, r2, *teeth)))}, with which the pitch circles stand clear of each other."
+            f"chain: {drive.links} links do not reach around the sprocket with {max(teeth)} teeth and the other one. "
+            f"Take at least {int(np.ceil(_belt_length(r1 + r2, r1, r2, *teeth)))}, with which the pitch circles do not overlap."
         )
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)

@@ -11,11 +11,11 @@ def closure_table(found: Closure) -> Table:
     seated = found.states.seated
     return Table(
         "centre_distance",
-        "Centre distance over one tooth of the driving sprocket",
+        "Rigid chain over one tooth",
         (
             Column("angle", "rad", "angle of the driving sprocket", found.driver_angle),
             Column("centre_distance", "m", "centre distance", found.centre_distance),
-            Column("transmission_error", "rad", "driven angle off the ratio of teeth", found.transmission_error),
+            Column("transmission_error", "rad", "transmission error", found.transmission_error),
             Column("seated_drive", "-", "plates seated on the driving sprocket", seated[:, 0].astype(float)),
             Column("seated_driven", "-", "plates seated on the driven sprocket", seated[:, 1].astype(float)),
         ),
@@ -26,14 +26,14 @@ def phased_table(found: Phased) -> Table:
     """Table "phased_rows": centre distance and transmission error of one row, and of both together, over one tooth of the driver."""
     return Table(
         "phased_rows",
-        "Two rows out of phase over one tooth of the driving sprocket",
+        "Rows out of phase over one tooth",
         (
             Column("angle", "rad", "angle of the driving sprocket", found.driver_angle),
             Column("centre_distance", "m", "centre distance of both rows", found.centre_distance),
-            Column("single_distance", "m", "centre distance of one row alone", found.single_distance),
+            Column("single_distance", "m", "centre distance of one row", found.single_distance),
             Column("transmission_error", "rad", "transmission error of both rows", found.transmission_error),
-            Column("single_error", "rad", "transmission error of one row alone", found.single_error),
-            Column("distance_gap", "m", "difference of the rows' centre distances", found.distance_gap),
+            Column("single_error", "rad", "transmission error of one row", found.single_error),
+            Column("distance_gap", "m", "centre distance difference of the rows", found.distance_gap),
         ),
     )
 
@@ -43,10 +43,10 @@ def rigid_table(angle: Floats, travel: Floats, error: Floats, words: str) -> Tab
     the transmission error (S,) [rad]."""
     return Table(
         "rigid_travel",
-        "Rigid chain over one tooth of the driving sprocket",
+        "Rigid chain over one tooth",
         (
             Column("angle", "rad", "angle of the driving sprocket", angle),
             Column("travel", "m", words, travel),
-            Column("transmission_error", "rad", "driven angle off the ratio of teeth", error),
+            Column("transmission_error", "rad", "transmission error", error),
         ),
     )

@@ -88,7 +88,7 @@ def _laid(model):
 def _refuse_rollers(model):
     radius = model.chain.link.radius
     if any(isinstance(s.tooth, RollerTooth) for s in model.sprockets) and radius != 0:
-        raise InputError(f"chain drive: roller teeth take a chain with plain joints; its rolling radius is {radius:g} m instead of 0.")
+        raise InputError(f"chain drive: roller teeth need a chain with revolute joints; its rolling radius is {radius:g} m instead of 0.")
 
 
 # ----------------------------------------------------------------------------------------------- around any number of bodies
@@ -155,7 +155,7 @@ def _refuse_misfit(model, balance: Balance):
     taken_up = any(body.slide and balance.route.place(n) is not None for n, body in enumerate(bodies(model)))
     if not taken_up and abs(links / count - 1) > TIGHT:
         raise DoesNotAssemble(
-            f"chain drive: the loop around the sprockets takes {links:.4g} pitches, the chain has {count}: it is "
+            f"chain drive: the loop around the sprockets needs {links:.4g} pitches, the chain has {count}: it is "
             f"{1e3 * abs(links - count) * mean_link(model).pitch:.4g} mm too {'short' if links > count else 'long'}. "
             "Move a sprocket, give one a slide, add a tensioner, or change the number of links."
         )
@@ -199,7 +199,9 @@ def _tangents(loop, q):
     centre = loop.centres(q)
     gap, other = np.roll(centre, -1) - centre, np.roll(loop.height, -1) - loop.height
     if np.any(np.abs(gap) <= np.abs(other)):
-        raise DoesNotAssemble(f"chain drive: sprocket {np.argmax(np.abs(gap) <= np.abs(other)) + 1} and the next lie inside each other.")
+        raise DoesNotAssemble(
+            f"chain drive: sprocket {np.argmax(np.abs(gap) <= np.abs(other)) + 1} and the next one overlap; move them apart."
+        )
     beta = np.unwrap(np.angle(gap) + np.arcsin(other / np.abs(gap)))
     beta = beta[0] - np.concatenate([[0.0], np.cumsum((beta[:-1] - beta[1:]) % (2 * np.pi))])
     return beta, np.sqrt(np.abs(gap) ** 2 - other**2)
@@ -224,7 +226,7 @@ def _slid(loop, count):
             break
         q -= np.clip(excess / slope, -5 * loop.link.pitch, 5 * loop.link.pitch)
     raise DoesNotAssemble(
-        f"chain drive: the loop around the sprockets takes {_links(loop, 0.0):.4g} pitches, the chain has {count}. "
+        f"chain drive: the loop around the sprockets needs {_links(loop, 0.0):.4g} pitches, the chain has {count}. "
         "Move a sprocket, give one a slide, or change the number of links."
     )
 

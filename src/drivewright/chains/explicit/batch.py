@@ -144,7 +144,9 @@ def monte_carlo(
     )
     levels = [row.value for row in outcomes.rows if row.ok]
     if not levels:
-        raise SolverError(f"monte_carlo: none of {samples} drives ran through; the first said: {outcomes.rows[0].reason}", partial=outcomes)
+        raise SolverError(
+            f"monte_carlo: none of {samples} drives completed its run; reason of the first: {outcomes.rows[0].reason}", partial=outcomes
+        )
     return Spread(
         tuple(percentiles),
         quantiles([each.mean.value for each in levels], percentiles),

@@ -39,10 +39,10 @@ def failure(run: Motion) -> Failure:
     first = int(np.argmax(bad))
     time = float(run.t[max(first - 1, 0)])
     if not finite[first]:
-        return Failure(max(first, 1), time, "the motion is lost")
+        return Failure(max(first, 1), time, "the motion diverges")
     number = int(np.argmax(off[first]))
     name = run.model.sprockets[number].name or ("the driven sprocket" if number == run.model.measured else f"sprocket {number + 1}")
-    return Failure(max(first, 2), time, f"the chain jumps a tooth of {name}")
+    return Failure(max(first, 2), time, f"the chain jumps a tooth on {name}")
 
 
 def until(run: Motion, samples: int) -> Motion:

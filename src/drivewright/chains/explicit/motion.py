@@ -203,10 +203,10 @@ class Motion:
         """What is wrong with the run; empty where nothing is."""
         if not np.all(np.isfinite(self.rows)):
             bad = int(np.argmin(np.all(np.isfinite(self.rows), axis=1)))
-            return f"the motion is lost at t = {self.t[max(bad - 1, 0)]:.4g} s; shorten the step of {self.step:.3g} s"
+            return f"the motion diverges at t = {self.t[max(bad - 1, 0)]:.4g} s; shorten the step of {self.step:.3g} s"
         if self.energy_drift > self.settings.tolerance:
             return (
-                f"energy drifts by {self.energy_drift:.2g} of what is stored in a second, more than {self.settings.tolerance:.2g}; "
+                f"the energy drifts by {self.energy_drift:.2g} of the stored energy per second, more than {self.settings.tolerance:.2g}; "
                 f"shorten the step of {self.step:.3g} s"
             )
         return ""

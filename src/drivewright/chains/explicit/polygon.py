@@ -99,7 +99,7 @@ def seats(loop: Polygon, count: int, angle: float) -> tuple[Seats, Floats]:
     free[-1] = count - int(np.sum(turn * (last - first) + 1)) - int(np.sum(free[:-1]))
     if np.min(free) < 1:
         raise DoesNotAssemble(
-            f"chain drive: {np.min(free)} free plates in a strand; the loop needs one at least between sprockets. Lengthen the chain or "
+            f"chain drive: a strand has {np.min(free)} free plates; it needs at least one between sprockets. Lengthen the chain or "
             "move the sprockets."
         )
     guess = np.concatenate([loop.beta, psi, [loop.place if loop.slide is not None else 0.0]])

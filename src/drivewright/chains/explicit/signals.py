@@ -1,5 +1,5 @@
-"""What tells how evenly a drive runs: the centre distance of a sliding driven sprocket, the travel of tensioners, else the angle of the
-driven sprocket off the ratio of teeth."""
+"""Signals of the uniformity of a drive: the centre distance of a sliding driven sprocket, the travel of tensioners, else the transmission
+error."""
 
 from collections.abc import Callable
 from typing import NamedTuple
@@ -16,19 +16,20 @@ MIDDLE = 0.6  # of a strand, whose joints tell its tension
 
 
 class Signal(NamedTuple):
-    """A signal of a run: name, unit, what it is, and its samples (m,) of a run."""
+    """A signal of a run: name, unit, what it is, its samples (m,) of a run, and the beginning of its labels."""
 
     name: str
     unit: str
     words: str
     of: Callable[[Motion], Floats]
+    label: str
 
 
 def signals(model: ChainDrive) -> tuple[Signal, ...]:
     """The signals of a drive, first the one by which its evenness is judged."""
     found = []
     if model.sprockets[model.measured].slide:
-        found.append(Signal("centre_distance", "m", "centre distance", lambda run: run.centre_distance))
+        found.append(Signal("centre_distance", "m", "centre distance", lambda run: run.centre_distance, "Dynamic centre distance"))
     found += [travel(model, number) for number in tensioners(model)]
     return (*found, transmission_error(model.measured))
 
@@ -41,12 +42,16 @@ def tensioners(model: ChainDrive) -> tuple[int, ...]:
 def travel(model: ChainDrive, number: int) -> Signal:
     """How far a tensioner stands from the place for which its force is given."""
     name = bodies(model)[number].name or str(number + 1)
-    return Signal(f"tensioner.{name}.travel", "m", f"travel of tensioner {name}", lambda run: run.body(number, "q"))
+    return Signal(
+        f"tensioner.{name}.travel", "m", f"travel of tensioner {name}", lambda run: run.body(number, "q"), f"Dynamic travel of {name}"
+    )
 
 
 def transmission_error(number: int) -> Signal:
-    """Angle of a sprocket off the ratio of teeth."""
-    return Signal("transmission_error", "rad", "driven angle off the ratio of teeth", lambda run: run.transmission_error(number))
+    """Angle of a sprocket minus that by the tooth ratio."""
+    return Signal(
+        "transmission_error", "rad", "transmission error", lambda run: run.transmission_error(number), "Dynamic transmission error"
+    )
 
 
 def spring_force(model: ChainDrive, number: int) -> Callable[[Motion], Floats]:

@@ -203,7 +203,7 @@ def _in_chunks(drive, settings, samples, every, search_interval, step, progress)
 
 def _refuse(model, duration, settings):
     if not isinstance(model, ChainDrive):
-        raise InputError(f"simulate: wants a ChainDrive, got {type(model).__name__}.")
+        raise InputError(f"simulate: needs a ChainDrive, got {type(model).__name__}.")
     if not (np.isfinite(duration) and duration > 0):
         raise InputError(f"simulate: the duration must be finite and above 0 s, got {duration:g}.")
     if not 0 <= settings.settle < duration:
@@ -214,7 +214,7 @@ def _refuse(model, duration, settings):
         raise InputError(f"simulate: {settings.samples_per_tooth} samples per tooth alias its harmonics; take 20 or more.")
     drive = model.drive
     if max(abs(drive.speed), abs(drive.start)) == 0:
-        raise InputError("simulate: the driver stands still, so a tooth takes no time; give it a speed.")
+        raise InputError("simulate: the driver does not turn; give it a speed.")
     for name, numbers in (("joint", settings.joints), ("plate", (settings.plate,))):
         wrong = [n for n in numbers if not 0 <= n < model.chain.count]
         if wrong:

@@ -45,16 +45,16 @@ def largest_step(model: ChainDrive) -> float:
 
 
 def refuse_step(model: ChainDrive, step: float) -> None:
-    """InputError for a step beyond the stable one; it tells whether damping is what makes it small."""
+    """InputError for a step beyond the stable one; it says whether damping makes it small."""
     largest = largest_step(model)
     if 0 < step <= largest:
         return
     square, gamma = fastest(model)
     damped = gamma / np.sqrt(square)
     reason = (
-        f"the damping of joints or contacts is {damped:.3g} times critical; take that step, lower the damping, or solve implicitly"
+        f"the damping of joints or contacts is {damped:.3g} times critical; take that step, reduce the damping, or integrate implicitly"
         if damped > 1
-        else f"the fastest mode has {np.sqrt(square) / (2 * np.pi * 1e3):.3g} kHz"
+        else f"the fastest mode has {np.sqrt(square) / (2 * np.pi * 1e3):.3g} kHz; take that step or a shorter one"
     )
     raise InputError(f"chain drive: a step of {step:.3g} s is not between 0 and the largest stable one, {largest:.3g} s: {reason}.")
 

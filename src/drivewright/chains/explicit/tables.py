@@ -14,8 +14,15 @@ from drivewright.numerics.signals import highest_peaks
 from drivewright.result import Column, Table
 
 PEAKS = 4  # of a spectrum, in the Campbell diagram
-SIGNAL_WORDS = {"m": "travel of the tensioner", "rad": "transmission error"}
-PLATE_FORCES = ("left x", "left y", "right x", "right y", "left flank", "right flank")
+SIGNAL_WORDS = {"m": "tensioner travel", "rad": "transmission error"}
+PLATE_FORCES = {
+    "left x": "left pin force on a plate along x",
+    "left y": "left pin force on a plate along y",
+    "right x": "right pin force on a plate along x",
+    "right y": "right pin force on a plate along y",
+    "left flank": "left flank force on a plate",
+    "right flank": "right flank force on a plate",
+}
 
 
 def tensioner_table(motion: Motion) -> Table:
@@ -25,11 +32,11 @@ def tensioner_table(motion: Motion) -> Table:
     t = motion.t[steady]
     return Table(
         "tensioners",
-        "Tensioners of the running chain",
+        "Tensioners, running chain",
         (
             Column("time", "s", "time", np.tile(t, len(rows))),
-            Column("travel", "m", "travel of the tensioner", np.concatenate([signal.of(motion)[steady] for signal, _ in rows])),
-            Column("force", "N", "force of its spring", np.concatenate([force(motion)[steady] for _, force in rows])),
+            Column("travel", "m", "tensioner travel", np.concatenate([signal.of(motion)[steady] for signal, _ in rows])),
+            Column("force", "N", "spring force", np.concatenate([force(motion)[steady] for _, force in rows])),
             Column("tensioner", "-", "tensioner", np.repeat([signal.name.split(".")[1] for signal, _ in rows], len(t))),
         ),
     )
@@ -39,22 +46,19 @@ def signal_table(motion: Motion) -> Table:
     """Table "running": centre distance, transmission error, tension, contacts, plate forces and energy gap in the steady part."""
     steady = motion.steady
     forces = [
-        Column(f"plate.{name.replace(' ', '_')}", "N", f"on a plate as it goes round: {name}", motion.column(name)[steady])
-        for name in PLATE_FORCES
+        Column(f"plate.{name.replace(' ', '_')}", "N", meaning, motion.column(name)[steady]) for name, meaning in PLATE_FORCES.items()
     ]
     return Table(
         "running",
-        "The running chain",
+        "Running chain over time",
         (
             Column("time", "s", "time", motion.t[steady]),
             Column("centre_distance", "m", "centre distance", motion.centre_distance[steady]),
-            Column(
-                "transmission_error", "rad", "driven angle off the ratio of teeth", motion.transmission_error(motion.model.measured)[steady]
-            ),
-            Column("tension", "N", "tension in a joint as it goes round", motion.tension[steady, 0]),
-            Column("contacts", "-", "flanks that touch", motion.column("contacts")[steady]),
+            Column("transmission_error", "rad", "transmission error", motion.transmission_error(motion.model.measured)[steady]),
+            Column("tension", "N", "joint tension", motion.tension[steady, 0]),
+            Column("contacts", "-", "flanks in contact", motion.column("contacts")[steady]),
             *forces,
-            Column("energy_gap", "J", "energy less all work since the start", motion.energy_gap[steady]),
+            Column("energy_gap", "J", "energy minus all work since the start", motion.energy_gap[steady]),
         ),
     )
 
@@ -70,7 +74,7 @@ def spectrum_table(runs: Ensemble, highest: float) -> Table:
     signal = runs.signal
     slides = signal.name == "centre_distance"
     words = signal.words if slides else SIGNAL_WORDS[signal.unit]
-    amplitude = Column("centre_distance" if slides else "amplitude", signal.unit, f"amplitude of the {words}", mean)
+    amplitude = Column("centre_distance" if slides else "amplitude", signal.unit, f"amplitude of the {words}", mean, f"{words} amplitude")
     return Table(
         "spectrum" if slides else "motion_spectrum",
         f"Spectrum of the {words}",
@@ -90,20 +94,18 @@ def speed_table(rows: Sequence[tuple[float, Level]]) -> Table:
     orders = [
         column
         for k in range(len(levels[0].amplitudes))
-        for column in bounded(
-            f"mesh_order_{k + 1}", unit, f"amplitude at {k + 1} times the mesh frequency", [level.amplitudes[k] for level in levels]
-        )
+        for column in bounded(f"mesh_order_{k + 1}", unit, f"amplitude at mesh order {k + 1}", [level.amplitudes[k] for level in levels])
     ]
-    fluctuation = f"peak-to-peak of the {words} in a revolution of the chain"
+    fluctuation = f"peak-to-peak {words}"
     return Table(
         "speeds",
-        f"{words.capitalize()} over the speed",
+        f"{words.capitalize()} over speed",
         (
             Column("speed", "rad/s", "speed of the driving sprocket", np.array([speed for speed, _ in rows])),
             *bounded("mean", unit, f"mean {words}", [level.mean for level in levels]),
             *bounded("fluctuation", unit, fluctuation, [level.fluctuation for level in levels]),
             *orders,
-            *bounded("tension", "N", "greatest tension in a joint in a revolution", [level.tension for level in levels]),
+            *bounded("tension", "N", "maximum joint tension", [level.tension for level in levels]),
         ),
     )
 
@@ -121,10 +123,10 @@ def campbell_table(rows: Sequence[tuple[float, Level]], teeth: int, peaks: int =
     _, words = signal_of([level for _, level in rows])
     return Table(
         "campbell",
-        f"Campbell diagram: highest peaks of the spectra of the {words}",
+        f"Campbell diagram, {words}",
         (
             Column("speed", "rad/s", "speed of the driving sprocket", speed),
-            *(Column(f"peak_{k + 1}", "Hz", f"peak {k + 1}", np.array([each[k] for each in highest])) for k in range(peaks)),
+            *(Column(f"peak_{k + 1}", "Hz", f"spectral peak {k + 1}", np.array([each[k] for each in highest])) for k in range(peaks)),
             Column("mesh_frequency", "Hz", "mesh frequency", speed * teeth / (2 * np.pi)),
         ),
     )
@@ -135,11 +137,11 @@ def scatter_table(levels: Sequence[Level]) -> Table:
     unit, words = signal_of(levels)
     return Table(
         "scatter",
-        "Drives as they come from manufacture",
+        "Drives with manufacturing scatter",
         (
             Column("drive", "-", "drive", np.arange(float(len(levels)))),
             *bounded("mean", unit, f"mean {words}", [each.mean for each in levels]),
-            *bounded("fluctuation", unit, f"peak-to-peak of the {words} in a revolution", [each.fluctuation for each in levels]),
+            *bounded("fluctuation", unit, f"peak-to-peak {words}", [each.fluctuation for each in levels]),
         ),
     )
 

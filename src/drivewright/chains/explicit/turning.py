@@ -65,8 +65,8 @@ def yielding(model: ChainDrive, balance: Balance) -> int:
     """Number of the one body that gives way; InputError where it is none or several, whose places are a matter of forces."""
     on_path = [station.body for station in balance.route.stations if bodies(model)[station.body].slide]
     if len(on_path) != 1:
-        what = "nothing gives way" if not on_path else f"{len(on_path)} bodies give way, so that forces decide where they stand"
-        raise InputError(f"chain drive: {what}; rigid links find their places where just one tensioner yields. Look at the chain at rest.")
+        what = "no body can move" if not on_path else f"{len(on_path)} bodies can move, so that their positions depend on the forces"
+        raise InputError(f"chain drive: {what}; a rigid chain needs exactly one moving body. Use the chain at rest (quasi_static) instead.")
     return on_path[0]
 
 

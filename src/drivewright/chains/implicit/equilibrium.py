@@ -173,17 +173,17 @@ def _result(model, found):
 
 def _restless(model, k, positions, residual, small):
     return (
-        f"chain drive: at position {k} of {positions} per tooth {residual:.3g} N stay unbalanced, more than {small:.3g} N. "
+        f"chain drive: at position {k} of {positions} per tooth a force of {residual:.3g} N remains unbalanced, more than {small:.3g} N. "
         "A plate may rest on the edge of a flank (raise tip_radius or toe), or the loads leave the chain slack (raise the slide's force)."
     )
 
 
 def _refuse(model, positions, teeth):
     if not isinstance(model, ChainDrive):
-        raise InputError(f"equilibrium: wants a ChainDrive, got {type(model).__name__}.")
+        raise InputError(f"equilibrium: needs a ChainDrive, got {type(model).__name__}.")
     for name, value in (("positions", positions), ("teeth", teeth)):
         if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < 1:
             raise InputError(f"equilibrium: {name} = {value!r}; it must be a whole number from 1 up.")
     free = [n for n, s in enumerate(model.sprockets, 1) if s.slide and not s.slide.force and not s.slide.stiffness]
     if free:
-        raise InputError(f"equilibrium: nothing holds the slide of sprocket {free[0]}; give it a force or a stiffness.")
+        raise InputError(f"equilibrium: the slide of sprocket {free[0]} has neither force nor stiffness; give one of them.")

@@ -108,8 +108,9 @@ def compile_model(model: ChainDrive) -> Parts:
     for body in (*model.sprockets, *model.guides):
         if body.slide and body.slide.pivot:
             raise InputError(
-                f"chain drive: {body.name or 'a tensioner'} turns about a pivot, which implicit steps and the chain at rest do not know; "
-                "run it with explicit steps, or let it move on a slide."
+                f"chain drive: {body.name or 'a tensioner'} turns about a pivot, which implicit integration and the chain at rest do not "
+                "support; "
+                "use explicit integration, or a slide instead of the pivot."
             )
     drive = state.compile_model(model)
     bodies, count = _records(drive), model.chain.count

@@ -154,7 +154,7 @@ def _sprung(model, chosen, movers, q, centrifugal):
     try:
         x = newton(both, np.append(q[movers] / pitch, _first_pull(model, chosen, movers[0], q) / size), tolerance=1e-11)
     except (SolverError, InputError) as error:
-        raise DoesNotAssemble(f"chain drive: the tensioner finds no place of balance ({error})") from error
+        raise DoesNotAssemble(f"chain drive: no equilibrium of the tensioner was found ({error})") from error
     now = misses(x)[1]
     _refuse_travel(model, now.q, movers)
     for number in movers:
@@ -247,12 +247,12 @@ def _root(excess, before, here):
 def _misfit(model, number, excess, place):
     """What to say of a chain that does not fit at the last place that was tried."""
     count, links, name = model.chain.count, abs(excess), body_name(model, number)
-    longer, more = ("short", "more") if excess > 0 else ("long", "less")
+    longer, more = ("short", "more") if excess > 0 else ("long", "fewer")
     change = int(np.ceil(links))
     change += (count + change) % 2
     return (
-        f"chain drive: {count} links are {_links(model, links)} too {longer}: {name} moves by {1e3 * place:.4g} mm and then the path "
-        f"takes {count + excess:.4g} links. Take {change} links {more}, give it more travel, or move its centre. (An even number of links "
+        f"chain drive: {count} links are {_links(model, links)} too {longer}: {name} moves by {1e3 * place:.4g} mm, where the path "
+        f"needs {count + excess:.4g} links. Take {change} {more} links, give it more travel, or move its centre. (An even number of links "
         "needs no offset link.)"
     )
 
@@ -270,7 +270,7 @@ def _to_no_effect(model, q, number, links):
     else:
         what = f"does not tighten the chain: it lies {lies} the loop, and its direction leads it away from the strand that it touches"
     return (
-        f"chain drive: {name} {what}. The {model.chain.count} links stay {_links(model, links)} too long. Move its centre towards the "
+        f"chain drive: {name} {what}. The {model.chain.count} links remain {_links(model, links)} too long. Move its centre towards the "
         f"strand, turn its direction towards the strand, or take side = {other!r}."
     )
 
@@ -297,8 +297,8 @@ def _refuse_travel(model, q, movers):
         low, high = slide.travel
         if not low - 1e-9 <= q[number] <= high + 1e-9:
             raise DoesNotAssemble(
-                f"chain drive: {body_name(model, number)} is in balance at {1e3 * q[number]:.4g} mm of its travel, which reaches from "
-                f"{1e3 * low:.4g} to {1e3 * high:.4g} mm. Give it more travel, another force, or other links."
+                f"chain drive: {body_name(model, number)} is in equilibrium at a travel of {1e3 * q[number]:.4g} mm, which is limited to "
+                f"{1e3 * low:.4g} to {1e3 * high:.4g} mm. Give it more travel, change its force, or change the number of links."
             )
 
 
@@ -306,10 +306,10 @@ def _slack(model, number, pull, q):
     slide = bodies(model)[number].slide
     if slide.force > 0 >= slide.force - slide.stiffness * q:
         return (
-            f"chain drive: the spring of {body_name(model, number)} has lost its force after {1e3 * q:.4g} mm of travel, where the chain "
-            "would be taut. Raise its force, lower its stiffness, move its centre towards the chain, or take links out."
+            f"chain drive: the spring of {body_name(model, number)} has no force left at the travel of {1e3 * q:.4g} mm where the chain is "
+            "taut. Increase its force, reduce its stiffness, move its centre towards the chain, or reduce the number of links."
         )
     return (
-        f"chain drive: the slide of {body_name(model, number)} leaves the chain slack (a pull of {float(pull):.3g} N); "
+        f"chain drive: the slide of {body_name(model, number)} leaves the chain slack (a tension of {float(pull):.3g} N); "
         "point its direction outward and its force along it."
     )

@@ -57,7 +57,7 @@ def _second(model):
     """The first other sprocket inside."""
     inside = [number for number, sprocket in enumerate(model.sprockets) if not sprocket.outside]
     if len(inside) < 2 or inside[0] != 0:
-        raise InputError("chain drive: sprocket 1 and another one have to lie inside of the loop; only idlers may be outside.")
+        raise InputError("chain drive: sprocket 1 and another one must lie inside the loop; only idlers may be outside.")
     return inside[1]
 
 
@@ -67,7 +67,7 @@ def _refuse_overlap(first: Station, second: Station, at: Complexes) -> None:
     if apart <= least:
         raise InputError(
             f"chain drive: {first.name} and {second.name} overlap: their centres are {1e3 * apart:.4g} mm apart, and their pitch circles "
-            f"touch at {1e3 * least:.4g} mm. Raise the centre distance, or take fewer teeth."
+            f"touch at {1e3 * least:.4g} mm. Increase the centre distance, or take fewer teeth."
         )
 
 

@@ -34,8 +34,8 @@ def with_fit(solid: PlateAndPins, fit: Fit) -> list[Floats]:
         wanted = "all round" if fit.seat is None else f"{np.degrees(fit.seat):.4g} deg to either side"
         made = f"{np.degrees(solid.fit.seat):.4g} deg to either side"
         raise InputError(
-            f"stress of solids: the plate was condensed with seats that bear {made}, and a fit asks for {wanted}; condense it with a fit "
-            "whose seat is as wide, or None."
+            f"stress of solids: the plate was condensed with a bearing seat of {made}, but the fit needs {wanted}; condense it with a fit "
+            "of the same seat, or None."
         )
     return [
         pairing.gap_with(seat_gap(solid.plate, side, fit, solid.stack.own))

@@ -16,11 +16,11 @@ STEPS = 8  # that are kept
 DRAWN = 0.02  # of the plate's length: the largest displacement as drawn
 LABELS = {"plate": "Plate", "left": "Left pin", "right": "Right pin"}
 UNSEARCHED = {"plate": "flank.*"}  # faces that belong to the picture, and not to the search of the greatest stress
-BESIDE = "not evaluated beside a line contact, where the stress is Hertz's"
-LONGER = "longer than shown: no damage, or less than 40 % of the greatest stress"
+BESIDE = "not evaluated next to a line contact, where the stress follows from Hertz"
+LONGER = "longer than shown: no damage, or less than 40 % of the maximum stress"
 NOTES = (
     "one run of the chain, the first; the values of the analysis are means over all its runs",
-    "displacements are drawn without the motion of each body as a whole",
+    "displacements are shown without the rigid-body motion of each body",
 )
 NEAR = 1e-6  # m: a corner of an element is on a seat
 
@@ -38,7 +38,7 @@ def solid_fields(history: SolidHistory, time: Floats, lives: Mapping[str, SkinLi
     scale = exaggeration_for(float(np.ptp(bodies[0].points, axis=0).max()), moved, DRAWN)
     labels = tuple(f"{1e3 * time[step]:.4g} ms" for step in steps)
     return SurfaceFields(
-        "solid_stress", "Plate and pins as solids", labels, int(np.searchsorted(steps, worst["plate"])), bodies, scale, NOTES
+        "solid_stress", "Plate and pins (solid)", labels, int(np.searchsorted(steps, worst["plate"])), bodies, scale, NOTES
     )
 
 

@@ -135,7 +135,8 @@ def seat_gap(plate: Plate, side: str, fit: Fit, edges: tuple[float, float], shif
     seat = plate.seat(side)
     if fit.clearance > LOOSEST * seat.radius:
         raise InputError(
-            f"stress of solids: a clearance of {fit.clearance / MM:.4g} mm is too much for small displacements around a pin of "
+            f"stress of solids: a clearance of {fit.clearance / MM:.4g} mm is too large for the assumption of small displacements around "
+            "a pin of "
             f"{seat.radius / MM:.4g} mm in radius; give a clearance of {LOOSEST * seat.radius / MM:.2g} mm or less."
         )
     centre, radius = (complex(*seat.center) + shift) / MM, fit.edge_radius / MM

@@ -17,7 +17,7 @@ from drivewright.solids.stresses import SkinStress, hooke, skin_stress
 
 DRAWN = 0.03  # of the plate's length: the largest displacement as drawn
 FINER = 3  # parts of an element's edge in a picture
-ENDLESS = "where a body takes no damage, or bears much less than at its worst, its life is longer than all others"
+ENDLESS = "life is not limited where a body has no damage, or much less stress than its maximum"
 AROUND = 2.2  # radii of the seat to either side of it that a section shows
 GRID = (160, 60)  # rectangles of a section, along and across
 
@@ -33,16 +33,16 @@ class View(NamedTuple):
         """Columns x, y, depth of points (n, 3) [m]; `words` are added to the meaning of the first two."""
         right, up = np.array(self.right), np.array(self.up)
         return (
-            Column("x", "m", self.words[0] + words, points @ right),
-            Column("y", "m", self.words[1] + words, points @ up),
-            Column("depth", "m", "away from the viewer", -points @ np.cross(right, up)),
+            Column("x", "m", self.words[0] + words, points @ right, self.words[0]),
+            Column("y", "m", self.words[1] + words, points @ up, self.words[1]),
+            Column("depth", "m", "distance from the viewer", -points @ np.cross(right, up)),
         )
 
 
-FACE = View((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), ("along the chain", "across the chain"))  # of a plate
+FACE = View((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), ("position along the chain", "position across the chain"))  # of a plate
 SEATED = {  # a pin from the side on which it is seated
-    "left": View((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), ("along the pin", "across the chain")),
-    "right": View((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), ("along the pin", "across the chain, downwards")),
+    "left": View((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), ("position along the pin", "position across the chain")),
+    "right": View((0.0, 0.0, 1.0), (0.0, -1.0, 0.0), ("position along the pin", "position across the chain, downwards")),
 }
 
 
@@ -51,14 +51,14 @@ def history_table(history: SolidHistory, time: Floats) -> Table:
     left, right = history.seat_pressure.T
     return Table(
         "solid_history",
-        "Plate and pins as solids over a revolution of the chain",
+        "Plate and pins over a revolution (solid)",
         (
             Column("time", "s", "time", np.asarray(time, float)),
-            Column("plate", "Pa", "greatest von Mises stress of the plate", history.greatest("plate")),
-            Column("left_pin", "Pa", "greatest von Mises stress of the left pin", history.greatest("left")),
-            Column("right_pin", "Pa", "greatest von Mises stress of the right pin", history.greatest("right")),
-            Column("left_seat", "Pa", "greatest pressure on the left seat", left),
-            Column("right_seat", "Pa", "greatest pressure on the right seat", right),
+            Column("plate", "Pa", "maximum von Mises stress of the plate", history.greatest("plate")),
+            Column("left_pin", "Pa", "maximum von Mises stress of the left pin", history.greatest("left")),
+            Column("right_pin", "Pa", "maximum von Mises stress of the right pin", history.greatest("right")),
+            Column("left_seat", "Pa", "maximum pressure on the left seat", left),
+            Column("right_seat", "Pa", "maximum pressure on the right seat", right),
         ),
     )
 
@@ -69,7 +69,7 @@ def stress_table(name: str, title: str, history: SolidHistory, body: str, instan
     moved = skin.displacement[0] - skin.displacement[0].mean(axis=0)
     times = exaggeration_for(float(np.ptp(skin.points, axis=0).max()), moved, DRAWN)
     rows = skin.parts.ravel()
-    words = ", displacements drawn " + f"{times:,.0f} times as large".replace(",", " ")
+    words = ", displacements magnified " + f"{times:,.0f} times".replace(",", " ")
     place = SEATED.get(body, FACE).columns((skin.points + times * moved)[rows], words)
     return Table(name, title, (*place, Column("mises", "Pa", "von Mises stress", skin.mises[0][rows])))
 
@@ -88,11 +88,11 @@ def seat_table(history: SolidHistory, side: str, instant: int) -> Table:
     along, height, pressure = _unrolled(history, side, instant)
     return Table(
         "seat_pressure",
-        "Pressure of a pin on its seat, unrolled",
+        "Seat pressure of a pin, unrolled",
         (
-            Column("along", "m", "along the seat from the outer direction", along),
-            Column("height", "m", "along the pin", height),
-            Column("depth", "m", "flat", np.zeros(len(along))),
+            Column("along", "m", "position along the seat from the outer direction", along, "Position along the seat"),
+            Column("height", "m", "position along the pin", height),
+            Column("depth", "m", "depth in the picture", np.zeros(len(along))),
             Column("pressure", "Pa", "pressure on the seat", pressure),
         ),
     )
@@ -105,9 +105,9 @@ def rolling_table(rolling: RollingPins, radius: float, modulus: float, poisson: 
     )
     return Table(
         "rolling_pressure",
-        "Rolling contact of two pins along the pins",
+        "Rolling contact along the pins",
         (
-            Column("height", "m", "along the pin from the middle of the chain", rolling.height),
+            Column("height", "m", "position along the pin from the middle of the chain", rolling.height, "Position along the pin"),
             Column("line_load", "N/m", "line load between the pins", rolling.line_load),
             Column("pressure", "Pa", "Hertz pressure between the pins", np.asarray(found.pressure)),
         ),
@@ -126,11 +126,11 @@ def section_table(history: SolidHistory, side: str, instant: int) -> Table:
     x, z, size = (np.concatenate([block[n] for block in blocks]) for n in range(3))
     return Table(
         "hole_section",
-        "Section through the hole: von Mises stress of plate and pin",
+        "Section through the hole, von Mises stress",
         (
-            Column("x", "m", "along the chain", x),
-            Column("z", "m", "along the pin from the middle of the chain", z),
-            Column("depth", "m", "flat", 0 * x),
+            Column("x", "m", "position along the chain", x),
+            Column("z", "m", "position along the pin from the middle of the chain", z, "Position along the pin"),
+            Column("depth", "m", "depth in the picture", 0 * x),
             Column("mises", "Pa", "von Mises stress", size),
         ),
     )

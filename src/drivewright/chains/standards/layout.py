@@ -27,7 +27,7 @@ def strand_angle(pitch: float, teeth1: int, teeth2: int, distance: Numbers) -> N
     if np.any(distance <= radius1 + radius2):
         raise InputError(
             f"chain drive: at the centre distance {np.min(distance):g} m the pitch circles overlap; "
-            f"it must exceed {np.max(radius1 + radius2):g} m, and the tips want more."
+            f"it must exceed {np.max(radius1 + radius2):g} m, and the tip circles need more."
         )
     return np.arcsin((radius2 - radius1) / distance)
 

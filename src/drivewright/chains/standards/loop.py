@@ -98,8 +98,8 @@ def tangents(centres: Floats, signed: Floats, names: Sequence[str] = ()) -> tupl
         side = "change the side of the loop on which one of them lies" if names else "check on which side (turn) each is passed"
         raise InputError(
             f"{'chain drive' if names else 'loop'}: no strand fits between {one} and {other}: their centres are "
-            f"{1e3 * np.hypot(*to_next[first]):.4g} mm apart, and it takes more than {1e3 * abs(rise[first]):.4g} mm. Move them apart, or "
-            f"{side}."
+            f"{1e3 * np.hypot(*to_next[first]):.4g} mm apart and must be more than {1e3 * abs(rise[first]):.4g} mm apart. Move them "
+            f"apart, or {side}."
         )
     lengths = np.sqrt(square)
     return lengths, np.arctan2(to_next[:, 1], to_next[:, 0]) - np.arctan2(rise, lengths)
@@ -107,12 +107,12 @@ def tangents(centres: Floats, signed: Floats, names: Sequence[str] = ()) -> tupl
 
 def _check(circles):
     if len(circles) < 2:
-        raise InputError(f"loop: wants two circles or more, got {len(circles)}.")
+        raise InputError(f"loop: needs two circles or more, got {len(circles)}.")
     for number, circle in enumerate(circles, 1):
         if circle.turn not in (-1, 1):
             raise InputError(f"loop: turn of circle {number} must be +1 (counter-clockwise) or -1, got {circle.turn!r}.")
         if not (np.all(np.isfinite(circle)) and circle.radius >= 0):
-            raise InputError(f"loop: circle {number} wants a finite centre and a radius of 0 or more, got {tuple(circle)}.")
+            raise InputError(f"loop: circle {number} needs a finite centre and a radius of 0 or more, got {tuple(circle)}.")
 
 
 def _check_closes(turns, wraps):

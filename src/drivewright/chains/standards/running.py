@@ -152,8 +152,8 @@ def strand_frequency(tension: Numbers, mass_per_length: float, length: float, sp
     wave = np.sqrt(np.divide(tension, mass_per_length))
     if np.any(np.abs(speed) >= wave):
         raise InputError(
-            f"chain strand: at {np.max(np.abs(speed)):g} m/s it is faster than its waves, {np.min(wave):g} m/s; "
-            "the tension must exceed the centrifugal one, q v^2. Give the whole tension of the running strand."
+            f"chain strand: its speed of {np.max(np.abs(speed)):g} m/s exceeds the wave speed of {np.min(wave):g} m/s; "
+            "the tension must exceed the centrifugal tension q v^2. Give the total tension of the running strand."
         )
     return mode * (wave - speed) * (wave + speed) / (2 * length * wave)
 

@@ -167,7 +167,7 @@ def silent_number(pitch: float, width: float) -> str:
         raise InputError(f"silent chain: the pitch must be a multiple of {units}, got {steps[0]:.4g} and {steps[1]:.4g} of them.")
     if count[0] > 99 or count[1] > (99 if count[0] < 10 else 999):
         raise InputError(
-            f"silent chain: no number says {count[0]} steps of pitch and {count[1]} of width; they go to 99 and 999, "
+            f"silent chain: no chain number exists for {count[0]} steps of pitch and {count[1]} of width; the largest are 99 and 999, "
             "the width to 99 below ten steps of pitch."
         )
     return f"SC{'0' if small else ''}{count[0]}{count[1]:02d}"

@@ -55,7 +55,7 @@ def directions(seat: Seat) -> Floats:
     if not low < 0 < high:
         raise InputError(
             f"stress: a seat from {np.degrees(seat.turn.min()):.4g} to {np.degrees(seat.turn.max()):.4g} deg about the outer "
-            f"direction; a pin's pressure wants {np.degrees(MARGIN):g} deg on either side of its force"
+            f"direction; a pin's pressure needs {np.degrees(MARGIN):g} deg on either side of its force"
         )
     return np.linspace(low, high, int(np.ceil((high - low) / STEP)) + 1)
 
@@ -93,7 +93,7 @@ def shares(turns: Floats, seat_directions: Floats, size: Floats) -> Floats:
             f"stress: at {len(lost)} of {len(size)} instants a pin's force points away from its seat, worst at instant "
             f"{worst}: {size[worst]:.4g} N at {np.degrees(turns[worst]):.4g} deg from the outward direction; "
             f"the seat takes {np.degrees(seat_directions[0]):.4g} to {np.degrees(seat_directions[-1]):.4g} deg; "
-            "is the chain slack there?"
+            "the chain may be slack there"
         )
     turns = np.clip(turns, seat_directions[0], seat_directions[-1])
     left = np.clip(np.searchsorted(seat_directions, turns, side="right") - 1, 0, len(seat_directions) - 2)

@@ -59,13 +59,13 @@ def life_table(basis: Basis, found: PlateLife) -> Table:
     x, y = basis.body.rim.points[found.rows].T
     return Table(
         "plate_life",
-        "life around a plate",
+        "Life along the rim of a plate",
         (
-            Column("x", "m", "along the plate", x),
-            Column("y", "m", "across the plate", y),
-            Column("life", "-", "repeats of the history", found.life),
-            Column("damage", "-", "share of the life a repeat takes", found.damage),
-            Column("mises", "Pa", "greatest von Mises stress", found.stress),
+            Column("x", "m", "position along the plate", x),
+            Column("y", "m", "position across the plate", y),
+            Column("life", "-", "life in repeats of the history", found.life),
+            Column("damage", "-", "damage per repeat", found.damage),
+            Column("mises", "Pa", "maximum von Mises stress", found.stress),
         ),
     )
 
@@ -89,9 +89,9 @@ def life_map(basis: Basis, lives: PlateLife, side: float) -> Table:
         "life_map",
         "Life around a plate",
         (
-            Column("x", "m", "along the plate", x),
-            Column("y", "m", "across the plate", y),
-            Column("depth", "m", "flat", 0 * x),
+            Column("x", "m", "position along the plate", x),
+            Column("y", "m", "position across the plate", y),
+            Column("depth", "m", "depth in the picture", 0 * x),
             Column("life", "-", "life in revolutions of the chain", np.repeat(lives.life[kept], 6)),
         ),
     )

@@ -60,8 +60,8 @@ def lacing(own: int, other: int, thickness: float, gap: float = 0.0) -> Pack:
     """The `Pack` of `own` x `other` plates that alternate, e.g. 1 x 2, of one thickness [m], with a gap [m] between neighbours."""
     if not (min(own, other) >= 1 and abs(own - other) == 1 and int(own) == own and int(other) == other):
         raise InputError(
-            f"lacing {own} x {other}: plates of the two links alternate across the width and must be the same from either "
-            "side, else they twist the pin; so their numbers, from 1 up, differ by 1, e.g. 1 x 2"
+            f"lacing {own} x {other}: plates of the two links alternate across the width and must be symmetrical, "
+            "else they tilt the pin; their numbers must be at least 1 and differ by 1, e.g. 1 x 2"
         )
     if not (thickness > 0 and gap >= 0):
         raise InputError(
@@ -113,7 +113,7 @@ def beam(breaks: Floats, load: Floats) -> Beam:
     shear = -np.concatenate([[0.0], np.cumsum(load * np.diff(breaks))])
     size = np.abs(load * np.diff(breaks)).sum()
     if abs(shear[-1]) > 1e-9 * size:
-        raise InputError(f"pins: the line load leaves {-shear[-1]:.4g} N; loads on a free pin must be in balance")
+        raise InputError(f"pins: the line load leaves {-shear[-1]:.4g} N; loads on a free pin must be in equilibrium")
     steep = np.where(load == 0, 1.0, load)
     zeros = breaks[:-1] + np.where(load == 0, -1.0, shear[:-1] / steep)
     zeros = zeros[(zeros > breaks[:-1]) & (zeros < breaks[1:])]
@@ -121,7 +121,7 @@ def beam(breaks: Floats, load: Floats) -> Beam:
     force = np.interp(position, breaks, shear)
     moment = np.concatenate([[0.0], np.cumsum(np.diff(position) * (force[1:] + force[:-1]) / 2)])  # V is linear: exact
     if abs(moment[-1]) > 1e-9 * size * np.ptp(breaks):
-        raise InputError(f"pins: the line load leaves a moment of {moment[-1]:.4g} N m; a pack alike from either side is in balance")
+        raise InputError(f"pins: the line load leaves a moment of {moment[-1]:.4g} N m; the pack must be symmetrical")
     return Beam(position, force, moment)
 
 

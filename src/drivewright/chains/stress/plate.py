@@ -139,7 +139,7 @@ def stress_picture(basis: Basis, loads: Loads, instant: int) -> Table:
     """Table "plate_stress" for a plot of style "mesh": x, y, depth, von Mises stress [Pa] at one instant."""
     one = Loads(*(np.asarray(part, float)[instant : instant + 1] for part in loads))
     size = plane_von_mises(np.tensordot(amounts(basis, one)[0], basis.surface.stress, axes=1))
-    return field_table("plate_stress", "stress of a plate", basis.surface, (Column("mises", "Pa", "von Mises stress", size),))
+    return field_table("plate_stress", "Von Mises stress of a plate", basis.surface, (Column("mises", "Pa", "von Mises stress", size),))
 
 
 def _flank(plate, side):

@@ -73,14 +73,14 @@ def history_table(revolution: PlateRevolution, mises: Floats) -> Table:
     pins, flanks = np.asarray(revolution.loads.pins), np.asarray(revolution.loads.flanks)
     return Table(
         "plate_history",
-        "Stress of a plate at its worst place over a revolution",
+        "Plate stress over a revolution",
         (
             Column("time", "s", "time", revolution.time),
-            Column("mises", "Pa", "von Mises stress at the worst place", mises),
-            Column("left_pin", "N", "force of the left pin on one plate", np.hypot(*pins[:, 0].T)),
-            Column("right_pin", "N", "force of the right pin on one plate", np.hypot(*pins[:, 1].T)),
-            Column("left_flank", "N", "force on the left flank of one plate", flanks[:, 0]),
-            Column("right_flank", "N", "force on the right flank of one plate", flanks[:, 1]),
+            Column("mises", "Pa", "von Mises stress at the worst point", mises),
+            Column("left_pin", "N", "left pin force on a plate", np.hypot(*pins[:, 0].T)),
+            Column("right_pin", "N", "right pin force on a plate", np.hypot(*pins[:, 1].T)),
+            Column("left_flank", "N", "left flank force on a plate", flanks[:, 0]),
+            Column("right_flank", "N", "right flank force on a plate", flanks[:, 1]),
         ),
     )
 

@@ -16,36 +16,53 @@ from drivewright.mechanisms.silent_chain.spec import SilentChainSpec
 from drivewright.registry import Analysis, Mechanism, oracle
 
 ANALYSES = (
-    Analysis("meshing", meshing, "pitches, offset, modification of the teeth as published", missing=missing.no_meshing),
+    Analysis("meshing", meshing, "pitches, pin offset and tooth modification by the published method", missing=missing.no_meshing),
     Analysis("layout", layout.layout, "chain length, pitch circles, speed and strand frequencies by formula"),
-    Analysis("geometry", geometry, "plates and sprockets: walls, teeth, measuring pins, gaps"),
-    Analysis("closure", closure.closure, "centre distance and transmission error over a tooth", missing=missing.no_closure),
-    Analysis("contact", contact.contact, "pins under the force of a strand: pressure, shakedown, bending", missing=missing.no_contact),
-    Analysis("wear", capacity.wear, "elongation by wear of the joints, and the life until its limit", missing=missing.no_wear),
-    Analysis("rating", capacity.rating, "rated power against the power transmitted", missing=missing.no_rating),
-    Analysis("trade_off", compare.trade_off, "what the rolling radius trades", missing=missing.no_trade_off),
-    Analysis("phase_map", compare.phases, "fluctuation over links, teeth and rolling radius", missing=missing.no_phase_map),
-    Analysis("dynamics", dynamics.dynamics, "the running chain: centre distance, forces, spectrum", missing=missing.no_dynamics),
+    Analysis("geometry", geometry, "plates and sprockets: walls, teeth, measurement over pins, gaps"),
     Analysis(
-        "quasi_static", many.quasi_static, "the loaded chain at rest, teeth and joints elastic", default=False, missing=missing.no_dynamics
+        "closure", closure.closure, "centre distance and transmission error of the rigid chain over one tooth", missing=missing.no_closure
     ),
-    Analysis("speeds", many.speeds, "the running chain over the speed: Campbell diagram", default=False, missing=missing.no_dynamics),
-    Analysis("scatter", many.scatter, "the running chain as it comes from manufacture", default=False, missing=missing.no_dynamics),
+    Analysis(
+        "contact", contact.contact, "strand tensions and stresses of the pins: pressure, shakedown, bending", missing=missing.no_contact
+    ),
+    Analysis("wear", capacity.wear, "elongation by wear of the joints, and the wear life", missing=missing.no_wear),
+    Analysis("rating", capacity.rating, "rated power and design power", missing=missing.no_rating),
+    Analysis("trade_off", compare.trade_off, "trade-offs over the rolling radius", missing=missing.no_trade_off),
+    Analysis(
+        "phase_map", compare.phases, "fluctuation of the centre distance over links, teeth and rolling radius", missing=missing.no_phase_map
+    ),
+    Analysis(
+        "dynamics", dynamics.dynamics, "dynamics of the running chain: centre distance, forces, spectrum", missing=missing.no_dynamics
+    ),
+    Analysis(
+        "quasi_static",
+        many.quasi_static,
+        "the loaded chain at rest, with elastic teeth and joints",
+        default=False,
+        missing=missing.no_dynamics,
+    ),
+    Analysis("speeds", many.speeds, "the running chain over speed: Campbell diagram", default=False, missing=missing.no_dynamics),
+    Analysis("scatter", many.scatter, "the running chain with manufacturing scatter", default=False, missing=missing.no_dynamics),
     Analysis(
         "stress",
         stress.stress,
-        "stress of a plate as it goes round, finite elements",
+        "stress of a plate over a revolution of the chain, by finite elements",
         default=False,
         needs=("dynamics",),
         missing=missing.no_stress,
     ),
     Analysis(
-        "life", stress.life, "fatigue life of a plate on its critical planes", default=False, needs=("stress",), missing=missing.no_stress
+        "life",
+        stress.life,
+        "fatigue life of a plate by the critical plane method",
+        default=False,
+        needs=("stress",),
+        missing=missing.no_stress,
     ),
     Analysis(
         "solid_stress",
         solid.solid_stress,
-        "plate and pins as solids in contact as they go round: stress, pressure, life",
+        "plate and pins as solids in contact over a revolution: stress, pressure, life",
         default=False,
         needs=("dynamics",),
         missing=missing.no_solid_stress,

@@ -96,8 +96,8 @@ class ChainModel:
         total = self.spec.closure.elongation + float(worn.elongation(given.running_time, self.spec.pitch)[0])
         if total > LONGEST:
             raise SpecError(
-                f"wears the chain {100 * total:.3g} % longer than its pitch; no chain runs on its teeth beyond {100 * LONGEST:g} %. Take a "
-                f"shorter time, or a smaller wear.coefficient",
+                f"elongates the chain by {100 * total:.3g} % through wear, more than the {100 * LONGEST:g} % up to which a chain stays on "
+                "its teeth. Choose a shorter time, or a smaller wear.coefficient",
                 "wear.running_time",
             )
         return total
@@ -113,7 +113,7 @@ class ChainModel:
         """The plate of a silent chain; InputError where the lengths given leave none."""
         given = self.spec.plate
         if self.link.skew:
-            raise InputError("plates are drawn with pins of one radius; those of a joint of two radii are a drawing of your own")
+            raise InputError("the outline of a plate is defined for pins of one radius only, not for a joint of two radii")
         lengths = _given(back=given.back, toe=given.toe, crotch=given.crotch, crotch_radius=given.crotch_radius)
         return design_plate(self.link, self.pins, thickness=self.sheet, **lengths)
 

@@ -22,16 +22,21 @@ def wear(model: ChainModel, done: Answers) -> Answer:
     pitch = model.spec.pitch
     limit = joint.elongation_limit(model.spec.wear.elongation_limit, (*model.teeth, *(each.teeth for each in model.spec.sprockets)))
     lives = found.turn_time * np.asarray(joint.revolutions_to(limit, pitch, found.depths))
-    life = _interval(lives[0], lives[1:], "s", "wear life: time until wear elongates the chain to its limit")
+    life = _interval(lives[0], lives[1:], "s", "wear life: time until wear elongates the chain to its elongation limit")
     values = {
-        "wear.sliding": Value(found.sliding, "m", "sliding in a joint per chain revolution: of the pin in its bush"),
-        "wear.depth": _interval(found.depths[0], found.depths[1:], "m", "wear of a joint per chain revolution: by how much it gets longer"),
-        "wear.elongation_limit": Value(limit, "-", "elongation limit: that ends the chain's life"),
+        "wear.sliding": Value(
+            found.sliding,
+            "m",
+            "sliding distance of the pin in its bush per chain revolution",
+            label="Sliding in a joint per chain revolution",
+        ),
+        "wear.depth": _interval(found.depths[0], found.depths[1:], "m", "joint wear per chain revolution: increase in length of a joint"),
+        "wear.elongation_limit": Value(limit, "-", "elongation limit: elongation at which the chain is replaced"),
         "wear.life": life,
     }
     if model.spec.wear.running_time:
         grown = found.elongation(model.spec.wear.running_time, pitch)
-        values["wear.elongation"] = _interval(grown[0], grown[1:], "-", "elongation by wear after the running time")
+        values["wear.elongation"] = _interval(grown[0], grown[1:], "-", "elongation by wear, after the running time")
     return Answer(
         values,
         (_wear_table(found, pitch, limit, float(lives[0])),),
@@ -44,10 +49,10 @@ def wear(model: ChainModel, done: Answers) -> Answer:
 def _wear_checks(model, life, values):
     required = model.spec.limits.wear_life
     if required is not None:
-        message = "time until wear elongates the chain to its limit; less force, larger joints or better oil lengthen it"
+        message = "time until wear elongates the chain to its elongation limit; less tension, larger joints or better lubrication extend it"
         yield Check.of(life, "wear.life", required, ">=", message, ("chain",), "Wear life")
     if "wear.elongation" in values:
-        message = "elongation by wear after the running time against its limit"
+        message = "elongation by wear after the running time; if it exceeds the elongation limit, replace the chain earlier"
         yield Check.of(
             values["wear.elongation"],
             "wear.elongation",
@@ -61,9 +66,12 @@ def _wear_checks(model, life, values):
 
 def _wear_remarks(model):
     if model.spec.roller:
-        yield "wear lengthens the pitches with outer plates alone, by twice the mean; closure and running chain take the mean for all"
+        yield (
+            "wear lengthens only the pitches with outer plates, by twice the mean; the closure and the running chain use the mean for "
+            "all pitches"
+        )
     if model.spec.closure.elongation:
-        yield "wear adds to closure.elongation, which counts as there from the start"
+        yield "the elongation by wear is added to closure.elongation, which is taken as present from the start"
 
 
 def _wear_table(found, pitch, limit, life):
@@ -73,7 +81,7 @@ def _wear_table(found, pitch, limit, life):
     hours = Column("hours", "-", "running time in hours", time / HOUR)
     columns = [Column("time", "s", "running time", time), hours, grown, *(grown.bounds(*bounds) if bounds else ())]
     columns.append(Column("limit", "-", "elongation limit", np.full(SAMPLES, limit)))
-    return Table("wear", "Elongation by wear over the running time", tuple(columns))
+    return Table("wear", "Elongation by wear over running time", tuple(columns))
 
 
 def _interval(value, bounds, unit, meaning):
@@ -93,19 +101,26 @@ def rating(model: ChainModel, done: Answers) -> Answer:
     power = drive.load_torque * drive.speed * model.teeth[0] / model.teeth[1]
     factor = given.strand_factor or strand_factor(model.rows)
     values = {
-        "rating.power": Value(power, "W", "power transmitted: load torque times speed of the driven sprocket"),
-        "rating.design_power": Value(given.service_factor * power, "W", "power to be rated: power transmitted times service factor"),
+        "rating.power": Value(power, "W", "transmitted power: load torque times speed of the driven sprocket"),
+        "rating.design_power": Value(given.service_factor * power, "W", "design power: transmitted power times service factor"),
     }
     single = given.rated_power
     if single is None:
         assert size is not None  # else there is no rating
         limits = ansi_power(size.ansi, size.pitch, model.teeth[small], speed, size.bush_chain)
-        values["rating.plate_fatigue"] = Value(float(factor * limits.plate_fatigue), "W", "power limit by fatigue of the plates")
-        values["rating.roller_impact"] = Value(float(factor * limits.roller_impact), "W", "power limit by impact of rollers and bushes")
+        values["rating.plate_fatigue"] = Value(
+            float(factor * limits.plate_fatigue),
+            "W",
+            "power rating by fatigue of the link plates",
+            label="Power rating, link plate fatigue",
+        )
+        values["rating.roller_impact"] = Value(
+            float(factor * limits.roller_impact), "W", "power rating by impact of rollers and bushes", label="Power rating, roller impact"
+        )
         single = float(limits.rated)
     rated = factor * single
-    values["rating.rated_power"] = Value(rated, "W", "rated power of the chain, all rows")
-    message = "rated power of the chain against the power to be rated; a larger chain, more teeth or rows raise it"
+    values["rating.rated_power"] = Value(rated, "W", "rated power of the chain, all rows together", label="Rated power")
+    message = "rated power of the chain, at least the design power; a larger chain, more teeth or more rows increase it"
     check = Check("rating.power", rated, values["rating.design_power"].value, ">=", "W", message, ("chain",), label="Rated power")
     return Answer(values, (), (check,), tuple(_rating_remarks(given)))
 
@@ -113,6 +128,6 @@ def rating(model: ChainModel, done: Answers) -> Answer:
 def _rating_remarks(given):
     if given.rated_power is None:
         yield (
-            "rating: by the formulas behind the tables of ASME B29.1, for 15,000 h, even load and their lubrication; the speed at which "
-            "pins gall is not among them"
+            "rating: by the formulas of ASME B29.1, for 15,000 h, uniform load and the lubrication of the standard; the limit by galling "
+            "of the pins is not included"
         )

@@ -16,17 +16,24 @@ class Wear(Spec):
     """Wear of pins and bushes by Archard's law, of which nothing is assumed."""
 
     coefficient: Coefficient | None = Field(
-        None, description="volume worn off pin and bush together, per force and sliding; or give its range", examples=["1e-7 mm^3/(N m)"]
+        None,
+        description="volume worn off pin and bush together, per force and sliding distance; or give coefficient_range",
+        examples=["1e-7 mm^3/(N m)"],
     )
     coefficient_range: tuple[Coefficient, Coefficient] | None = Field(
         None,
-        description="least and greatest that it may be: elongation and life become intervals; the geometric mean stands for the "
-        "coefficient where that is not given",
+        description="minimum and maximum of the coefficient: elongation and life become intervals; their geometric mean is used if the "
+        "coefficient is not given",
         examples=[["5e-8 mm^3/(N m)", "2e-7 mm^3/(N m)"]],
     )
-    running_time: Time = Field("0 s", ge=0, description="that the chain has run: its elongation goes into closure and running chain")
+    running_time: Time = Field(
+        "0 s", ge=0, description="operating time of the chain; its elongation enters the closure and the running chain"
+    )
     elongation_limit: Number = Field(
-        0.03, gt=0, le=0.05, description="elongation that ends its life; 2 over the teeth of the largest sprocket where that is less"
+        0.03,
+        gt=0,
+        le=0.05,
+        description="elongation at which the chain is replaced; 2 over the number of teeth of the largest sprocket if that is smaller",
     )
 
     @property
@@ -40,17 +47,20 @@ class Wear(Spec):
 class Rating(Spec):
     """Power that the chain may transmit."""
 
-    service_factor: Number = Field(1.0, ge=0.5, le=10, description="power to be rated over power transmitted, for shock and hours")
+    service_factor: Number = Field(
+        1.0, ge=0.5, le=10, description="design power over transmitted power, for shock loads and operating hours"
+    )
     rated_power: Power | None = Field(
         None,
         gt=0,
-        description="of one row by the maker, at this speed and these teeth; of American chains by number from the formulas unless given",
+        description="rated power of one row by the maker, at this speed and number of teeth; default for ANSI chains by number: formulas "
+        "of ASME B29.1",
         examples=["5.5 kW"],
     )
     strand_factor: Number | None = Field(
         None,
         ge=1,
         le=20,
-        description="rated power of all rows over that of one; 1.7 of two rows, 2.5 of three unless given",
+        description="rated power of all rows over that of one row; default 1.7 for two rows, 2.5 for three",
         examples=[1.7],
     )

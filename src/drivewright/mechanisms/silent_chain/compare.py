@@ -1,4 +1,4 @@
-"""Designs beside this one: what the rolling radius trades, and what links and tooth numbers do to the phase."""
+"""Comparison designs: trade-offs over the rolling radius, and the phase map over links and tooth numbers."""
 
 import numpy as np
 
@@ -8,6 +8,7 @@ from drivewright.chains.closure.comparison import closure_numbers, phase_map_tab
 from drivewright.chains.link import design_link
 from drivewright.chains.stress.rolling import rolling_contact
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel, offset_of
+from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.result import Answer, Answers, Column, Table, Value
 
 OVER_PITCH = (0.02, 0.04, 0.07, 0.1, 0.126, 0.17, 0.25, 0.35, 0.5, 0.78)  # rolling radii compared by default
@@ -21,16 +22,19 @@ def trade_off(model: ChainModel, done: Answers) -> Answer:
     mean, fluctuation, ripple = closure_numbers([_drive(model, r, links, driven) for r in radii]).T
     hinged = closure_numbers([_drive(model, 0.0, links, driven)])[0, 0]
     contact = rolling_contact(force, model.contact_length, (radii, radii), material.youngs_modulus, material.poisson_ratio)
+    hertz = f"Hertz pressure between the pins at {force:.4g} N"
     columns = [
         Column("rolling_radius", "m", "rolling radius of the pins", radii),
-        Column("fluctuation", "m", "fluctuation of the centre distance", fluctuation),
-        Column("transmission_error", "rad", "transmission error, greatest less least", ripple),
+        Column("fluctuation", "m", "peak-to-peak centre distance", fluctuation),
+        Column("transmission_error", "rad", "peak-to-peak transmission error", ripple),
         Column("mean", "m", "mean centre distance", mean),
-        Column("running_deviation", "m", "mean centre distance less that of a hinged chain", mean - hinged),
+        Column(
+            "running_deviation", "m", "mean centre distance minus that of a hinged chain", mean - hinged, "Deviation from a hinged chain"
+        ),
         *([] if model.spec.roller else _published(model, radii)),
-        Column("contact_pressure", "Pa", f"Hertz pressure of the pins under {force:.4g} N", np.asarray(contact.pressure)),
+        Column("contact_pressure", "Pa", hertz, np.asarray(contact.pressure), "Hertz pressure between the pins"),
     ]
-    return Answer({}, (Table("trade_off", "What the rolling radius trades", tuple(columns)),))
+    return Answer({}, (Table("trade_off", "Trade-offs over the rolling radius", tuple(columns)),))
 
 
 def phases(model: ChainModel, done: Answers) -> Answer:
@@ -42,12 +46,17 @@ def phases(model: ChainModel, done: Answers) -> Answer:
     numbers = closure_numbers(drives)
     table, fluctuation = phase_map_table(drives, numbers), numbers[:, 1]
     missing = int(np.sum(~np.isfinite(fluctuation)))
-    findings = (f"phase map: {missing} of {len(drives)} chains do not close",) if missing else ()
+    findings = (
+        (f"phase map: {missing} of {len(drives)} chains do not close and have no numbers; change links or teeth in [compare]",)
+        if missing
+        else ()
+    )
     if missing == len(drives):
         return Answer({}, (table,), (), findings)
     best = int(np.nanargmin(fluctuation))
-    meaning = f"least in the phase map: {drives[best].links} links, {table['design'].data[best]}"
-    return Answer({"phase_map.least_fluctuation": Value(fluctuation[best], "m", meaning)}, (table,), (), findings)
+    meaning = f"minimum peak-to-peak centre distance in the phase map: {drives[best].links} links, {table['design'].data[best]}"
+    label = "Minimum fluctuation in the phase map"
+    return Answer({"phase_map.least_fluctuation": Value(fluctuation[best], "m", meaning, label=label)}, (table,), (), findings)
 
 
 def _radii(model):
@@ -67,5 +76,11 @@ def _published(model, radii):
     offset = np.broadcast_to(offset_of(model.spec, radii), radii.shape)
     for side, teeth in zip(SIDES, model.teeth, strict=True):
         deviation = published.pitch_deviation(model.spec.pitch, radii, offset, teeth, model.spec.meshing.ideal)
-        yield Column(f"pitch_deviation_{side}", "m", f"seated less ideal pitch as published, {side}", np.asarray(deviation))
-    yield Column("pin_offset", "m", "offset of the pins", offset)
+        yield Column(
+            f"pitch_deviation_{side}",
+            "m",
+            f"pitch deviation (seated minus ideal), {SIDE_WORDS[side]}",
+            np.asarray(deviation),
+            f"Pitch deviation, {SIDE_WORDS[side]}",
+        )
+    yield Column("pin_offset", "m", "pin offset", offset)

@@ -12,8 +12,13 @@ def contact(model: ChainModel, done: Answers) -> Answer:
     """Forces of the strands and what they do to the pins."""
     force, given = model.pin_force, model.spec.plate
     rough = model.plate_refusal and not model.spec.roller and not (given.link_mass and given.link_inertia)
-    findings = [f"the mass of a link is estimated from the pitch: {model.plate_refusal}"] if rough else []
-    values, checks = {**_strands(model), "pin.force": Value(force, "N", "of the strand, on the pins of a joint")}, []
+    findings = (
+        [f"the mass of a link is estimated from the pitch, because the plate cannot be drawn: {model.plate_refusal}"] if rough else []
+    )
+    values, checks = (
+        {**_strands(model), "pin.force": Value(force, "N", "force of the strand on the pins of a joint", label="Pin force of a joint")},
+        [],
+    )
     strength, strong = _strength(model)
     values |= strength
     checks += strong
@@ -23,7 +28,7 @@ def contact(model: ChainModel, done: Answers) -> Answer:
     try:
         bent, safe = _bending(model, model.row_force)
     except InputError as reason:
-        findings.append(f"bending of the pins is left out: {reason}")
+        findings.append(f"the bending of the pins is left out: {reason}")
     else:
         values |= bent
         checks.append(safe)
@@ -36,31 +41,41 @@ def _strands(model):
         return {}
     forces = model.strands
     return {
-        "chain.speed": Value(forces.speed, "m/s", "mean speed of the chain"),
-        "strand.centrifugal_force": Value(forces.centrifugal, "N", "mass per length times speed squared"),
-        "strand.tight_force": Value(forces.tight, "N", "that the tight strand pulls with, without the centrifugal force"),
-        "strand.slack_force": Value(forces.slack, "N", "that the slack strand pulls with, without the centrifugal force"),
+        "chain.speed": Value(forces.speed, "m/s", "mean speed of the chain", label="Chain speed"),
+        "strand.centrifugal_force": Value(
+            forces.centrifugal, "N", "centrifugal tension of the chain: mass per length times speed squared", label="Centrifugal tension"
+        ),
+        "strand.tight_force": Value(
+            forces.tight, "N", "tension of the tight strand, without the centrifugal tension", label="Tight strand tension"
+        ),
+        "strand.slack_force": Value(
+            forces.slack, "N", "tension of the slack strand, without the centrifugal tension", label="Slack strand tension"
+        ),
     }
 
 
 def _strength(model):
-    """The breaking load, where it is known, over the forces of the strands, the centrifugal one included."""
+    """The breaking load, where it is known, over the tensions of the strands, the centrifugal one included."""
     load, drive = model.spec.breaking_load, model.spec.drive
     if load is None:
         return {}, ()
     safety = tensile_safety(load, model.strands.tension if drive else model.pin_force)
     values = {
-        "chain.breaking_load": Value(load, "N", "minimum tensile strength of the chain, all rows together"),
+        "chain.breaking_load": Value(load, "N", "minimum tensile strength of the chain, all rows together", label="Breaking load"),
         "chain.static_safety": Value(
-            safety, "-", "static safety factor: breaking load over the force of the tight strand, the centrifugal one included"
+            safety, "-", "static safety factor: breaking load over the tension of the tight strand, centrifugal tension included"
         ),
     }
     if drive and slack_pull(model) >= 0:
         mean = 0.5 * (model.strands.tight + model.strands.slack) + model.strands.centrifugal
-        meaning = "mean static safety: breaking load over the mean of tight and slack strand, the centrifugal force included"
-        values["chain.mean_static_safety"] = Value(tensile_safety(load, mean), "-", meaning)
-    message = "static safety factor: breaking load over the force of the tight strand; makers ask for 6 or more against fatigue"
-    return values, (Check("chain.static_safety", safety, model.spec.limits.static_safety, ">=", "-", message, ("chain",)),)
+        meaning = "breaking load over the mean tension of tight and slack strand, centrifugal tension included"
+        label = "Static safety factor, mean tension"
+        values["chain.mean_static_safety"] = Value(tensile_safety(load, mean), "-", meaning, label=label)
+    message = (
+        "breaking load over the tension of the tight strand; makers require 6 or more against fatigue: take a larger chain or more rows"
+    )
+    required, label = model.spec.limits.static_safety, "Static safety factor"
+    return values, (Check("chain.static_safety", safety, required, ">=", "-", message, ("chain",), label=label),)
 
 
 def _rolling(model, force):
@@ -68,16 +83,36 @@ def _rolling(model, force):
     line = rolling.rolling_contact(force, model.contact_length, model.link.radii, material.youngs_modulus, material.poisson_ratio)
     limits = rolling.pressure_limits(material.yield_strength, material.poisson_ratio)
     safety, least = float(limits.shakedown / line.pressure), model.spec.limits.shakedown_safety
-    message = "shakedown limit of the rolling pins over their contact pressure; a larger rolling radius lowers the pressure"
+    message = "shakedown limit of the pins over their Hertz pressure; a larger rolling radius lowers the pressure"
     return {
-        "joint.effective_radius": Value(model.link.effective_radius, "m", "effective radius of the rolling surfaces"),
-        "pin.contact_pressure": Value(float(line.pressure), "Pa", "greatest pressure of the pins on each other, Hertz"),
-        "pin.half_width": Value(float(line.half_width), "m", "half the width of their contact"),
-        "pin.max_shear": Value(float(line.shear), "Pa", "greatest shear stress below their surface"),
-        "pin.shear_depth": Value(float(line.depth), "m", "where it is, below the surface"),
-        "pin.first_yield": Value(limits.first_yield, "Pa", "pressure below which nothing yields, von Mises"),
-        "pin.shakedown_limit": Value(limits.shakedown, "Pa", "pressure below which nothing yields again after the first passes"),
-    }, (Check("pin.shakedown", safety, least, ">=", "-", message, ("chain",)),)
+        "joint.effective_radius": Value(
+            model.link.effective_radius, "m", "effective radius of the two rolling surfaces", label="Effective rolling radius"
+        ),
+        "pin.contact_pressure": Value(
+            float(line.pressure),
+            "Pa",
+            "maximum Hertz pressure between the pins of a joint",
+            label="Maximum Hertz pressure between the pins",
+        ),
+        "pin.half_width": Value(
+            float(line.half_width), "m", "half the width of the line contact of the pins", label="Half-width of the pin contact"
+        ),
+        "pin.max_shear": Value(
+            float(line.shear), "Pa", "maximum shear stress below the surface of the pins", label="Maximum subsurface shear stress"
+        ),
+        "pin.shear_depth": Value(
+            float(line.depth), "m", "depth of the maximum shear stress below the surface", label="Depth of maximum shear stress"
+        ),
+        "pin.first_yield": Value(
+            limits.first_yield, "Pa", "Hertz pressure at which the pins first yield, by von Mises", label="Pressure at first yield"
+        ),
+        "pin.shakedown_limit": Value(
+            limits.shakedown,
+            "Pa",
+            "largest Hertz pressure at which yielding ceases after the first load passes (elastic shakedown)",
+            label="Shakedown limit",
+        ),
+    }, (Check("pin.shakedown", safety, least, ">=", "-", message, ("chain",), label="Shakedown safety of the pins"),)
 
 
 def _hinge(model, force):
@@ -85,7 +120,12 @@ def _hinge(model, force):
     length = model.contact_length if model.spec.roller else min(model.spec.plate.lacing) * model.sheet
     pressure = articulation_pressure(force, 2 * model.pins.radius, length)
     return {
-        "pin.bearing_pressure": Value(pressure, "Pa", "force over diameter and length of the pin in the bush, or in the fewer plates")
+        "pin.bearing_pressure": Value(
+            pressure,
+            "Pa",
+            "bearing pressure of a joint: force over diameter and length of the pin in its bush, or in the plates of the narrower link",
+            label="Bearing pressure of the joint",
+        )
     }, ()
 
 
@@ -93,7 +133,7 @@ def _bending(model, force):
     """The pin as a beam across the pack of plates."""
     sheet, rolls, link = model.sheet, bool(model.link.radius), model.roller_link
     if model.link.skew:
-        raise InputError("the sections of the pins of a joint of two radii are not given")
+        raise InputError("the cross-sections of the pins are not defined for a joint of two radii")
     model.pins.check(model.link)
     if link:
         load = pins.roller_pin_load(sheet, model.contact_length, force, link.bush_gap(model.contact_length))
@@ -101,9 +141,13 @@ def _bending(model, force):
         load = pins.laced_pin_load(model.spec.plate.lacing, sheet, force, rolls)
     stress = pins.bent_pin(model.pins.pin(model.link), load, rolls)
     values = {
-        "pin.bending_stress": Value(stress.bending, "Pa", "of a pin across the pack of plates"),
-        "pin.shear_stress": Value(stress.shear, "Pa", "of a pin across the pack of plates"),
-        "pin.von_mises": Value(stress.mises, "Pa", "of bending and shear of a pin"),
+        "pin.bending_stress": Value(
+            stress.bending, "Pa", "bending stress of a pin across the plate pack", label="Bending stress of the pin"
+        ),
+        "pin.shear_stress": Value(stress.shear, "Pa", "shear stress of a pin across the plate pack", label="Shear stress of the pin"),
+        "pin.von_mises": Value(stress.mises, "Pa", "von Mises stress of a pin by bending and shear", label="Von Mises stress of the pin"),
     }
-    safety, message = model.spec.material.yield_strength / stress.mises, "yield strength over von Mises stress of a pin's bending"
-    return values, Check("pin.yield", safety, model.spec.limits.yield_safety, ">=", "-", message, ("chain",))
+    safety = model.spec.material.yield_strength / stress.mises
+    message = "yield strength over the von Mises stress of a pin by bending and shear; thicker pins or a narrower plate pack increase it"
+    required, label = model.spec.limits.yield_safety, "Yield safety of the pin"
+    return values, Check("pin.yield", safety, required, ">=", "-", message, ("chain",), label=label)

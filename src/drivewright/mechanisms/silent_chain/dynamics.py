@@ -28,8 +28,8 @@ MOST_STEPS = 2e10  # of a link, in all runs: about ten minutes
 MOST_LISTED = 3  # statistics that have not settled, by name
 MOST_FRICTION = 0.3  # coefficient of friction of dry steel on steel; lubricated about 0.1
 HINT = (
-    "raise the preload or the tensioner's force, damp the tensioner more, or lower the speed or the wear; the check strand.taut says "
-    "whether the slack strand pulls, and the analysis 'quasi_static' computes the chain at rest under its load"
+    "raise the preload or the tensioner's force, increase the damping of the tensioner, or reduce the speed or the wear; the check "
+    "strand.taut shows whether the slack strand is under tension, and the analysis 'quasi_static' computes the chain at rest under its load"
 )
 ORDERS = 8  # of the mesh frequency, up to which the spectrum is shown
 WATCHED = 0
@@ -42,9 +42,12 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
     member, failed = first_failure(runs)
     if failed.reason:
         return _broken_off(model, until(member, failed.samples), failed, float(member.t[-1]))
-    drift = Value(runs.energy_drift, "1/s", "energy that computing added or lost in a second, over the energy stored")
+    drift = Value(
+        runs.energy_drift, "1/s", "numerical energy gain or loss per second, relative to the stored energy", label="Relative energy drift"
+    )
+    message = f"{drift.meaning}; a shorter step reduces it"
     checks = (
-        Check("energy_drift", drift.value, model.spec.dynamics.largest_drift, "<=", "1/s", drift.meaning, ("chain",)),
+        Check("energy_drift", drift.value, model.spec.dynamics.largest_drift, "<=", "1/s", message, ("chain",), label=drift.label),
         *_seated(model, runs),
         *_whole(model, runs.members),
     )
@@ -52,7 +55,7 @@ def dynamics(model: ChainModel, done: Answers) -> Answer:
     reasons = [runs.advice] if runs.advice else []
     reasons += [_failing(check) for check in checks if not check.ok and check.name != "energy_drift"]
     if reasons:
-        findings = (f"the run has failed and its statistics are left out: {'; '.join(reasons)}. {_hint(runs.advice)}",)
+        findings = (f"the run failed and its statistics are left out: {'; '.join(reasons)}. {_hint(runs.advice)}",)
         return Answer({"dynamics.energy_drift": drift}, tables, checks, findings, outcome="partial")
     found = signal_values(runs) | force_values(runs) | tensioner_values(runs)
     if not model.plain:
@@ -67,25 +70,28 @@ def _failing(check: Check) -> str:
     """What a check found, in numbers."""
     most = "at most" if check.sense == "<=" else "at least"
     unit = "" if check.unit == "-" else f" {check.unit}"
-    return f"{check.name} is {check.value:.3g}{unit} and has to be {most} {check.limit:.3g}{unit} ({check.message})"
+    return f"{check.name} is {check.value:.3g}{unit} and must be {most} {check.limit:.3g}{unit} ({check.message})"
 
 
 def _hint(advice: str = "") -> str:
     """What to try; after the run's own advice, which is a shorter step."""
-    return f"Where a shorter step does not help, {HINT}" if advice else f"R{HINT[1:]}"
+    return f"Where a shorter step does not help, {HINT}" if advice else f"{HINT[0].upper()}{HINT[1:]}"
 
 
 def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> Answer:
     """What a run was up to where it failed: values of that part, checks of the whole."""
-    stop = Stop(f"the run of the chain can be believed up to t = {failed.time:.4g} s of {end:.4g} s", failed.reason)
+    stop = Stop(f"the run of the chain is valid up to t = {failed.time:.4g} s of {end:.4g} s", failed.reason)
     tension = run.tension[:, 0]
     values = {
-        "dynamics.tension.mean": Value(float(np.mean(tension)), "N", "tension in a joint as it goes round, mean"),
-        "dynamics.tension.maximum": Value(float(np.max(tension)), "N", "tension in a joint as it goes round, greatest"),
+        "dynamics.tension.mean": Value(float(np.mean(tension)), "N", "mean tension of a joint", label="Joint tension, mean"),
+        "dynamics.tension.maximum": Value(float(np.max(tension)), "N", "maximum tension of a joint", label="Joint tension, maximum"),
         "dynamics.transmission_error": Value(
-            run.fluctuation(run.transmission_error(run.model.measured)), "rad", "driven angle off the ratio of teeth, peak-to-peak"
+            run.fluctuation(run.transmission_error(run.model.measured)),
+            "rad",
+            "transmission error of the running chain, peak-to-peak: angle of the driven sprocket minus that by the tooth ratio",
+            label="Dynamic transmission error, peak-to-peak",
         ),
-        "dynamics.stop_time": Value(failed.time, "s", "time up to which the run of the chain can be believed"),
+        "dynamics.stop_time": Value(failed.time, "s", "time up to which the run of the chain is valid", label="Valid time of the run"),
     }
     checks = tuple(_whole(model, (run,), 1 if "jumps" in failed.reason else 0))
     tables = (signal_table(run), *_tensioner_tables(run)) if len(run.t) > 2 else ()
@@ -93,7 +99,7 @@ def _broken_off(model: ChainModel, run: Motion, failed: Failure, end: float) -> 
         values,
         tables,
         checks,
-        (f"the run has failed and its statistics are left out: {failed.reason}. {_hint()}",),
+        (f"the run failed and its statistics are left out: {failed.reason}. {_hint()}",),
         outcome="partial",
         stopped=(stop,),
     )
@@ -108,20 +114,20 @@ def _whole(model: ChainModel, members: Sequence[Motion], jumped: int = 0) -> Ite
     limits, seated = model.spec.limits, _seated_links(model, members[0].model)
     touching = min(run.mean(run.column("contacts")) for run in members) / seated
     message = (
-        "tooth contacts, on average, for each link that lies on a sprocket; few: the chain's centrifugal force and the blows of the teeth "
-        "lift it off, which is overspeed"
+        "mean number of tooth contacts for each link on a sprocket; few contacts mean overspeed, where centrifugal tension and impacts "
+        "of the teeth lift the chain off: lower the speed or increase the preload"
     )
     label = "Tooth contacts per seated link"
     yield Check("running.tooth_contacts", touching, limits.contact_share, ">=", "-", message, ("chain",), label=label)
     message = (
-        f"share of the time in which {SLACK} joints or more are without tension at once: a strand is slack, for lack of preload or "
-        "tensioner, or by blows"
+        f"share of time in which {SLACK} or more joints have no tension at once, so that a strand is slack; increase the preload, or add a "
+        "tensioner"
     )
     slack = max(slack_share(run) for run in members)
-    yield Check("running.slack", slack, limits.slack_share, "<=", "-", message, ("chain",), label="Time with slack joints")
+    yield Check("running.slack", slack, limits.slack_share, "<=", "-", message, ("chain",), label="Share of time with slack joints")
     teeth = max(jumped, *(jumped_teeth(run) for run in members))
-    message = "teeth by which the chain has moved against a sprocket; one or more: it has jumped, for lack of tension or wrap"
-    yield Check("running.jumped_teeth", float(teeth), 0.0, "<=", "-", message, ("chain",), label="Teeth jumped over")
+    message = "number of teeth that the chain has jumped on a sprocket; more tension or a larger wrap angle prevents it"
+    yield Check("running.jumped_teeth", float(teeth), 0.0, "<=", "-", message, ("chain",), label="Jumped teeth")
 
 
 def _seated_links(model, system):
@@ -138,19 +144,22 @@ def _travels(model: ChainModel, values: Mapping[str, Value]) -> Iterator[Check]:
     for entry in (*model.spec.sprockets, *model.spec.guides):
         if entry.force is not None and entry.travel is not None:
             value = abs(values[f"dynamics.tensioner.{entry.name}.travel.mean"].value)
-            message = f"mean travel of tensioner {entry.name} either way, within its room"
-            yield Check(f"running.travel.{entry.name}", value, entry.travel, "<=", "m", message, (entry.name,))
+            message = f"mean travel of tensioner {entry.name}, either way; if it exceeds the limit, give more travel or move the tensioner"
+            label = f"Mean travel of tensioner {entry.name}"
+            yield Check(f"running.travel.{entry.name}", value, entry.travel, "<=", "m", message, (entry.name,), label=label)
 
 
 def _seated(model: ChainModel, runs: Ensemble) -> Iterator[Check]:
     """Whether the chain is still on its teeth."""
     first = runs.first
-    message = "tooth contacts, on average, against one on every sprocket: with fewer the chain has left its teeth"
-    yield Check.of(touching_flanks(runs), "running.contacts", float(len(first.model.sprockets)), ">=", message, ("chain",))
+    message = "mean number of tooth contacts, at least one on each sprocket; with fewer the chain has left its teeth"
+    touching, least = touching_flanks(runs), float(len(first.model.sprockets))
+    yield Check.of(touching, "running.contacts", least, ">=", message, ("chain",), "Mean number of tooth contacts")
     if model.plain:
         off = abs(runs.estimate(mean_of(lambda run: run.centre_distance)).value - model.closure.mean)
-        message = "mean centre distance of the run off the rigid one: so far off, the chain has left its teeth"
-        yield Check("running.centre_distance", off, OFF * model.spec.pitch, "<=", "m", message, ("chain",))
+        message = "mean centre distance of the run minus that of the rigid chain, magnitude; beyond the limit the chain has left its teeth"
+        label = "Deviation of the mean centre distance"
+        yield Check("running.centre_distance", off, OFF * model.spec.pitch, "<=", "m", message, ("chain",), label=label)
 
 
 def settled(values: Mapping[str, Value]) -> Check:
@@ -158,37 +167,33 @@ def settled(values: Mapping[str, Value]) -> Check:
     slides = "dynamics.centre_distance.mean" in values
     first = "dynamics.centre_distance" if slides else next((n.removesuffix(".mean") for n in values if n.endswith(".travel.mean")), None)
     names = [f"{first}.{name}" for name in ("mean", "fluctuation")] if first else ["dynamics.transmission_error", "dynamics.tension.mean"]
-    words = "centre distance" if slides else "tensioner's travel"
+    signal = "centre distance" if slides else "tensioner travel"
+    statistics = f"mean and peak-to-peak {signal}" if first else "transmission error and mean tension"
     message = (
-        f"mean and fluctuation of the {words}: how many of the two have stopped drifting, over two revolutions of the chain or "
-        "more; where one has not, give dynamics.settling and dynamics.duration more"
+        f"number of settled statistics ({statistics}) over two or more revolutions of the chain; if one is missing, increase "
+        "dynamics.settling and dynamics.duration"
     )
-    if not first:
-        message = (
-            "transmission error and mean tension: how many of the two have stopped drifting, over two revolutions of the chain or more; "
-            "where one has not, give dynamics.settling and dynamics.duration more"
-        )
-    label = f"Settled statistics of {words}" if first else "Settled transmission error and tension"
+    label = f"Settled statistics, {signal}" if first else "Settled transmission error and tension"
     count = float(sum(values[name].settled for name in names))
     return Check("settled", count, float(len(names)), ">=", "-", message, ("chain",), label=label)
 
 
 def _remarks(runs, values):
-    """What keeps the numbers from being the whole truth."""
+    """Findings on statistics that have not settled."""
     drifting = [name for name, value in values.items() if not value.settled]
     if not runs.stable:
         yield (
-            f"the motion is unstable: two runs whose starts differ by nanometres part {runs.growth:.2g}-fold from the first revolution of "
-            "the chain that is evaluated to the last, and will settle to another motion; give dynamics.settling more"
+            f"the motion is unstable: the difference between two runs whose starts differ by nanometres grows {runs.growth:.2g}-fold from "
+            "the first evaluated revolution of the chain to the last; the chain will settle to another motion, increase dynamics.settling"
         )
     elif drifting and runs.first.revolutions < 2:
         yield (
-            "dynamics.duration holds less than two revolutions of the chain: they cannot tell whether the run has settled; below one, "
-            "statistics are those of the whole run and depend on its length"
+            "dynamics.duration is shorter than two revolutions of the chain, from which settling cannot be judged; below one revolution "
+            "the statistics are those of the whole run and depend on its length: increase dynamics.duration"
         )
     elif drifting:
         more = f" and {len(drifting) - MOST_LISTED} more" if len(drifting) > MOST_LISTED else ""
-        yield f"not settled: {', '.join(drifting[:MOST_LISTED])}{more}; give dynamics.settling and dynamics.duration more"
+        yield f"not settled: {', '.join(drifting[:MOST_LISTED])}{more}; increase dynamics.settling and dynamics.duration"
 
 
 def _slipping(values: Mapping[str, Value]) -> Iterator[str]:
@@ -196,9 +201,9 @@ def _slipping(values: Mapping[str, Value]) -> Iterator[str]:
     used = values.get("dynamics.friction_utilisation")
     if used and used.value > MOST_FRICTION:
         yield (
-            f"the pins do not always roll as the model lets them: at moments that takes a coefficient of friction of {used.value:.2g} "
-            f"(dynamics.friction_utilisation), and steel on steel has about 0.1 lubricated and {MOST_FRICTION:.2g} dry. Real pins slip "
-            "then, in the joint that needs the most; the model has no such slip"
+            f"the pins roll without slip in the model, which at times requires a coefficient of friction of {used.value:.2g} "
+            f"(dynamics.friction_utilisation); steel on steel has about 0.1 lubricated and {MOST_FRICTION:.2g} dry. Real pins slip then, "
+            "which the model does not include"
         )
 
 
@@ -208,7 +213,7 @@ def _runs(model, system):
     duration = given.settling + (given.duration or REVOLUTIONS * model.spec.links * tooth_time(system))
     if duration - given.settling < 2 * tooth_time(system):
         raise SpecError(
-            f"{1e3 * (duration - given.settling):.4g} ms hold no two teeth of {1e3 * tooth_time(system):.4g} ms; give more",
+            f"{1e3 * (duration - given.settling):.4g} ms is shorter than two teeth of {1e3 * tooth_time(system):.4g} ms each; increase it",
             "dynamics.duration",
         )
     joints = (WATCHED,) if model.plain else _recorded(model)
@@ -228,13 +233,13 @@ def _recorded(model):
 
 
 def _refuse_endless(model, duration, step):
-    """SpecError for an explicit run of more steps than anybody waits for."""
+    """SpecError for an explicit run of more than `MOST_STEPS` steps."""
     given = model.spec.dynamics
     work = duration / step * model.spec.links * given.ensemble
     if work > MOST_STEPS:
         raise SpecError(
             f"{given.ensemble} runs of {duration:.3g} s in steps of {step:.3g} s take {work:.2g} steps of a link, more than "
-            f"{MOST_STEPS:.2g}; shorten the run, lower stiffness or damping, or solve implicitly",
+            f'the limit of {MOST_STEPS:.2g}; shorten the run, reduce stiffness or damping, or take integrator = "implicit"',
             "dynamics.duration",
         )
 

@@ -43,7 +43,7 @@ def _drifting(levels):
     """Finding: where the fluctuation had not settled."""
     names = [name for name, level in levels if not level.fluctuation.settled]
     if names:
-        yield f"not settled, and of no meaning beyond these runs: the fluctuation at {', '.join(names)}; give dynamics.settling more"
+        yield f"not settled: the fluctuation at {', '.join(names)}, which depends on the length of the runs; increase dynamics.settling"
 
 
 @unless_impossible
@@ -56,13 +56,11 @@ def scatter(model: ChainModel, done: Answers) -> Answer:
     values, levels = {}, [row.value for row in spread.outcomes.rows if row.ok]
     unit, words = signal_of(levels)
     for k, percent in enumerate(PERCENTILES):
-        for name, numbers, what in (
-            ("mean", spread.mean, f"mean {words}"),
-            ("fluctuation", spread.fluctuation, f"peak-to-peak of the {words} in a revolution"),
-        ):
+        for name, numbers, what in (("mean", spread.mean, f"mean {words}"), ("fluctuation", spread.fluctuation, f"peak-to-peak {words}")):
             value, low, high = np.asarray(numbers)[:, k]
-            meaning = f"{what}, {percent} % of the drives are below"
-            values[f"scatter.{name}.p{percent:02d}"] = Value(value, unit, meaning, low, high, "sample").plain()
+            meaning = f"{what} in a revolution of the chain, below which {percent} % of the drives lie"
+            label = f"{what}, P{percent}"
+            values[f"scatter.{name}.p{percent:02d}"] = Value(value, unit, meaning, low, high, "sample", label=label).plain()
     table = scatter_table(levels)
     findings = tuple(f"drive {row.case}: {row.reason}" for row in spread.outcomes.failed)
     return Answer(values, (table,), (), findings)
@@ -77,9 +75,18 @@ def quasi_static(model: ChainModel, done: Answers) -> Answer:
         **(_distances_at_rest(system, rest) if system.sprockets[system.measured].slide else {}),
         **_travels_at_rest(system, rest),
         "quasi_static.transmission_error": Value(
-            np.ptp(rest.transmission_error(1)), "rad", "driven angle off the ratio of teeth, greatest less least"
+            np.ptp(rest.transmission_error(1)),
+            "rad",
+            "transmission error of the loaded chain at rest, peak-to-peak over one tooth: angle of the driven sprocket minus that by the "
+            "tooth ratio",
+            label="Static transmission error, peak-to-peak",
         ),
-        "quasi_static.flank_force.maximum": Value(np.max(rest.flank_force), "N", "greatest force on a flank of a plate"),
+        "quasi_static.flank_force.maximum": Value(
+            np.max(rest.flank_force),
+            "N",
+            "maximum force on a flank of a plate, chain at rest under load",
+            label="Maximum flank force, static",
+        ),
     }
     return Answer(values, (rest_table(rest), plate_force_table(rest)))
 
@@ -88,9 +95,21 @@ def _distances_at_rest(system, rest):
     """The centre distance at rest, and that of the rigid limit."""
     rigid = compliance_of(system, POSITIONS)
     return {
-        "quasi_static.centre_distance.mean": Value(rest.mean, "m", "mean centre distance under load, at rest"),
-        "quasi_static.centre_distance.fluctuation": Value(rest.fluctuation, "m", "greatest less least over a tooth"),
-        "quasi_static.centre_distance.rigid": Value(rigid.rigid_mean, "m", "the mean with the compliance taken off"),
+        "quasi_static.centre_distance.mean": Value(
+            rest.mean, "m", "mean centre distance over one tooth, chain at rest under load", label="Static centre distance, mean"
+        ),
+        "quasi_static.centre_distance.fluctuation": Value(
+            rest.fluctuation,
+            "m",
+            "peak-to-peak centre distance over one tooth, chain at rest under load",
+            label="Static centre distance, peak-to-peak",
+        ),
+        "quasi_static.centre_distance.rigid": Value(
+            rigid.rigid_mean,
+            "m",
+            "mean centre distance over one tooth, extrapolated to rigid plates and joints",
+            label="Static centre distance, rigid limit",
+        ),
     }
 
 
@@ -100,9 +119,17 @@ def _travels_at_rest(system, rest):
     for number in tensioners(system):
         name, travel = bodies(system)[number].name, rest.bodies[:, number, 0]
         key = f"quasi_static.tensioner.{name}.travel"
-        values[f"{key}.mean"] = Value(float(np.mean(travel)), "m", f"mean travel of tensioner {name} under load, at rest")
+        values[f"{key}.mean"] = Value(
+            float(np.mean(travel)),
+            "m",
+            f"mean travel of tensioner {name} over one tooth, chain at rest under load",
+            label=f"Static travel of {name}, mean",
+        )
         values[f"{key}.fluctuation"] = Value(
-            float(np.ptp(travel)), "m", f"travel of tensioner {name} at rest, greatest less least over a tooth"
+            float(np.ptp(travel)),
+            "m",
+            f"peak-to-peak travel of tensioner {name} over one tooth, chain at rest under load",
+            label=f"Static travel of {name}, peak-to-peak",
         )
     return values
 

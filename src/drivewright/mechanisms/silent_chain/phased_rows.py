@@ -19,8 +19,18 @@ def phased_rows(model: ChainModel) -> tuple[dict[str, Value], tuple[Table, ...],
         return {}, (), ()
     both = phased(model.closure, model.spec.row_phase)
     values = {
-        "phased.centre_distance.fluctuation": Value(both.fluctuation, "m", "fluctuation with both rows: greatest less least over a tooth"),
-        "phased.transmission_error": Value(both.transmission_ripple, "rad", "transmission error of both rows, greatest less least"),
+        "phased.centre_distance.fluctuation": Value(
+            both.fluctuation,
+            "m",
+            "peak-to-peak centre distance of both rows together over one tooth",
+            label="Centre distance, peak-to-peak, both rows",
+        ),
+        "phased.transmission_error": Value(
+            both.transmission_ripple,
+            "rad",
+            "peak-to-peak transmission error of both rows together over one tooth",
+            label="Transmission error, both rows",
+        ),
         **dict(_orders(both)),
     }
     shared, findings = _load_sharing(model, both)
@@ -30,10 +40,10 @@ def phased_rows(model: ChainModel) -> tuple[dict[str, Value], tuple[Table, ...],
 def _orders(both: Phased) -> Iterator[tuple[str, Value]]:
     """Amplitudes of the transmission error at the meshing of one row and its harmonic, of both rows and of one alone."""
     for order in ORDERS:
-        words = f"mesh order {order} of the transmission error"
+        words = f"amplitude of the transmission error at mesh order {order}"
         for name, signal, of in (("", both.transmission_error, "both rows"), ("single_", both.single_error, "one row")):
-            amplitude, label = mesh_order(both.driver_angle, signal, order), f"Mesh order {order} of {of}"
-            yield f"phased.{name}order_{order}", Value(amplitude, "rad", f"{words}, {of}: amplitude", label=label)
+            amplitude, label = mesh_order(both.driver_angle, signal, order), f"Transmission error, order {order}, {of}"
+            yield f"phased.{name}order_{order}", Value(amplitude, "rad", f"{words}, {of}", label=label)
 
 
 def _load_sharing(model: ChainModel, both: Phased) -> tuple[dict[str, Value], tuple[str, ...]]:
@@ -47,12 +57,18 @@ def _load_sharing(model: ChainModel, both: Phased) -> tuple[dict[str, Value], tu
     mean = 0.25 * (model.strands.tight + model.strands.slack)
     values = {
         "phased.force_difference": Value(
-            more, "N", "force difference of the rows: greatest pull of a strand of one row beyond the mean of both"
+            more, "N", "largest tension of a strand of one row above the mean of both rows", label="Force difference between the rows"
         ),
-        "phased.load_share": Value(0.5 + 0.5 * more / mean, "-", "greatest share of a row in the load: of strands at their mean force"),
+        "phased.load_share": Value(
+            0.5 + 0.5 * more / mean,
+            "-",
+            "largest share of one row in the load, for strands at their mean tension",
+            label="Load share of a row",
+        ),
     }
     slack = more > 0.5 * model.strands.slack
     lost = (
-        "at moments the slack strand of one row pulls with nothing, and the rows do not share as this rigid measure says: give more preload"
+        "the slack strand of one row loses its tension at times, and the load shares of the rigid rows do not hold then: increase the "
+        "preload"
     )
     return values, ((lost,) if slack else ())

@@ -29,9 +29,9 @@ COLOURS = {"drive": "orange", "driven": "green"}
 def scene(model: ChainModel) -> Scene:
     """The chain running over two teeth of the driving sprocket; then every plate stands where the next one but one stood."""
     if model.link.skew and not model.closes:
-        raise InputError("a chain with tensioners or further sprockets is shown with joints of two equal radii")
+        raise InputError("the motion of a chain with tensioners or further sprockets can be shown for joints of two equal radii only")
     if model.spec.drive is None and model.spec.sprockets:
-        raise InputError("a chain around more than two sprockets finds its place by its loads; write [drive]")
+        raise InputError("the path of a chain around more than two sprockets depends on its loads; add [drive]")
     views = [SprocketView(name, words, _under_the_chain(model, sprocket), colour) for name, words, sprocket, colour in _sprockets(model)]
     if model.closes:
         return closure_scene(model.closure, views, link_shapes(model))

@@ -15,7 +15,7 @@ EQUAL = 1e-9  # relative: as the number says it
 class SizedSpec(SilentChainSpec):
     """A spec whose pitch is known: given, or by the number of its chain."""
 
-    pitch: Length = Field(gt=0, description="of the straight chain")  # pyright: ignore[reportIncompatibleVariableOverride]
+    pitch: Length = Field(gt=0, description="pitch of the straight chain")  # pyright: ignore[reportIncompatibleVariableOverride]
 
 
 def sized(spec: SilentChainSpec) -> SizedSpec:
@@ -51,9 +51,9 @@ def size_findings(spec: SilentChainSpec) -> Iterator[str]:
     for key, value in _given_by(size).items():
         own = value_at(spec, key)
         if own is not None and _differs(own, value):
-            yield f"{key} = {_text(key, own)} is given and counts; chain {size.name} has {_text(key, value)}"
+            yield f"{key} = {_text(key, own)} of the spec is used instead of {_text(key, value)} of chain {size.name}"
     if size.bush_chain:
-        yield f"chain {size.name} has no rollers: its bushes mesh, of the diameter that roller.diameter says"
+        yield f"chain {size.name} has no rollers: its bushes mesh, and roller.diameter is their diameter"
 
 
 def _given_by(size: ChainSize) -> dict[str, Any]:

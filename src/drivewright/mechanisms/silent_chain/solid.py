@@ -30,14 +30,19 @@ from drivewright.solids.plane import plane_von_mises
 def solid_stress(model: ChainModel, done: Answers) -> Answer:
     """Stress and life of a plate and of its pins as solids in contact, over a revolution of the chain."""
     if model.plate_refusal:
-        return Answer(findings=(f"solid_stress is left out: no plate can be drawn: {model.plate_refusal}",), outcome="left out")
+        return Answer(
+            findings=(f"analysis 'solid_stress' is left out, because the plate cannot be drawn: {model.plate_refusal}",), outcome="left out"
+        )
     runs = done["dynamics"].data
     if runs is None:
-        return Answer(findings=("solid_stress is left out: the chain does not run",), outcome="left out")
+        return Answer(findings=("analysis 'solid_stress' is left out: the run of the chain failed",), outcome="left out")
     revolutions = [plate_revolution(model, run) for run in runs.members]
     if not all(each.whole for each in revolutions):
         return Answer(
-            findings=("solid_stress is left out: the run is shorter than a revolution of the chain; give dynamics.duration more, or none",),
+            findings=(
+                "analysis 'solid_stress' is left out: the run is shorter than a revolution of the chain; increase dynamics.duration, or "
+                "leave it out",
+            ),
             outcome="left out",
         )
     kept = [steps(model, each) for each in revolutions]
@@ -57,8 +62,8 @@ def _fine_enough(given: Solid) -> Iterator[None]:
         finer = given.fineness * ACROSS * error.size / error.width if error.width > 0 else np.inf
         remedy = f"solid.fineness {np.ceil(10 * finer) / 10:.2g} or more, or " if finer <= FINEST else ""
         raise InputError(
-            f"a pin presses its seat on {width}, narrower than two elements of {error.size:.3g} mm; with a clearance of "
-            f"{1e6 * given.clearance:.4g} um they touch almost along a line. Give {remedy}a smaller solid.clearance."
+            f"the contact of a pin with its seat has a width of {width}, less than two elements of {error.size:.3g} mm; with a clearance "
+            f"of {1e6 * given.clearance:.4g} µm they touch almost along a line. Take {remedy}a smaller solid.clearance."
         ) from None
 
 
@@ -90,12 +95,14 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
     pressure = tables.rolling_table(rolling, model.link.radius, spec.material.youngs_modulus, spec.material.poisson_ratio)
     values = _stresses(rolling, histories, float(np.max(pressure["pressure"].data))) | {
         "solid.plate.min_life": _mean_life(
-            [each.least for each in plates], "shortest life of a plate as a solid, in revolutions of the chain", "Life of a plate (solid)"
+            [each.least for each in plates],
+            "minimum fatigue life of a plate in revolutions of the chain, by the solid model",
+            "Minimum plate life (solid)",
         ),
         "solid.pin.min_life": _mean_life(
             [min(each["left"].least, each["right"].least) for each in pins],
-            "shortest life of a pin beside its rolling contact, in revolutions of the chain",
-            "Life of a pin (solid)",
+            "minimum fatigue life of a pin outside its rolling contact in revolutions of the chain, by the solid model",
+            "Minimum pin life (solid)",
         ),
     }
     limit = spec.limits.yield_safety
@@ -106,8 +113,9 @@ def _answer(model: ChainModel, rolling: RollingPins, histories: list[SolidHistor
             limit,
             ">=",
             "-",
-            f"yield strength over the greatest von Mises stress of a {name} as a solid",
+            f"yield strength over the maximum von Mises stress of a {name}, by the solid model; a thicker {name} increases it",
             ("chain",),
+            label=f"Yield safety of the {name} (solid)",
         )
         for name in ("plate", "pin")
     )
@@ -124,35 +132,44 @@ def _stresses(rolling: RollingPins, histories: list[SolidHistory], pressure: flo
         "solid.plate.max_stress": _mean(
             [each.plate for each in most],
             "Pa",
-            "greatest von Mises stress of a plate over a revolution of the chain, as a solid in contact with its pins",
-            "Greatest stress of a plate (solid)",
+            "maximum von Mises stress of a plate over a revolution of the chain, as a solid in contact with its pins",
+            "Maximum plate stress (solid)",
         ),
-        "solid.plate.max_stress.x": Value(float(x), "m", "where it is, along the plate from its middle", label="Place along the plate"),
-        "solid.plate.max_stress.y": Value(float(y), "m", "where it is, above the line of the pins", label="Place across the plate"),
-        "solid.plate.max_stress.z": Value(float(z), "m", "where it is, from the middle of the chain", label="Place across the chain"),
+        "solid.plate.max_stress.x": Value(
+            float(x), "m", "place of the maximum stress along the plate, from its middle", label="Maximum plate stress (solid), x"
+        ),
+        "solid.plate.max_stress.y": Value(
+            float(y), "m", "place of the maximum stress across the plate, above the pin line", label="Maximum plate stress (solid), y"
+        ),
+        "solid.plate.max_stress.z": Value(
+            float(z),
+            "m",
+            "place of the maximum stress along the pins, from the middle of the chain",
+            label="Maximum plate stress (solid), z",
+        ),
         "solid.pin.max_stress": _mean(
             [each.pin for each in most],
             "Pa",
-            "greatest von Mises stress of a pin over a revolution of the chain, beside its rolling contact",
-            "Greatest stress of a pin (solid)",
+            "maximum von Mises stress of a pin over a revolution of the chain, outside its rolling contact",
+            "Maximum pin stress (solid)",
         ),
         "solid.seat.max_pressure": _mean(
             [each.pressure for each in most],
             "Pa",
-            "greatest pressure of a pin on its seat in a plate; it grows where the edges of the hole are sharper",
-            "Greatest pressure on a seat",
+            "maximum pressure of a pin on its seat in a plate; it grows with sharper edges of the hole",
+            "Maximum seat pressure (solid)",
         ),
         "solid.rolling.max_pressure": Value(
             pressure,
             "Pa",
-            "greatest Hertz pressure between two pins, with the line load that their bending leaves along them, under the greatest force",
-            label="Greatest rolling pressure (solid)",
+            "maximum Hertz pressure between two pins under the largest force, with the line load as distributed by their bending",
+            label="Maximum rolling pressure (solid)",
         ),
         "solid.rolling.line_load_ratio": Value(
             float(rolling.line_load.max() / np.average(rolling.line_load, weights=rolling.shares / rolling.line_load)),
             "-",
-            "greatest line load between two pins over its mean along them",
-            label="Greatest over mean line load",
+            "maximum line load between two pins over its mean along them",
+            label="Line load, maximum over mean",
         ),
     }
 
@@ -163,12 +180,12 @@ def _pictures(first: SolidHistory, time: Floats, plate: SkinLife, pins: dict[str
     instant, pin_instant = first.worst("plate")[1], first.worst(side)[1]
     return (
         tables.history_table(first, time),
-        tables.stress_table("solid_plate", "Plate as a solid at its worst instant", first, "plate", instant),
-        tables.stress_table("solid_pin", "Pin as a solid at its worst instant", first, side, pin_instant),
+        tables.stress_table("solid_plate", "Plate at its worst instant (solid)", first, "plate", instant),
+        tables.stress_table("solid_pin", "Pin at its worst instant (solid)", first, side, pin_instant),
         tables.section_table(first, side, pin_instant),
         tables.seat_table(first, side, pin_instant),
-        tables.life_table("solid_plate_life", "Life on the plate as a solid", first.skins["plate"], plate, "plate"),
-        tables.life_table("solid_pin_life", "Life on the pin as a solid", first.skins[side], pins[side], side),
+        tables.life_table("solid_plate_life", "Life on the plate surface (solid)", first.skins["plate"], plate, "plate"),
+        tables.life_table("solid_pin_life", "Life on the pin surface (solid)", first.skins[side], pins[side], side),
     )
 
 
@@ -176,17 +193,17 @@ def _remarks(model: ChainModel, rolling: RollingPins, histories: list[SolidHisto
     unknowns = {name: body.unknowns for name, body in histories[0].solid.model.bodies.items()}
     yield (
         f"solids: {len(histories[0].states)} load steps of a revolution, turning points of the stress (solid.load_steps); "
-        f"{unknowns['plate']} unknowns of the plate, {unknowns['left']} of a pin; on elements half as large the greatest stress "
-        "changes by about 2 %, pressures at the edges of a hole by up to 20 % (solid.fineness)"
+        f"{unknowns['plate']} unknowns of the plate, {unknowns['left']} of a pin; with elements half as large the maximum stress "
+        "changes by about 2 %, the pressure at the edges of a hole by up to 20 % (solid.fineness)"
     )
     if rolling.state.model.bodies["own pin"].basis.shape[1] < 3:
-        yield "solids: a lacing wider than 1 x 2 is computed as a cell of an endless stack of plates: its pins do not bend"
+        yield "solids: a lacing wider than 1 x 2 is modelled as a cell of an endless stack of plates, whose pins do not bend"
     yield (
-        "solids: the stress right in the rolling contact is Hertz's (pin.contact_pressure, pin.shakedown) and not in that of the pins; "
-        "clearance, friction and edges of the holes are assumptions (solid.clearance, solid.friction, solid.edge_radius)"
+        "solids: the stress in the rolling contact follows from Hertz (pin.contact_pressure, pin.shakedown) and is not included in that "
+        "of the pins; clearance, friction and edge radius of the holes are assumptions (solid.clearance, solid.friction, solid.edge_radius)"
     )
     if card_of(model).estimated:
-        yield "solids: the fatigue data are estimated from the tensile strength by the uniform material law; bring data from tests"
+        yield "solids: the fatigue data are estimated from the tensile strength by the uniform material law; give test data in fatigue.card"
 
 
 def _mean(numbers: list[float], unit: str, meaning: str, label: str) -> Value:

@@ -1,4 +1,4 @@
-"""What the user says of a chain drive: links, joint, plates, sprockets, drive, how it is computed."""
+"""Spec of a chain drive: links, joint, plates, sprockets, drive, and options of the analyses."""
 
 from typing import TYPE_CHECKING, Annotated, Literal, TypeAlias
 
@@ -34,61 +34,71 @@ class Joint(Spec):
 
     kind: Literal["round-pin", "arc", "asymmetric", "kidney", "rolling-pair", "revolute"] | None = Field(
         None,
+        title="Joint type",
         description="round-pin: two round pins that roll on each other; arc: rockers of a larger radius (classical Hy-Vo); asymmetric: pin "
-        "and rocker of two radii; kidney: a pin in a hollow seat; rolling-pair: any two radii, a hollow one negative; revolute: one pin, a "
-        "hinge; round-pin unless given, revolute of a chain by number",
+        "and rocker of two radii; kidney: a pin in a hollow seat; rolling-pair: any two radii, a hollow one negative; revolute: a hinge "
+        "with one pin; default round-pin, for a chain by number revolute",
         examples=["round-pin"],
     )
-    rolling_radius: Length | None = Field(None, gt=0, description="of the rolling surfaces; not for a revolute joint", examples=["1.2 mm"])
+    rolling_radius: Length | None = Field(
+        None, gt=0, description="radius of the rolling surfaces of the pins; not for a revolute joint", examples=["1.2 mm"]
+    )
     seat_radius: Length | None = Field(
         None,
-        description="of the other rolling surface of an asymmetric, kidney or rolling-pair joint, on the left of a plate; rolling_radius "
-        "is that on the right",
+        description="radius of the second rolling surface of an asymmetric, kidney or rolling-pair joint, on the left side of a plate; "
+        "rolling_radius is that on the right side",
         examples=["6 mm"],
     )
     offset: Offset = Field(
         "match-drive",
-        description="centre of the pins below the pitch line, or its rule: match-drive, minimax; a label, nothing physical depends on it",
+        title="Pin offset",
+        description="distance of the pin centres below the pitch line, or a rule: match-drive, minimax; it affects only the measures of "
+        "the published method",
     )
     contact_length: Length | None = Field(
         None,
         gt=0,
-        description="length along which the pins touch, or of a roller chain's bushes, of one row; the width of the pack of plates "
-        "unless given",
+        description="contact length of the pins of one row, or length of a roller chain's bushes; default: the width of the plate pack",
         examples=["6 mm"],
     )
     pin_diameter: Length | None = Field(
-        None, gt=0, description="of the pin of a revolute joint; a quarter of the pitch unless given", examples=["3 mm"]
+        None, gt=0, description="diameter of the pin of a revolute joint; default: a quarter of the pitch", examples=["3 mm"]
     )
 
 
 class Plate(Spec):
     """The toothed link plates of a silent chain."""
 
-    flank_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="of the outer flank from the plate's axis of symmetry")
+    flank_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="angle of the outer flank from the plate's axis of symmetry")
     apothem: Length | None = Field(
-        None, description="centre of the pin's rolling surface to the flank on the same side; or give standard_apothem", examples=["2.6 mm"]
+        None,
+        description="distance from the centre of the pin's rolling surface to the flank on the same side; or give standard_apothem",
+        examples=["2.6 mm"],
     )
     standard_apothem: Length | None = Field(
-        None, gt=0, description="rotation centre on the pitch line to flank, instead of apothem", examples=["3.773 mm"]
+        None,
+        gt=0,
+        description="distance from the rotation centre on the pitch line to the flank, instead of apothem",
+        examples=["3.773 mm"],
     )
-    thickness: Length | None = Field(None, gt=0, description="of a plate; 2 mm unless given", examples=["2 mm"])
-    lacing: tuple[Integer, Integer] = Field((1, 2), description="plates side by side in one pitch and in the next")
-    back: Length | None = Field(
-        None, gt=0, description="height of the back above the pin line; 0.27 pitches unless given", examples=["2.6 mm"]
-    )
+    thickness: Length | None = Field(None, gt=0, description="thickness of a plate; default: 2 mm", examples=["2 mm"])
+    lacing: tuple[Integer, Integer] = Field((1, 2), description="number of plates side by side in one pitch and in the next")
+    back: Length | None = Field(None, gt=0, description="height of the back above the pin line; default: 0.27 pitches", examples=["2.6 mm"])
     toe: Length | None = Field(
-        None, lt=0, description="ends of the toes below the pin line; -0.63 pitches unless given", examples=["-6 mm"]
+        None, lt=0, description="height of the toe ends relative to the pin line, negative; default: -0.63 pitches", examples=["-6 mm"]
     )
     crotch: Length | None = Field(
-        None, lt=0, description="bottom of the crotch below the pin line; -0.15 pitches unless given", examples=["-1.4 mm"]
+        None,
+        lt=0,
+        description="height of the crotch bottom relative to the pin line, negative; default: -0.15 pitches",
+        examples=["-1.4 mm"],
     )
-    crotch_radius: Length | None = Field(None, ge=0, description="rounding of the crotch; 0.06 pitches unless given", examples=["0.6 mm"])
-    link_mass: Mass | None = Field(None, gt=0, description="of a pitch of chain; from plates and pins unless given", examples=["2.5 g"])
+    crotch_radius: Length | None = Field(None, ge=0, description="radius of the crotch; default: 0.06 pitches", examples=["0.6 mm"])
+    link_mass: Mass | None = Field(None, gt=0, description="mass of one pitch of chain; default: from plates and pins", examples=["2.5 g"])
     link_inertia: Inertia | None = Field(
         None,
         gt=0,
-        description="of a pitch of chain about its centre of mass; from plates and pins unless given",
+        description="moment of inertia of one pitch of chain about its centre of mass; default: from plates and pins",
         examples=["6.4e-8 kg m^2"],
     )
 
@@ -96,77 +106,102 @@ class Plate(Spec):
 class Roller(Spec):
     """Rollers on the pins: the chain is a roller chain, its sprockets have arcs for teeth."""
 
-    diameter: Length | None = Field(None, gt=0, description="of the rollers; by the chain's number unless given", examples=["6.35 mm"])
+    diameter: Length | None = Field(None, gt=0, description="diameter of the rollers; default: by the chain number", examples=["6.35 mm"])
     inner_width: Length | None = Field(
-        None, gt=0, description="between the inner plates; the length of the bushes unless given", examples=["5.72 mm"]
+        None, gt=0, description="width between the inner plates; default: the length of the bushes", examples=["5.72 mm"]
     )
-    tooth_space: Number = Field(0.5, ge=0, le=1, description="form of the sprockets' spaces between the smallest (0) and the largest (1)")
+    tooth_space: Number = Field(
+        0.5, ge=0, le=1, description="tooth gap form of the sprockets between the smallest (0) and the largest (1) of the standard"
+    )
 
 
 class Cutter(Spec):
     """The hob or rack cutter that makes the sprockets, and the teeth it leaves."""
 
-    half_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="half the angle of its teeth")
-    pitch: Length | None = Field(None, gt=0, description="of its teeth; from the chain's base pitch unless given", examples=["9.525 mm"])
+    half_angle: Angle = Field("30 deg", gt=0, lt=TURN / 8, description="half the angle of the cutter's teeth")
+    pitch: Length | None = Field(
+        None, gt=0, description="pitch of the cutter's teeth; default: from the base pitch of the chain", examples=["9.525 mm"]
+    )
     tip_rounding: Length | None = Field(
-        None, gt=0, description="of its tip; a quarter of its module, or what has room, unless given", examples=["0.5 mm"]
+        None,
+        gt=0,
+        description="radius of the cutter's tip; default: a quarter of its module, or the largest that fits",
+        examples=["0.5 mm"],
     )
     tip_depth: Length | None = Field(
-        None, description="tips of the teeth below the pin line of a seated plate; 0.18 pitches unless given", examples=["1.7 mm"]
+        None, description="distance of the tooth tips below the pin line of a seated plate; default: 0.18 pitches", examples=["1.7 mm"]
     )
-    root_depth: Length | None = Field(None, gt=0, description="roots of the teeth below it; 0.68 pitches unless given", examples=["6.5 mm"])
-    chamfer: Length | None = Field(None, ge=0, description="of the tips; 0.02 pitches unless given", examples=["0.2 mm"])
+    root_depth: Length | None = Field(
+        None,
+        gt=0,
+        description="distance of the tooth roots below the pin line of a seated plate; default: 0.68 pitches",
+        examples=["6.5 mm"],
+    )
+    chamfer: Length | None = Field(None, ge=0, description="chamfer of the tooth tips; default: 0.02 pitches", examples=["0.2 mm"])
     bore: Length | None = Field(
         None,
         ge=0,
-        description="diameter of the holes of the sprockets, for drawings and masses; 0.4 of the smaller pitch circle unless given",
+        description="bore diameter of the sprockets, for drawings and masses; default: 0.4 times the smaller pitch diameter",
         examples=["20 mm"],
     )
     measuring_pin: Length | None = Field(
-        None, gt=0, description="diameter; that which touches where the plates do unless given", examples=["6 mm"]
+        None, gt=0, title="Measuring pin diameter", description="default: touches the flanks where the plates do", examples=["6 mm"]
     )
 
 
 class Meshing(Spec):
     """Readings of the published method."""
 
-    ideal: Ideal = Field("seat", description="ideal pitch: seat p/cos(pi/z), the paper's; rack p tan(t)/t, conjugate on the pitch circle")
+    ideal: Ideal = Field(
+        "seat",
+        title="Ideal pitch",
+        description="definition of the ideal pitch: seat, p/cos(pi/z) of the paper; rack, p tan(t)/t, conjugate on the pitch circle",
+    )
     apothem_reference: Literal["pitch_line", "pin"] = Field(
-        "pitch_line", description="where the apothem counts from; pin is the other reading of equation (2), and cuts the teeth too thin"
+        "pitch_line",
+        description="origin of the apothem: pitch_line; or pin, the other reading of equation (2), with which the teeth are cut too thin",
     )
 
 
 class Drive(Spec):
     """Speed and loads."""
 
-    speed: Speed = Field(gt=0, description="of the driving sprocket", examples=["2000 rpm"])
+    speed: Speed = Field(gt=0, description="speed of the driving sprocket", examples=["2000 rpm"])
     preload: Force | None = Field(
         None,
         gt=0,
-        description="outward force on the driven sprocket; each strand carries half of it; not for a fixed centre distance",
+        description="outward force on the driven sprocket, half of it in each strand; not for a fixed centre distance",
         examples=["150 N"],
     )
-    load_torque: Torque = Field("0 N m", description="that the driven sprocket has to overcome; below 0 it drives")
-    reversing: bool = Field(False, description="whether it also runs the other way under the same load: both strands are tight in turn")
-    ramp: Time = Field("0 s", ge=0, description="time in which the speed is reached from rest; 0: the run begins at speed")
+    load_torque: Torque = Field("0 N m", description="load torque on the driven sprocket; negative where it drives")
+    reversing: bool = Field(
+        False, description="whether the drive also runs in the other sense of rotation under the same load, where the tight strand changes"
+    )
+    ramp: Time = Field(
+        "0 s", ge=0, title="Ramp time", description="time in which the speed is reached from rest; 0: the run begins at speed"
+    )
     gravity: tuple[Acceleration, Acceleration] = Field(
-        ("0 m/s^2", "0 m/s^2"), description="along x, from the driving to the driven sprocket, and y"
+        ("0 m/s^2", "0 m/s^2"), description="gravity along x, from the driving to the driven sprocket, and along y"
     )
 
 
 class Driven(Spec):
     """The driven sprocket as a body."""
 
-    mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.6 kg"])
-    inertia: Inertia | None = Field(None, gt=0, description="about its axis; that of the disc unless given", examples=["9.3e-4 kg m^2"])
+    mass: Mass | None = Field(
+        None, gt=0, description="mass of the sprocket; default: a steel disc as wide as the chain", examples=["0.6 kg"]
+    )
+    inertia: Inertia | None = Field(
+        None, gt=0, description="moment of inertia about its axis; default: that of the disc", examples=["9.3e-4 kg m^2"]
+    )
     damping_ratio: Number = Field(
         0.1,
         ge=0,
-        description="of its slide and, but while the speed ramps up, of its rotation about the nominal "
-        "speed; over critical, on the strands",
+        description="damping ratio of its slide and, except while the speed ramps up, of its rotation about the nominal speed, on the "
+        "stiffness of the strands",
     )
     centre_distance: Length | None = Field(
-        None, gt=0, description="a fixed one, instead of the slide under the preload", examples=["219.056 mm"]
+        None, gt=0, description="fixed centre distance, instead of a slide under the preload", examples=["219.056 mm"]
     )
 
 
@@ -174,16 +209,19 @@ class Tensioner(Spec):
     """What presses on the chain by a spring, on a slide or about a pivot."""
 
     force: Force | None = Field(
-        None, gt=0, description="of a tensioner's spring at the given place, on the chain; fixed unless given", examples=["50 N"]
+        None,
+        gt=0,
+        description="spring force of a tensioner on the chain at the given position; without it the body is fixed",
+        examples=["50 N"],
     )
-    direction: Angle | None = Field(None, description="in which a tensioner moves on a slide", examples=["-90 deg"])
+    direction: Angle | None = Field(None, description="direction in which a tensioner moves on its slide", examples=["-90 deg"])
     pivot: tuple[Length, Length] | None = Field(
-        None, description="x, y about which a tensioner turns, instead of a slide", examples=[["20 mm", "70 mm"]]
+        None, description="x, y of the pivot about which a tensioner turns, instead of a slide", examples=[["20 mm", "70 mm"]]
     )
-    stiffness: Stiffness = Field("0 N/m", ge=0, description="of a tensioner's spring")
-    damping: Damping = Field("50 N s/m", ge=0, description="of a tensioner")
+    stiffness: Stiffness = Field("0 N/m", ge=0, description="spring stiffness of a tensioner")
+    damping: Damping = Field("50 N s/m", ge=0, description="damping of a tensioner")
     travel: Length | None = Field(
-        None, gt=0, description="of a tensioner from the given place, as far as there is room", examples=["15 mm"]
+        None, gt=0, description="largest travel of a tensioner from the given position, either way", examples=["15 mm"]
     )
 
 
@@ -191,27 +229,38 @@ class Sprocket(Tensioner):
     """A further sprocket; sprung, it is a tensioner."""
 
     name: Name = Field(description="name", examples=["idler"])
-    teeth: Integer = Field(ge=6, description="teeth", examples=[21])
-    centre: tuple[Length, Length] = Field(description="x, y from the driving sprocket", examples=[["100 mm", "60 mm"]])
-    side: Literal["outside", "inside"] = Field("inside", description="of the loop; outside, on the back of a roller chain")
-    mass: Mass | None = Field(None, gt=0, description="a steel disc as wide as the chain unless given", examples=["0.3 kg"])
-    inertia: Inertia | None = Field(None, gt=0, description="about its axis; that of the disc unless given", examples=["1e-4 kg m^2"])
-    load_torque: Torque = Field("0 N m", description="that it has to overcome")
+    teeth: Integer = Field(ge=6, description="number of teeth", examples=[21])
+    centre: tuple[Length, Length] = Field(description="x, y of the centre from the driving sprocket", examples=[["100 mm", "60 mm"]])
+    side: Literal["outside", "inside"] = Field("inside", description="side of the chain loop; outside: on the back of a roller chain")
+    mass: Mass | None = Field(
+        None, gt=0, description="mass of the sprocket; default: a steel disc as wide as the chain", examples=["0.3 kg"]
+    )
+    inertia: Inertia | None = Field(
+        None, gt=0, description="moment of inertia about its axis; default: that of the disc", examples=["1e-4 kg m^2"]
+    )
+    load_torque: Torque = Field("0 N m", description="load torque on the sprocket")
 
 
 class Guide(Tensioner):
     """A curved rail that the plates slide on; sprung, it is a tensioner."""
 
     name: Name = Field(description="name", examples=["tensioner"])
-    centre: tuple[Length, Length] = Field(description="of its arc: x, y from the driving sprocket", examples=[["110 mm", "350 mm"]])
-    radius: Length = Field(gt=0, description="of its arc", examples=["300 mm"])
+    centre: tuple[Length, Length] = Field(
+        description="x, y of the centre of the arc from the driving sprocket", examples=[["110 mm", "350 mm"]]
+    )
+    radius: Length = Field(gt=0, description="radius of the arc", examples=["300 mm"])
     start: Angle = Field(description="polar angle where the arc begins, counter-clockwise from x", examples=["255 deg"])
-    end: Angle = Field(description="polar angle where it ends", examples=["285 deg"])
-    side: Literal["outside", "inside"] = Field("outside", description="of the loop: touches the backs or the toes of the plates")
+    end: Angle = Field(description="polar angle where the arc ends", examples=["285 deg"])
+    side: Literal["outside", "inside"] = Field(
+        "outside", description="side of the chain loop: outside touches the backs of the plates, inside the toes"
+    )
     friction: Number = Field(0.0, ge=0, description="coefficient of Coulomb friction")
-    mass: Mass = Field("50 g", gt=0, description="of a tensioner; of one on a pivot, its moment of inertia over the square of the lever")
+    mass: Mass = Field("50 g", gt=0, description="mass of a tensioner; on a pivot, its moment of inertia over the square of the lever")
     lever: Length | None = Field(
-        None, gt=0, description="from the pivot to where the spring acts; to the middle of the arc unless given", examples=["120 mm"]
+        None,
+        gt=0,
+        description="distance from the pivot to the point where the spring acts; default: to the middle of the arc",
+        examples=["120 mm"],
     )
 
 
@@ -219,33 +268,36 @@ class Closure(Spec):
     """Centre distance and transmission error without dynamics."""
 
     strands: Literal["straight", "equilibrium"] = Field(
-        "equilibrium", description="straight: free plates in one line; equilibrium: each where the strand's force leaves it"
+        "equilibrium",
+        description="shape of the free strands: straight, plates in one line; equilibrium, each plate in equilibrium under the tension",
     )
-    elongation: Number = Field(0.0, ge=-0.02, le=0.05, description="of the chain by wear, relative to its pitch")
+    elongation: Number = Field(0.0, ge=-0.02, le=0.05, description="elongation of the chain by wear, relative to its pitch")
 
 
 class Contact(Spec):
     """Pins on each other, plates on teeth."""
 
     force: Force | None = Field(
-        None, gt=0, description="of the strand; half the preload plus the centrifugal force unless given", examples=["200 N"]
+        None, gt=0, description="force of the strand on the pins; default: the strand tension by [drive]", examples=["200 N"]
     )
     stiffness: Stiffness = Field(
-        "1e5 N/mm", gt=0, description="of a place of contact: flank on tooth, plate on pin, pin on pin; three of these in line make a joint"
+        "1e5 N/mm",
+        gt=0,
+        description="stiffness of one contact: flank on tooth, plate on pin, pin on pin; a joint is three of these in series",
     )
     damping: Damping | None = Field(
-        None, ge=0, description="of flank and tooth; joint_damping times stiffness unless given", examples=["200 N s/m"]
+        None, ge=0, description="damping of the contact of flank and tooth; default: joint_damping times stiffness", examples=["200 N s/m"]
     )
     law: ContactLaw = Field(
         "kelvin-voigt",
-        description="of flank, roller or rail: kelvin-voigt: linear spring and damper; others come with packages that register them",
+        description="contact law of flank, roller or rail; kelvin-voigt: linear spring and damper; further laws by installed packages",
     )
     joint_damping: Time = Field("2 us", ge=0, description="damping of a joint over its stiffness")
     articulation_damping_ratio: Number | None = Field(
         None,
         ge=0,
-        description="of the turning of neighbouring plates against each other, by friction and oil of the joint, over critical "
-        "for a plate that rocks between its joints; 0.003 where pins roll, 0.02 in a hinge unless given",
+        description="damping ratio of the articulation between neighbouring plates, by friction and oil in the joint, for a plate that "
+        "oscillates between its joints; default: 0.003 for rolling pins, 0.02 for a hinge",
         examples=[0.003],
     )
 
@@ -254,22 +306,22 @@ class Dynamics(Spec):
     """The run of the moving chain."""
 
     integrator: Literal["explicit", "implicit"] = Field(
-        "explicit", description="implicit: for damping too large, or contacts too stiff, for short explicit steps"
+        "explicit", description="time integration; implicit: for damping or contact stiffness that would require very short explicit steps"
     )
-    step: Time | None = Field(None, gt=0, description="of time; 1 us (explicit) unless given", examples=["1 us"])
-    settling: Time = Field("50 ms", ge=0, description="left out of the statistics")
-    duration: Time | None = Field(
-        None, gt=0, description="that is evaluated; two revolutions of the chain unless given", examples=["0.25 s"]
+    step: Time | None = Field(None, gt=0, description="time step; default: 1 µs (explicit)", examples=["1 us"])
+    settling: Time = Field("50 ms", ge=0, description="time before the statistics begin")
+    duration: Time | None = Field(None, gt=0, description="evaluated time; default: two revolutions of the chain", examples=["0.25 s"])
+    ensemble: Integer = Field(
+        4, ge=1, le=64, description="number of runs whose starts differ by nanometres, for the intervals of the statistics"
     )
-    ensemble: Integer = Field(4, ge=1, le=64, description="runs whose starts differ by nanometres: intervals of statistics come from them")
-    thickness_deviation: Length = Field("0 mm", description="of all teeth, on each flank, positive: too thick")
+    thickness_deviation: Length = Field("0 mm", description="thickness deviation of all teeth per flank; positive: too thick")
     largest_drift: Number = Field(
-        1e-3, gt=0, description="of the energy balance in a second, over the energy stored; beyond it the run has failed"
+        1e-3, gt=0, description="largest drift of the energy balance per second, relative to the stored energy; above it the run has failed"
     )
 
 
 class Compare(Spec):
-    """Designs beside this one; lists left empty are chosen around it."""
+    """Comparison designs; empty lists are chosen around this design."""
 
     rolling_radii: tuple[Radius, ...] = Field(
         (),
@@ -290,64 +342,73 @@ class Compare(Spec):
 
 
 class Scatter(Spec):
-    """Scatter of manufacture, normally distributed: standard deviations."""
+    """Manufacturing scatter, normally distributed, by standard deviations."""
 
-    tooth_thickness: Length = Field("2 um", ge=0, description="place of the flanks, all teeth of a sprocket alike")
-    pitch: Length = Field("2 um", ge=0, description="hole pitch of every single plate")
-    samples: Integer = Field(20, ge=3, le=5000, description="drives")
-    seed: Integer = Field(0, ge=0, description="of the random numbers")
+    tooth_thickness: Length = Field(
+        "2 um", ge=0, description="standard deviation of the flank position, the same for all teeth of a sprocket"
+    )
+    pitch: Length = Field("2 um", ge=0, description="standard deviation of the hole pitch of each plate")
+    samples: Integer = Field(20, ge=3, le=5000, description="number of drives")
+    seed: Integer = Field(0, ge=0, description="seed of the random numbers")
 
 
 class Fatigue(Spec):
     """Stress and life of the plates."""
 
-    card: StrainLife | None = Field(None, description="strain-life data; estimated from the tensile strength unless given")
+    card: StrainLife | None = Field(None, description="strain-life data; default: estimated from the tensile strength")
     plane: Literal["max-shear", "max-damage"] = Field(
-        "max-shear", description="critical plane: of the greatest shear strain, exact for one-directional tests; or the most damaged one"
+        "max-shear",
+        description="critical plane: that of the maximum shear strain range, exact for uniaxial tests, or that of the maximum damage",
     )
-    fineness: Number = Field(1.0, ge=0.3, le=4, description="of the elements: 2 halves them all")
+    fineness: Number = Field(1.0, ge=0.3, le=4, description="mesh refinement: 2 halves the size of all elements")
 
 
 class Solid(Spec):
     """Plate and pins as elastic solids in contact (extra fe)."""
 
-    clearance: Length = Field("5 um", ge=0, description="of an own pin in its hole, in the radius")
-    edge_radius: Length = Field("50 um", ge=0, description="of the rounded edges of a hole")
+    clearance: Length = Field("5 um", ge=0, description="radial clearance of a pin in its own hole")
+    edge_radius: Length = Field("50 um", ge=0, description="radius of the rounded edges of a hole")
     seat: Angle | None = Field(
         None,
         gt=0,
-        description="half the angle about the outer direction on which a pin bears; all of its seat unless given",
+        title="Seat half-angle",
+        description="half the angle about the outer direction over which a pin bears; default: its whole seat",
         examples=["45 deg"],
     )
-    friction: Number = Field(0.0, ge=0, le=1, description="coefficient between a pin and its seat; with it all takes about twice as long")
-    load_steps: Integer = Field(
-        24, ge=2, le=500, description="instants of a revolution of the chain, the largest and smallest forces among them"
+    friction: Number = Field(
+        0.0, ge=0, le=1, description="coefficient of friction between a pin and its seat; a value above 0 doubles the computing time"
     )
-    fineness: Number = Field(1.0, ge=0.7, le=FINEST, description="of the elements: 2 halves them all")
+    load_steps: Integer = Field(
+        24,
+        ge=2,
+        le=500,
+        description="number of instants of a revolution of the chain, including those with the largest and smallest forces",
+    )
+    fineness: Number = Field(1.0, ge=0.7, le=FINEST, description="mesh refinement: 2 halves the size of all elements")
 
 
 class Limits(Spec):
     """Requirements; each becomes a check."""
 
-    teeth: Integer = Field(8, ge=3, description="of a sprocket, at least")
-    wrap: Angle = Field("120 deg", ge=0, description="angle of a sprocket that the chain takes in, at least")
+    teeth: Integer = Field(8, ge=3, description="minimum number of teeth of a sprocket")
+    wrap: Angle = Field("120 deg", ge=0, description="minimum wrap angle of driving and driven sprocket")
     contact_share: Number = Field(
-        0.2, ge=0, le=1, description="tooth contacts for each link that lies on a sprocket, at least: fewer is overspeed"
+        0.2, ge=0, le=1, description="minimum number of tooth contacts for each link on a sprocket; fewer contacts mean overspeed"
     )
-    slack_share: Number = Field(0.05, ge=0, le=1, description="share of the time in which three joints may be without tension at once")
-    shakedown_safety: Number = Field(1.0, gt=0, description="shakedown limit of the rolling pins over their contact pressure")
-    yield_safety: Number = Field(1.0, gt=0, description="yield strength over von Mises stress of pins and plates")
-    wall: Length = Field("0.5 mm", ge=0, description="least width of a plate around and between its holes")
-    tip_thickness: Length = Field("0.3 mm", ge=0, description="of the teeth at their tips")
-    static_safety: Number = Field(6.0, gt=0, description="breaking load over the force of the tight strand, at least")
+    slack_share: Number = Field(0.05, ge=0, le=1, description="maximum share of time in which three or more joints have no tension at once")
+    shakedown_safety: Number = Field(1.0, gt=0, description="minimum of the shakedown limit of the pins over their Hertz pressure")
+    yield_safety: Number = Field(1.0, gt=0, description="minimum of the yield strength over the von Mises stress of pins and plates")
+    wall: Length = Field("0.5 mm", ge=0, description="minimum wall thickness of a plate around and between its holes")
+    tip_thickness: Length = Field("0.3 mm", ge=0, description="minimum thickness of the teeth at their tips")
+    static_safety: Number = Field(6.0, gt=0, description="minimum of the breaking load over the tension of the tight strand")
     wear_life: Time | None = Field(
-        None, gt=0, description="time until wear elongates the chain to its limit, at least", examples=["5000 h"]
+        None, gt=0, description="minimum time until wear elongates the chain to its elongation limit", examples=["5000 h"]
     )
-    overlap: Length = Field("5 um", ge=0, description="of plates with teeth, seated or coming in")
+    overlap: Length = Field("5 um", ge=0, description="maximum overlap of plates with teeth, seated or engaging")
 
 
 class Material(Spec):
-    """Of plates and pins; the values are those of 38CrMoAl, recalled but for the yield strength."""
+    """Material of plates and pins; the default is 38CrMoAl, recalled except for the yield strength."""
 
     youngs_modulus: Pressure = Field("206 GPa", gt=0, description="Young's modulus")
     poisson_ratio: Number = Field(0.3, gt=-1, lt=0.5, description="Poisson's ratio")
@@ -362,44 +423,46 @@ class SilentChainSpec(MechanismSpec):
     mechanism: Literal["silent-chain"] = Field("silent-chain", description="kind of drive")
     chain: Designation | None = Field(
         None,
-        description="number of a roller chain, e.g. 08B, 16B-2 or ANSI 40: gives pitch, roller, pin, plate, mass and breaking load that "
-        "are not given",
+        title="Chain number",
+        description="number of a roller chain, e.g. 08B, 16B-2 or ANSI 40: supplies pitch, roller, pin, plate, mass and breaking load "
+        "where they are not given",
         examples=["08B"],
     )
-    pitch: Length | None = Field(None, gt=0, description="of the straight chain; by the chain's number unless given", examples=["9.525 mm"])
-    links: Integer = Field(ge=6, le=2000, description="number of pitches", examples=[82])
-    teeth: tuple[Integer, Integer] = Field(description="of the driving and of the driven sprocket", examples=[[35, 37]])
-    rows: Integer | None = Field(None, ge=1, le=8, description="strands side by side on common pins; 1 unless given", examples=[2])
+    pitch: Length | None = Field(None, gt=0, description="pitch of the straight chain; default: by the chain number", examples=["9.525 mm"])
+    links: Integer = Field(ge=6, le=2000, title="Number of links", description="number of links (pitches)", examples=[82])
+    teeth: tuple[Integer, Integer] = Field(
+        title="Numbers of teeth", description="numbers of teeth of the driving and the driven sprocket", examples=[[35, 37]]
+    )
+    rows: Integer | None = Field(None, ge=1, le=8, description="number of rows side by side on common pins; default: 1", examples=[2])
     row_pitch: Length | None = Field(
-        None, gt=0, description="distance of the rows' middle planes; the width of one unless given", examples=["13.92 mm"]
+        None, gt=0, description="distance between the middle planes of the rows; default: the width of one row", examples=["13.92 mm"]
     )
     row_phase: Number = Field(
         0.0,
         ge=0,
         lt=1,
-        description="by how much of a pitch the teeth of the second of two rows are ahead of the first's, each row a chain of its own; 0: "
-        "rows on common pins",
+        description="lead of the teeth of the second row as a share of the pitch, each row being a separate chain; 0: rows on common pins",
         examples=[0.5],
     )
     breaking_load: Force | None = Field(
         None, gt=0, description="minimum tensile strength of the chain, all rows together", examples=["17.8 kN"]
     )
-    joint: Joint = Field(Joint(), description="joint")
-    plate: Plate = Field(Plate(), description="plate")
-    roller: Roller | None = Field(None, description="rollers; without them the plates mesh")
-    cutter: Cutter = Field(Cutter(), description="cutter")
-    meshing: Meshing = Field(Meshing(), description="published method")
-    drive: Drive | None = Field(None, description="speed and loads; for contact, dynamics, stress and life")
+    joint: Joint = Field(Joint(), description="joint of the plates")
+    plate: Plate = Field(Plate(), description="link plates of a silent chain")
+    roller: Roller | None = Field(None, description="rollers of a roller chain; without this table the plates mesh (silent chain)")
+    cutter: Cutter = Field(Cutter(), description="cutter of the sprockets")
+    meshing: Meshing = Field(Meshing(), description="options of the published method")
+    drive: Drive | None = Field(None, description="speed and loads, required for dynamics, stress and life")
     driven: Driven = Field(Driven(), description="driven sprocket")
     sprockets: tuple[Sprocket, ...] = Field((), description="further sprockets, in any order")
     guides: tuple[Guide, ...] = Field((), description="guides and tensioners")
-    closure: Closure = Field(Closure(), description="closure")
-    contact: Contact = Field(Contact(), description="contact")
-    dynamics: Dynamics = Field(Dynamics(), description="dynamics")
-    material: Material = Field(Material(), description="material")
-    compare: Compare = Field(Compare(), description="comparisons")
-    scatter: Scatter = Field(Scatter(), description="scatter of manufacture")
-    fatigue: Fatigue = Field(Fatigue(), description="stress and life")
+    closure: Closure = Field(Closure(), description="closure of the rigid chain")
+    contact: Contact = Field(Contact(), description="stiffness and damping of the contacts")
+    dynamics: Dynamics = Field(Dynamics(), description="run of the moving chain")
+    material: Material = Field(Material(), description="material of plates and pins")
+    compare: Compare = Field(Compare(), description="comparison designs")
+    scatter: Scatter = Field(Scatter(), description="manufacturing scatter")
+    fatigue: Fatigue = Field(Fatigue(), description="stress and life of the plates")
     solid: Solid = Field(Solid(), description="plate and pins as solids")
     wear: Wear | None = Field(None, description="wear of the joints")
     rating: Rating = Field(Rating(), description="power rating")
@@ -423,20 +486,20 @@ def _refuse_nonsense(spec: SilentChainSpec) -> None:
     size_of(spec)
     for number, teeth in enumerate(spec.teeth):
         if teeth < LEAST_TEETH:
-            raise SpecError(f"{teeth} teeth are too few for a sprocket; take {LEAST_TEETH} or more", f"teeth.{number}")
+            raise SpecError(f"{teeth} teeth are too few for a sprocket; choose {LEAST_TEETH} or more", f"teeth.{number}")
     if spec.links <= max(spec.teeth):
         raise SpecError(
-            f"{spec.links} links are no more than the {max(spec.teeth)} teeth of a sprocket: the chain does not reach around two; "
-            f"take {max(spec.teeth) + 4} or more",
+            f"{spec.links} links do not reach around two sprockets, of which one has {max(spec.teeth)} teeth; "
+            f"choose {max(spec.teeth) + 4} or more",
             "links",
         )
     for table in ("guides", "sprockets"):
         names = [entry.name for entry in getattr(spec, table)]
         for name in names:
             if names.count(name) > 1:
-                raise SpecError(f"the name {name!r} comes twice; names in {table} must differ", f"{table}.{name}.name")
+                raise SpecError(f"the name {name!r} is used twice; choose different names in {table}", f"{table}.{name}.name")
     if min(spec.plate.lacing) < 1:
-        raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; count one or more in each", "plate.lacing")
+        raise SpecError(f"lacing {list(spec.plate.lacing)} has a pitch without a plate; give one or more in each", "plate.lacing")
 
 
 def signed_seat(joint: Joint) -> float:

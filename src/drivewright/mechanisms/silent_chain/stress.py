@@ -23,19 +23,29 @@ def stress(model: ChainModel, done: Answers) -> Answer:
     """Stress of a plate over a revolution of the chain."""
     reason = model.plate_refusal
     if reason:
-        return Answer(findings=(f"stress is left out: no plate can be drawn: {reason}",), outcome="left out")
+        return Answer(findings=(f"analysis 'stress' is left out, because the plate cannot be drawn: {reason}",), outcome="left out")
     basis, revolution = plane_basis(model), plate_revolution(model, done["dynamics"].data.first)
     loads = revolution.loads
     peak = worst(basis, loads)
     history = plane_von_mises(stress_history(basis, loads, [peak.row])[:, 0])
     x, y = peak.place
     values = {
-        "plate.max_von_mises": Value(peak.stress, "Pa", "greatest von Mises stress of a plate as it goes round, beside its loaded flanks"),
-        "plate.max_von_mises.x": Value(x, "m", "where it is, along the plate from its middle"),
-        "plate.max_von_mises.y": Value(y, "m", "where it is, above the line of the pins"),
+        "plate.max_von_mises": Value(
+            peak.stress,
+            "Pa",
+            "maximum von Mises stress of a plate over a revolution of the chain, outside its loaded flanks",
+            label="Maximum plate stress",
+        ),
+        "plate.max_von_mises.x": Value(
+            x, "m", "place of the maximum stress along the plate, from its middle", label="Maximum plate stress, x"
+        ),
+        "plate.max_von_mises.y": Value(
+            y, "m", "place of the maximum stress across the plate, above the pin line", label="Maximum plate stress, y"
+        ),
     }
-    safety, message = model.spec.material.yield_strength / peak.stress, "yield strength over the greatest von Mises stress of a plate"
-    check = Check("plate.yield", safety, model.spec.limits.yield_safety, ">=", "-", message, ("chain",))
+    safety = model.spec.material.yield_strength / peak.stress
+    message = "yield strength over the maximum von Mises stress of a plate; a thicker plate or thicker walls increase it"
+    check = Check("plate.yield", safety, model.spec.limits.yield_safety, ">=", "-", message, ("chain",), label="Yield safety of the plate")
     picture = stress_picture(basis, loads, peak.instant)
     return Answer(values, (history_table(revolution, history), picture), (check,), data=StressedPlate(basis, revolution))
 
@@ -45,28 +55,38 @@ def life(model: ChainModel, done: Answers) -> Answer:
     """Life of a plate and of a pin in revolutions of the chain."""
     stressed, card = done["stress"].data, card_of(model)
     if stressed is None:
-        return Answer(findings=("life is left out: there is no stress",), outcome="left out")
+        return Answer(findings=("analysis 'life' is left out: the stress of the plate is not known",), outcome="left out")
     basis, turn = stressed
     if not turn.whole:
         return Answer(
-            findings=("life is left out: the run is shorter than a revolution of the chain; give dynamics.duration more, or none",),
+            findings=(
+                "analysis 'life' is left out: the run is shorter than a revolution of the chain; increase dynamics.duration, or leave it "
+                "out",
+            ),
             outcome="left out",
         )
     lives = plate_life(basis, fewer_instants(turn.loads, MOST_INSTANTS), card, model.spec.fatigue.plane, LEAST)
     shortest, revolution = float(np.min(lives.life)), turn.time[-1] - turn.time[0]
     values = {
-        "plate.life": Value(shortest, "-", f"revolutions of the chain, {fatigue.life_text(shortest, card)}"),
-        "plate.life.time": Value(shortest * revolution, "s", "the same as time at this speed"),
+        "plate.life": Value(
+            shortest,
+            "-",
+            f"fatigue life of a plate in revolutions of the chain, {fatigue.life_text(shortest, card)}",
+            label="Plate life in chain revolutions",
+        ),
+        "plate.life.time": Value(
+            shortest * revolution, "s", "fatigue life of a plate as time at this speed", label="Plate life at this speed"
+        ),
     }
     findings = [
-        f"plate: life of {fatigue.life_text(shortest, card)} revolutions of the chain of {revolution:.4g} s; one revolution takes up "
-        f"{float(np.max(lives.damage)):.3g} of it",
+        f"plate: the life is {fatigue.life_text(shortest, card)} revolutions of the chain of {revolution:.4g} s each; one revolution "
+        f"causes a damage of {float(np.max(lives.damage)):.3g}",
         *(
-            ["the fatigue data are estimated from the tensile strength by the uniform material law; bring data from tests"]
+            ["the fatigue data are estimated from the tensile strength by the uniform material law; give test data in fatigue.card"]
             if card.estimated
             else []
         ),
-        "the pins roll under their contact pressure: its fatigue is not Brown and Miller's; see pin.shakedown",
+        "the rolling contact fatigue of the pins is not covered by the Brown-Miller criterion; see the check pin.shakedown",
     ]
     return Answer(values, (life_table(basis, lives), life_map(basis, lives, DOT * model.link.pitch)), (), tuple(findings))
 

@@ -45,7 +45,9 @@ def run(model: ChainDrive, begin: Start, duration: float, step: float, samples: 
     """The `Run` of a drive from `begin` over `duration` [s], by one of Exudyn's explicit solvers in steps of `step` [s] or less."""
     missing = unknown(model)
     if missing:
-        raise InputError(f"verify: the chain has {missing}; Exudyn's twin knows sprockets at constant speed or free, with linear contacts.")
+        raise InputError(
+            f"verify: the chain has {missing}; the Exudyn model supports sprockets at constant speed or free, with linear contacts."
+        )
     twin = _Twin(model, begin)
     every = max(1, round(duration / step / samples))
     twin.solve(every * samples, duration, samples, solver)
@@ -215,7 +217,7 @@ class _Twin:
         try:
             self.system.SolveDynamic(settings, solverType=getattr(exudyn.DynamicSolverType, solver))
         except Exception as error:  # Exudyn's own errors share no base class
-            raise SolverError(f"verify: Exudyn gave up on the chain ({error}); try a smaller step.") from None
+            raise SolverError(f"verify: Exudyn failed to run the chain ({error}); try a smaller step.") from None
 
     def history(self):
         """The `Run` from what the sensor has seen."""

@@ -32,9 +32,9 @@ PERIODS, SWING, SHAPES = 2.0, 0.05, 200  # of the strand's motion, its amplitude
 LONGEST = 100_000  # steps of the strand's motion, a quarter of a millisecond each; left out where they hold no period
 NEAR = 0.5  # of a pitch off its line that a plate of the strand may be
 TIMES = 10  # what an answer changes with the step, times this, is allowed: a few steps make a sample, and contacts amplify any difference
-MEANS = "Exudyn: bodies and Runge-Kutta steps of its own; allowed is ten times what both answers change with their steps"
+MEANS = "Exudyn: bodies and Runge-Kutta steps of its own; tolerance: ten times the change of both results with their steps"
 RUNNING, FREQUENCY = "the running chain in Exudyn", "first frequency of the tight strand"
-STRAND = "Exudyn: plucked strand, Verlet steps; allowed is ten times what ours changes with its step"
+STRAND = "Exudyn: plucked strand, Verlet steps; tolerance: ten times the change of our result with its step"
 
 
 class Engine(Protocol):
@@ -48,7 +48,7 @@ class Engine(Protocol):
 def rows(model: ChainModel) -> Iterator[Row | LeftOut]:
     """All rows, or why there are none."""
     if missing := missing_in_exudyn(chain_drive(model)):
-        yield LeftOut(RUNNING, f"its model in Exudyn does not know {missing}")
+        yield LeftOut(RUNNING, f"the Exudyn model does not support {missing}")
         return
     try:
         twin = route()
