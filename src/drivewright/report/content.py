@@ -220,11 +220,6 @@ def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Co
     return [_value(name, result.values[name], result.units) for name in names]
 
 
-def full_meaning(value: Value) -> str:
-    """The sentence that says what a value means, with its convention of sign, zero or sense."""
-    return "; ".join(filter(None, [sentence(value.meaning), value.convention]))
-
-
 def _value(name: str, value: Value, system: System) -> Content:
     """`shown` in full; `number`, `unit` and the interval `low` .. `high` apart, "" where it says nothing, with its `hint`."""
     shown = shown_scale(value.unit, system=system, size=value.value)
@@ -232,7 +227,8 @@ def _value(name: str, value: Value, system: System) -> Content:
     return {
         "name": name,
         "label": label_of(value.meaning or name, value.label),
-        "meaning": full_meaning(value),
+        "meaning": sentence(value.meaning or name),
+        "convention": sentence(value.convention),
         "shown": uncertain(value.value, value.unit, value.low, value.high, system=system),
         "number": text,
         "unit": shown.unit,

@@ -8,6 +8,7 @@ element            what any force tells of itself
 joint_friction     dry friction of ideal joints: the description
 load               loads from outside
 pin_contact        kernels of the contact of a pin with play
+resting_friction   the friction with which joints that stick hold a mechanism at rest
 rotational_spring  the spring with a damper about the angle between two bodies
 sliding_friction   kernels of the friction of ideal joints
 spring             the spring with a damper between two points

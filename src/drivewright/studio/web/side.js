@@ -79,7 +79,7 @@ function createNumbers(host, {store, t}) {
       const row = rows.get(value.name), other = others.get(value.name);
       put(row.name, t(value.label)); put(row.value, withInterval(value, t));
       put(row.other, other && other.shown !== value.shown ? withDifference(withInterval(other, t), result.differences?.values[value.name]) : "");
-      row.name.title = `${t(value.meaning)} (${value.name})`; row.value.title = intervalHint(value, t);
+      row.name.title = [t(value.meaning), value.convention && t(value.convention), value.name].filter(Boolean).join("\n"); row.value.title = intervalHint(value, t);
     }
   }
   return [store.on(["result", "reference"], update)];
