@@ -177,7 +177,7 @@ def test_what_is_compiled_is_told_with_the_analysis_that_waits_for_it(four_bar, 
     with pytest.raises(SystemExit):
         preview.analyse(told.append, four_bar)
     assert [each[:3] for each in told] == [(2, 9, "motion")] * 3
-    assert told[0][3] == told[2][3] == "" and told[1][3].startswith("compiling kernels for 'linkage' (first run only) 1/")
+    assert told[0][3] == told[2][3] == "" and told[1][3].startswith("compiling kernels for 'linkage' (each once, when first needed) 1/")
 
 
 def test_the_result_is_plain_and_whole(analysed):
