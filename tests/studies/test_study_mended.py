@@ -120,7 +120,8 @@ def test_other_content_of_a_data_file_is_said(tmp_path):
     (tmp_path / "t.csv").write_text("1\n")
     dw.sweep(SPEC.replace(table=str(tmp_path / "t.csv")), {"count": [1]}, out=tmp_path / "S", on="serial")
     (tmp_path / "t.csv").write_text("2\n")
-    with pytest.raises(InputError, match="holds another study; table: the content of the file is not that of the study's copy; a study keeps one content, also where a file was repaired. Give"):
+    words = "holds another study; table: the content of the file is not that of the study's copy; a study keeps one content, also where a"
+    with pytest.raises(InputError, match=f"{words} file was repaired. Give"):
         dw.sweep(SPEC.replace(table=str(tmp_path / "t.csv")), {"count": [1]}, out=tmp_path / "S", on="serial")
 
 
