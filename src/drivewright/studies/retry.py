@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 from drivewright._typing import Ints
 from drivewright.errors import InputError, brief
 from drivewright.execution.case_table import CASE, STATUS
-from drivewright.result import SpecT
-from drivewright.spec import load
+from drivewright.spec import MechanismSpec, load
 from drivewright.studies.parts import Part
 from drivewright.studies.plan import Plan
 from drivewright.studies.store import joined
@@ -35,7 +34,7 @@ def statuses_to_retry(retry: str | None) -> tuple[str, ...]:
     return RETRIES[retry]
 
 
-def with_plan_of(spec: SpecT, folder: str | Path) -> SpecT:
+def with_plan_of(spec: MechanismSpec, folder: str | Path) -> MechanismSpec:
     """A spec without a [study] with that of the study in a folder, so that a retry need not say again what varies."""
     return spec if spec.study is not None else spec.model_copy(update={"study": load(Path(folder) / SPEC).study})
 

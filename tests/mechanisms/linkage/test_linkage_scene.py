@@ -1,5 +1,7 @@
 """The drawn linkage is the computed one: poses, bar lengths, magnified play, plots, plates and pins."""
 
+import re
+
 import numpy as np
 import pytest
 import shapely
@@ -9,6 +11,7 @@ import drivewright as dw
 from drivewright import registry
 from drivewright.errors import InputError
 from drivewright.mechanisms.linkage.build import build
+from drivewright.mechanisms.linkage.plates import plates
 from drivewright.multibody.analyses.cycle_poses import FINE
 from drivewright.multibody.analyses.simulation_model import record_of
 from drivewright.multibody.drawing import block, rounded
@@ -347,11 +350,16 @@ def test_solids_are_the_plates_at_the_start_one_above_the_other(drawn):
                 assert low <= parts[body].solids[0].z and parts[body].solids[0].z + plates[body].thickness <= high + 1e-12
 
 
-def test_holes_that_meet_are_refused():
-    spec = dw.load(EXAMPLES / "slider_crank_clearance.toml", ["joints.wrist.bearing_radius=115 mm"])
+def test_a_body_whose_holes_meet_has_no_plate_and_a_finding():
+    model = build(dw.load(EXAMPLES / "slider_crank_clearance.toml", ["joints.wrist.bearing_radius=115 mm"]))
     told = r"link plate 'rod': two holes overlap: radii of 5 and 115 mm at a distance of 120 mm.*smaller bearing_radius"
+    (finding,) = [text for text in model.findings if "no drawing of a body" in text]
+    assert re.search(told, finding)
+    drawn = [drawing.name for drawing in LINKAGE.drawings(model)]
+    assert "rod" not in drawn and drawn
+    alone = model.spec.model_copy(update={"bodies": {"rod": model.spec.bodies["rod"]}})
     with pytest.raises(InputError, match=told):
-        LINKAGE.drawings(build(spec))
+        plates(alone)
 
 
 # -- outlines ------------------------------------------------------------------------------------------------------------------

@@ -23,8 +23,10 @@ class LinkageModel(SimulationModel):
 
     @property
     def findings(self) -> tuple[str, ...]:
-        """Of the assembly, and what is assumed for friction in ideal joints."""
-        return (*self.assembly.findings, *assumed_friction(self.spec))
+        """Of the assembly, what is assumed for friction in ideal joints, and bodies without a drawing."""
+        from drivewright.mechanisms.linkage.plates import plate_findings
+
+        return (*self.assembly.findings, *assumed_friction(self.spec), *plate_findings(self.spec))
 
 
 def build(spec: LinkageSpec) -> LinkageModel:

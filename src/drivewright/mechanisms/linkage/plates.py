@@ -3,7 +3,9 @@
 A pin with a bearing has its radii: the bearing in the first body, the seat of the journal in the second.
 """
 
-from drivewright.mechanisms.linkage.build import LinkageModel
+from typing import TYPE_CHECKING
+
+from drivewright.errors import InputError
 from drivewright.mechanisms.linkage.describe import marker
 from drivewright.mechanisms.linkage.joints import Joint
 from drivewright.mechanisms.linkage.scene import nodes
@@ -14,13 +16,16 @@ from drivewright.multibody.analyses.cycle_poses import start_poses
 from drivewright.multibody.link_plates import LinkPlate, PlatePin, link_plate, plate_drawing, stacked_parts, usual_pin_radius
 from drivewright.scene import Drawing, Part
 
+if TYPE_CHECKING:
+    from drivewright.mechanisms.linkage.build import LinkageModel
 
-def drawings(model: LinkageModel) -> tuple[Drawing, ...]:
+
+def drawings(model: "LinkageModel") -> tuple[Drawing, ...]:
     """A drawing for each body with two or more points."""
     return tuple(plate_drawing(plate) for plate in plates(model.spec))
 
 
-def parts(model: LinkageModel) -> tuple[Part, ...]:
+def parts(model: "LinkageModel") -> tuple[Part, ...]:
     """The plates one above the other at the start position, and their pins."""
     spec, poses = model.spec, {name: pose[0] for name, pose in start_poses(model).items()}
     pins = [
@@ -33,13 +38,29 @@ def parts(model: LinkageModel) -> tuple[Part, ...]:
 
 
 def plates(spec: LinkageSpec) -> list[LinkPlate]:
-    """The bodies that are plates."""
-    spanned = {name: nodes(spec, name) for name in spec.bodies}
-    return [
-        link_plate(name, points, holes(spec, name), default_radius(spec), thickness(spec, name))
-        for name, points in spanned.items()
-        if len(points) > 1
-    ]
+    """The bodies that can be plates; InputError where there are none, as holes overlap."""
+    made, refused = _tried_plates(spec)
+    if refused and not made:
+        raise refused[0]
+    return made
+
+
+def plate_findings(spec: LinkageSpec) -> tuple[str, ...]:
+    """Why bodies have no drawing of a link plate, an eccentric for instance, whose pins are larger than they are far apart."""
+    return tuple(f"no drawing of a body: {reason}" for reason in _tried_plates(spec)[1])
+
+
+def _tried_plates(spec):
+    """(plates, refusals) of the bodies with two or more points."""
+    made, refused = [], []
+    for name in spec.bodies:
+        points = nodes(spec, name)
+        if len(points) > 1:
+            try:
+                made.append(link_plate(name, points, holes(spec, name), default_radius(spec), thickness(spec, name)))
+            except InputError as reason:
+                refused.append(reason)
+    return made, refused
 
 
 def default_radius(spec: LinkageSpec) -> float:

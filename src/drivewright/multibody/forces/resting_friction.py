@@ -59,7 +59,7 @@ def with_loads(system: System, factor: float) -> System:
     forces.ex, forces.ey = factor * forces.ex, factor * forces.ey
     for curve in system.curves[system.torques.curve]:
         rows = slice(curve.first, curve.first + curve.count)
-        for name in PIECE.names:
+        for name in PIECE.names or ():
             if name != "start":
                 pieces[name][rows] *= factor
     return system._replace(forces=forces.view(np.recarray), pieces=pieces.view(np.recarray))
