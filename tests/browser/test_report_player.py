@@ -89,7 +89,7 @@ def test_the_pace_is_one_cycle_in_four_seconds_and_follows_the_speed(open_page, 
     assert page.evaluate("drivewright.clock.speed") == pytest.approx(4 / 0.3)
     assert page.locator(".dw-rate").inner_text() == "real time"
     page.select_option(".dw-speed", label="0.1×")
-    assert page.locator(".dw-rate").inner_text() == "133× slower than real"
+    assert page.locator(".dw-rate").inner_text() == "133× slow motion"
 
 
 def test_dragging_in_a_plot_moves_player_readout_and_every_cursor(open_page, report):

@@ -110,4 +110,4 @@ def test_a_pin_circle_wider_than_a_galaxy_is_told_from_its_pins():
 
 def test_a_rolling_radius_beside_which_the_pitch_is_rounding_is_refused(drivewright):
     code, out, err = drivewright("run", EXAMPLES / "hyvo_chain.toml", "--no-figures", "--set", "joint.rolling_radius=1.476e37 mm")
-    assert code == 2 and out == "" and "joint.rolling_radius: is more than 1e+09 pitches" in err
+    assert code == 2 and out == "" and "joint.rolling_radius: exceeds 1e+09 pitches" in err

@@ -214,8 +214,9 @@ def _remarks_of(run: "Result[Any]", everything: bool) -> "Iterator[str]":
     findings = [finding for finding in run.findings if finding not in run.warnings]
     optional = [finding for finding in findings if finding in run.left_out.values() or REQUEST in finding]
     shown = findings if everything else [finding for finding in findings if finding not in optional]
-    yield from shown if everything else shown[:MOST_REMARKS]
-    folded = [f"{len(shown) - MOST_REMARKS} more notes"] if len(shown) > MOST_REMARKS else []
+    most = len(shown) if everything or run.outcome != "complete" else MOST_REMARKS  # a partial result needs every reason
+    yield from shown[:most]
+    folded = [f"{len(shown) - most} more notes"] if len(shown) > most else []
     if optional:
         folded.append(f"{len(optional)} analyses not run (on request only, or without their input)")
     if folded and not everything:

@@ -5,7 +5,7 @@ import { element, fixed } from "./clock.js";
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 export const MOST = 3;  // largest exaggeration over the drawn one
 export const TEXT = {play: "Play (space)", pause: "Pause (space)", ghosts: "Ghost poses (g)", traces: "Paths of points (t)", fit: "Fit (f)", speed: "Speed",
-  real: "real time", slower: "slower than real", faster: "faster than real", scrub: "Position in the cycle", frame: "Seen from",
+  real: "real time", slower: "slow motion", faster: "fast motion", scrub: "Position in the cycle", frame: "Seen from",
   exaggeration: "Exaggeration", drawn: "Play and deflection, enlarged; double click: as designed for the drawing",
   canvas: "Moving mechanism: space plays, arrow keys step, drag moves, wheel zooms"};
 const ICONS = {play: "M7 4.5v15l12-7.5z", pause: "M6 5h4v14H6zM14 5h4v14h-4z", traces: "M4 17c2-14 7-14 8-5s6 7 8-6M4 17h.01",
@@ -88,7 +88,7 @@ export const times = factor => `× ${+factor.toPrecision(3)}`;
 /** How many times larger than real a body's play or deflection is drawn. */
 export const magnifiedBy = (body, scale) => Math.min(scale, body.most) * body.magnified;
 
-/** How much slower or faster than the machine itself: "13× slower than real". */
+/** How much slower or faster than the machine itself: "13× slow motion". */
 export function pace(clock, period, text) {
   if (!period) return "";
   const factor = period * clock.speed / clock.duration, ratio = factor < 1 ? 1 / factor : factor, shown = ratio < 10 ? +ratio.toFixed(1) : Math.round(ratio);

@@ -133,9 +133,15 @@ def test_the_check_of_the_pressure_takes_the_largest_that_the_run_knows(kind, ch
     found = run(kind, *LOAD, change, only=("stress", "stiffness"))
     known = {name: found[name] for name in PRESSURES if name in found.values}
     (check,) = [each for each in found.checks if each.name == "contact_pressure"]
-    assert check.value == max(known.values()) and known[next(name for name in known if PRESSURES[name] == check.message)] == check.value
+    assert check.value == max(known.values()) and known[_judged(check)] == check.value
     if "20 um" in change:
         assert known["shared.max_pressure"] > 1.5 * known["pins.max_pressure"] and not check.ok
+
+
+def _judged(check):
+    """The value that a check of the pressure names: the longest of the messages that it may begin with."""
+    begun = [name for name, words in PRESSURES.items() if check.message.startswith(f"{words.format('roller')};")]
+    return max(begun, key=lambda name: len(PRESSURES[name]))
 
 
 @pytest.mark.property

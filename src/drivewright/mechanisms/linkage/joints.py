@@ -72,8 +72,8 @@ class Joint(Spec):
     bearing_length: Length | None = Field(
         None,
         gt=0,
-        description="length of the bearing; twice its radius unless given. prismatic with friction: length of the guide along its axis, "
-        "whose ends carry a tilting moment; without it, tilting moments cause no friction",
+        description="length of the bearing; twice its radius unless given. prismatic with friction: length of the guide, whose ends carry "
+        "tilting moments; these cause no friction without it",
         examples=["20 mm"],
     )
     modulus: Pressure = Field("207 GPa", gt=0, title="Young's modulus", description="dry: Young's modulus of bearing and journal")
