@@ -20,6 +20,8 @@ from drivewright.result import Answer, Answers, Result, SpecLike, SpecT, Table
 from drivewright.steps import Progress
 from drivewright.stops import Stop, collect_stops
 
+ON_REQUEST = "runs on request: --only"  # in the finding on an analysis that is not among the usual ones
+
 
 def build(spec: SpecLike) -> Any:
     """The model of a spec: curves, trains, systems - common types only."""
@@ -49,7 +51,7 @@ def run(
     findings += [each for each in _findings(answers) if each not in unanswered]
     findings += [*stop_findings(answers), *_missing_numbers(answers)]
     findings += [
-        f"analysis '{a.name}' ({a.meaning}) runs on request: --only {a.name}"
+        f"analysis '{a.name}' ({a.meaning}) {ON_REQUEST} {a.name}"
         for a in mechanism.analyses
         if not only and not everything and not a.default
     ]

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
     Header: TypeAlias = Iterable[tuple[str, JustifyMethod]]
 
-REQUEST = "runs on request: --only"  # in a finding on an analysis that is not among the usual ones
 MOST_REMARKS = 5  # notes of a run on one screen
 MAX_STUDY_ROWS = 12  # of a study's values
 MOST_ENDS = 3  # values whose inputs are told at both ends
@@ -211,8 +210,10 @@ def result(run: "Result[Any]", everything: bool = False) -> None:
 
 def _remarks_of(run: "Result[Any]", everything: bool) -> "Iterator[str]":
     """The findings that are no warnings; those on analyses that did not run in one line, unless `everything` is wanted."""
+    from drivewright.runner import ON_REQUEST
+
     findings = [finding for finding in run.findings if finding not in run.warnings]
-    optional = [finding for finding in findings if finding in run.left_out.values() or REQUEST in finding]
+    optional = [finding for finding in findings if finding in run.left_out.values() or ON_REQUEST in finding]
     shown = findings if everything else [finding for finding in findings if finding not in optional]
     most = len(shown) if everything or run.outcome != "complete" else MOST_REMARKS  # a partial result needs every reason
     yield from shown[:most]

@@ -95,14 +95,14 @@ def _parts(assembly, stretch, markers, start):
         t, y = stretch.t[first : first + CHUNK], stretch.y[first : first + CHUNK]
         record = observe(stretch.system, t, y)
         refuse_locked(assembly, stretch.system, t, y, record.frictions)
-        points = {name: marker_motion(assembly, record, marker) for name, marker in markers.items()}
+        points = {name: marker_motion(assembly, record.bodies, marker) for name, marker in markers.items()}
         yield record.t, points, record.pins, record.powers, record.drives, record.frictions, *energy_of(stretch.system, record)
 
 
-def marker_motion(assembly: Assembly, record: Observed, marker: Marker) -> Floats:
-    """POINT_FIELDS (m, 9) of a marker's motion: angle of its body with rates, place with rates."""
+def marker_motion(assembly: Assembly, bodies: Floats, marker: Marker) -> Floats:
+    """POINT_FIELDS (m, 9) of a marker's motion, of bodies (m, bodies, FIELDS): angle of its body with rates, place with rates."""
     number = assembly.names.index(marker.body)
-    x, y, angle, vx, vy, w, ax, ay, alpha = np.ascontiguousarray(record.bodies[:, number, :9].T)
+    x, y, angle, vx, vy, w, ax, ay, alpha = np.ascontiguousarray(bodies[:, number, :9].T)
     cx, cy = next((body.centroid for body in assembly.expanded.bodies if body.name == marker.body), (0.0, 0.0))
     dx, dy = marker.x - cx, marker.y - cy
     c, s = np.cos(angle), np.sin(angle)

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from drivewright._typing import Floats
 from drivewright.errors import SolverError
 from drivewright.labels import in_words
 from drivewright.multibody.analyses.ensemble import other_runs, settled_check, statistics, unsettled
@@ -17,11 +16,9 @@ from drivewright.multibody.analyses.simulation_model import (
     run_of,
 )
 from drivewright.multibody.analyses.turns import acceleration, window_record
-from drivewright.multibody.assembly import Assembly
-from drivewright.multibody.bodies import Marker
 from drivewright.multibody.measures import largest
 from drivewright.multibody.observe import FIELDS
-from drivewright.multibody.record import POINT_FIELDS, Record, final_state
+from drivewright.multibody.record import POINT_FIELDS, Record, final_state, marker_motion
 from drivewright.numerics.ensemble import predict_member
 from drivewright.result import Answer, Check, Column, Table, Value
 
@@ -98,20 +95,12 @@ def _displacements(model, last):
     values, markers = {}, model.markers
     for output in model.outputs:
         if output.point:
-            start = record_of(model).points[output.name][0, [POINT_FIELDS.index(field) for field in ("x", "y")]]
-            ways = np.hypot(*(end_points(model.assembly, last, markers[output.name]) - start).T)
+            start, ends = record_of(model).points[output.name][0], marker_motion(model.assembly, last, markers[output.name])
+            ways = np.hypot(*(ends - start)[:, [POINT_FIELDS.index(field) for field in ("x", "y")]].T)
             label = in_words(output.name)
             meaning = f"distance of point {output.point} of {label} from its initial position, at the end of the run"
             values[f"{output.name}.displacement"] = Value.of(predict_member(ways), "m", meaning, f"displacement, {label}")
     return values
-
-
-def end_points(assembly: Assembly, last: Floats, marker: Marker) -> Floats:
-    """Places (runs, 2) [m] of a marker in the poses `last` (runs, bodies, FIELDS)."""
-    x, y, angle = (last[:, assembly.names.index(marker.body), FIELDS.index(field)] for field in ("x", "y", "angle"))
-    cx, cy = next((body.centroid for body in assembly.expanded.bodies if body.name == marker.body), (0.0, 0.0))
-    place = x + 1j * y + np.exp(1j * angle) * complex(marker.x - cx, marker.y - cy)
-    return np.stack([place.real, place.imag], axis=1)
 
 
 def _motion_table(model):
