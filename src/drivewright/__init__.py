@@ -22,6 +22,7 @@ _WHERE = {
     "DesignComparison": "report.comparison",
     "Result": "result",
     "Scene": "scene",
+    "advise": "studies.advising",
     "build": "runner",
     "by_reference": "_jit",
     "compare": "report.comparison",

@@ -44,6 +44,7 @@ from drivewright.runner import run as run
 from drivewright.scene import Scene as Scene
 from drivewright.spec import MechanismSpec
 from drivewright.spec import load as load
+from drivewright.studies.advising import advise as advise
 from drivewright.studies.optimisation import optimise as optimise
 from drivewright.studies.study import Study as Study
 from drivewright.studies.sweeps import open_study as open_study

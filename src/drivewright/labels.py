@@ -46,6 +46,14 @@ def in_words(name: str) -> str:
     return name.replace("_", " ").replace(".", " ")
 
 
+def key_in_words(key: str) -> str:
+    """A key of a spec within a sentence: "cams.roller_radius" -> "roller radius", "bearings.A.position" -> "position of bearings.A"."""
+    place, _, last = key.rpartition(".")
+    if last.isdecimal():
+        return key
+    return f"{in_words(last)} of {place}" if "." in place else in_words(last)
+
+
 def label_of_key(key: str, title: str | None = None) -> str:
     """The label of a key of a spec: its title, else the key in words: "base_radius" -> "Base radius"."""
     return label_of(key.replace("_", " "), title or "")

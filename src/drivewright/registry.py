@@ -10,7 +10,7 @@ A third-party package declares the same groups in its own pyproject.
 
 import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from importlib import import_module
 from pathlib import Path
@@ -68,6 +68,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     `check.NAME` (their margins), or None where it does not cover them; a design that it cannot speak for is nan in every name.
     `supplied(spec)` gives {key: value in SI} of keys that the spec leaves out and that come from a catalogue, a card or a default of
     the drive, list elements by name, so that a study can vary about them.
+    `adjustable` are the dimensions that advice on a failed check may change, with the greatest factor of each: not what states the task.
     `folder` holds `presets/*.toml`, `theory.md` and, for screens in other languages, `zh.toml`.
     """
 
@@ -86,6 +87,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     supplied: Callable[[SpecT], Mapping[str, float]] | None = None
     sources: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
+    adjustable: Mapping[str, float] = field(default_factory=dict)  # {key, with "*": greatest factor} of what advice may change
     compile_ahead: Callable[[SpecT], Sequence[Callable[[], object]]] | None = None  # what compiles the kernels that a run comes to last
     claims: Callable[[SpecT], Claims] | None = None  # what its results obey exactly, for `drivewright.testing`
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`

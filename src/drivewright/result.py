@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from drivewright import plugins
 from drivewright._typing import ArrayLike, Floats
+from drivewright.advice import Advice
 from drivewright.errors import UnknownName
 from drivewright.labels import label_of
 from drivewright.stops import Stop
@@ -412,6 +413,8 @@ class Result(Generic[SpecT]):
     left_out: Mapping[str, str] = field(default_factory=dict)  # {analysis that was left out: the finding that says why}
     warnings: tuple[str, ...] = ()  # those of the findings that a reader must not miss; the verdict counts them
     fields: Mapping[str, SurfaceFields] = field(default_factory=dict)
+    advice: tuple[Advice, ...] = ()  # what to change for the checks that fail, where `studies.advise` was asked
+    advice_stopped: bool = False  # the time for advice was over before all failed checks were looked at
 
     def __getitem__(self, name: str) -> float:
         """A value by its dotted name, as an SI float."""
@@ -491,6 +494,7 @@ class Result(Generic[SpecT]):
             "values": values,
             "arrays": arrays,
             "checks": [check.record() for check in self.checks],
+            "advice": [advice.record() for advice in self.advice],
             "findings": list(self.findings),
             "warnings": list(self.warnings),
             "outcome": self.outcome,

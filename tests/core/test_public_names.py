@@ -30,6 +30,7 @@ NAMES = [
     "SpecError",
     "Study",
     "bearings",
+    "advise",
     "build",
     "by_reference",
     "cams",

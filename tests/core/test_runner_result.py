@@ -61,6 +61,7 @@ def test_the_record_is_strict_json_as_product_documents_it():
         "values",
         "arrays",
         "checks",
+        "advice",
         "findings",
         "warnings",
         "outcome",

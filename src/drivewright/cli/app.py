@@ -31,6 +31,7 @@ OnlyOption = Annotated[str, typer.Option("--only", help="analyses to run, comma 
 AllOption = Annotated[bool, typer.Option("--all", help="every analysis")]
 UnitsOption = Annotated[str | None, typer.Option("--units", help="units of the pages: mm, si or inch; as the spec's own key")]
 OutOption = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
+ADVICE_HELP = "say what to change for checks that fail: however long that takes, or not at all; unless given, within 3 s"
 VARY_HELP = (
     "repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=FROM:TO or uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
     "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE; FROM and TO also as -5 % and +5 % of the spec's own value, SIGMA and "
@@ -102,12 +103,14 @@ def run(
     as_json: Annotated[bool, typer.Option("--json", help="print the result as JSON to stdout")] = False,
     strict: StrictOption = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="print all values, checks and findings")] = False,
+    advice: Annotated[bool | None, typer.Option("--advice/--no-advice", help=ADVICE_HELP)] = None,
 ) -> None:
     """Validate, analyse and write a run folder per spec."""
     from drivewright import runner
     from drivewright.execution.helper import compiling_ahead, helping_hand
     from drivewright.report.content import prepare_drawing, views
     from drivewright.report.folder import write_run_folder
+    from drivewright.studies.advising import PATIENCE, advise
 
     _refuse_both(only, all_)
     stems = [path.stem for path in specs]
@@ -120,6 +123,8 @@ def run(
             with compiling_ahead(spec):
                 model = runner.build(spec)
                 result = runner.run(spec, _names(only), all_, step, model)
+            if advice is not False and not result.ok:
+                result = advise(result, None if advice else PATIENCE, step)
             folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model), compute)
         results.append(result)
         if not as_json:

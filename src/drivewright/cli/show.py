@@ -3,6 +3,7 @@
 import contextlib
 import json
 import math
+import shlex
 import sys
 import threading
 import time
@@ -200,6 +201,7 @@ def result(run: "Result[Any]", everything: bool = False) -> None:
     rows = [(_label(run.values[name]), _value(run.values[name], run.units), _made(run.values[name])) for name in names]
     table(run.title, (("quantity", "left"), ("value", "right"), ("", "left")), rows)
     checks(run.checks if everything else [c for c in run.checks if not c.ok or c.undecided], run.units)
+    advice(run)
     for line in _remarks_of(run, everything):
         note(f"note: {line}")
     for warning in run.warnings:
@@ -284,6 +286,19 @@ def checks(design_checks: "Iterable[Check]", system: units.System = "mm") -> Non
             (("", "left"), ("check", "left"), ("value", "right"), ("limit", "right"), ("margin", "right"), ("", "left")),
             rows,
         )
+
+
+def advice(run: "Result[Any]") -> None:
+    """What to change for the checks that fail, each as options of the same command; one change that serves several is said once."""
+    from drivewright.report.advice import advice_text
+
+    checks_by_name = {check.name: check for check in run.checks}
+    for each in {advice.changes: advice for advice in reversed(run.advice)}.values():
+        options = " ".join(f"--set {change.key}={shlex.quote(change.given)}" for change in each.changes)
+        print(f"  to pass '{checks_by_name[each.check].display_label}': {advice_text(each, checks_by_name, run.units)}")
+        print(f"      {options}")
+    if run.advice_stopped:
+        note("note: the search for what to change stopped after its usual time; --advice goes on to the end")
 
 
 def _check_numbers(check: "Check", system: units.System) -> tuple[str, str, str]:

@@ -1,5 +1,6 @@
 """Reports and files of a run: pages, PDF, drawings, CAD files, tables.
 
+advice           what to change for a check that fails, in words
 cad              STEP and STL files of parts, in millimetres; the bytes depend on the parts alone
 comparison       several results of one kind side by side: their values, and how far they are apart
 comparison_page  the page of a comparison

@@ -13,6 +13,7 @@ from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
 from drivewright.execution.helper import Map
 from drivewright.labels import label_of
+from drivewright.report.advice import advice_texts
 from drivewright.result import UNDECIDED, Array, Check, Plot, Result, SpecLike, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
@@ -174,10 +175,11 @@ def content(result: Result[Any], remarks: Sequence[str] = (), headlines: Sequenc
 
 def summary(result: Result[Any], headlines: Sequence[str] | None = None) -> Content:
     """Verdict, headline, checks and values of a result: what changes with every number of a design."""
+    advice = advice_texts(result)
     return {
         "verdict": verdict_of(result),
         "headline": headline(result, headlines),
-        "checks": [_check(c, result.units) for c in sorted(result.checks, key=lambda c: c.ok)],
+        "checks": [_check(c, result.units, advice.get(c.name, "")) for c in sorted(result.checks, key=lambda c: c.ok)],
         "values": [_value(name, value, result.units) for name, value in result.values.items() if math.isfinite(value.value)],
     }
 
@@ -240,8 +242,10 @@ def _value(name: str, value: Value, system: System) -> Content:
     }
 
 
-def _check(check: Check, system: System) -> Content:
-    """The interval of the value is `low` .. `high`, the unit behind the latter; "" where it says nothing."""
+def _check(check: Check, system: System, advice: str = "") -> Content:
+    """`advice` says what to change so that it passes, where that is known.
+
+    The interval of the value is `low` .. `high`, the unit behind the latter; "" where it says nothing."""
     shown = shown_scale(check.unit, system=system, size=check.limit)
     unit, limit = shown.unit, with_unit(number(shown.of(check.limit)), shown.unit)
     text, low, high = numbers(shown.of(check.value), *ends_shown(*(check.bounds or (None, None)), shown))
@@ -257,6 +261,7 @@ def _check(check: Check, system: System) -> Content:
         "limit": f"{SIGNS[check.sense]} {limit}",
         "margin": with_unit(margin, unit) if margin else "",
         "message": sentence(check.message),
+        "advice": sentence(advice),
         "parts": list(check.parts),
     }
 

@@ -1,9 +1,12 @@
 """Studies: many cases of one spec, from one core to a cluster.
 
 `sweep` computes the cases, `open_study` reads those of a folder, `analyse_study` says what came out; `optimise` searches the best design;
-`verify` computes a case once more on an independent route.  What varies is said with `linspace`, `geomspace`, `uniform`, `normal`,
+`verify` computes a case once more on an independent route; `advise` says what to change so that a failed check passes.
+What varies is said with `linspace`, `geomspace`, `uniform`, `normal`,
 `triangular`, `tolerance` and `linked`.
 
+adjustable        the dimensions of a design that may be changed to mend it
+advising          what to change in a design so that a check which fails passes
 answers           what a study says: `analyse_study(study)` gives a `Result` and its plots
 ledger            the ledger of a study: which parts there are, each with size and checksum
 links             keys that follow other keys, joined to what they follow
@@ -32,6 +35,7 @@ variation         how to say what varies: from Python, and as on the command lin
 verification      a case computed again on an independent route, row by row beside our own numbers
 """
 
+from drivewright.studies.advising import advise
 from drivewright.studies.answers import Answers, analyse_study
 from drivewright.studies.optimisation import Optimised, optimise
 from drivewright.studies.plan import Block, Plan, make_plan
@@ -52,6 +56,7 @@ __all__ = [
     "Study",
     "Summary",
     "Variable",
+    "advise",
     "analyse_study",
     "geomspace",
     "linked",

@@ -58,6 +58,13 @@ mechanism = Mechanism(
     claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
+    adjustable={
+        "ground.points.*": 1.5,
+        "bodies.*.points.*": 1.5,
+        "joints.*.clearance": 5.0,
+        "joints.*.bearing_radius": 3.0,
+        "springs.*.stiffness": 4.0,
+    },
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,

@@ -73,6 +73,16 @@ mechanism = Mechanism(
         "Chen Jianneng, Wang Ying, Zhao Xiong, Zhao Yun: Reverse design and simulation of walking-type rice transplanter's "
         "seedling-pushing device based on conjugate cam. Transactions of the CSAM 42(12), 2011, 78-82 (in Chinese).",
     ),
+    adjustable={
+        "train.axis_ratio": 1.02,
+        "train.bend": 1.3,
+        "train.carrier_angle": 3.0,
+        "arm.*": 1.3,
+        "push.rise": 1.5,
+        "push.retraction": 2.0,
+        "lever.*": 1.3,
+        "cams.*": 1.5,
+    },
     headline=(
         "tip.track_height",
         "tip.track_width",

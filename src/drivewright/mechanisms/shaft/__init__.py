@@ -99,6 +99,13 @@ mechanism = Mechanism(
     claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
+    adjustable={
+        "segments.*.diameter": 2.0,
+        "segments.*.fillet_radius": 3.0,
+        "bearings.*.position": 1.2,
+        "bearings.*.static_rating": 5.0,
+        "bearings.*.dynamic_rating": 5.0,
+    },
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,

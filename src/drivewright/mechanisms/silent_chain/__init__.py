@@ -115,6 +115,13 @@ mechanism = Mechanism(
     claims=claims,
     analyses=ANALYSES,
     folder=Path(__file__).parent,
+    adjustable={
+        "joint.rolling_radius": 1.5,
+        "joint.contact_length": 2.0,
+        "plate.thickness": 2.0,
+        "plate.apothem": 1.3,
+        "drive.preload": 3.0,
+    },
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
