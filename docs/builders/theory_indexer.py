@@ -8,8 +8,8 @@ import numpy as np
 import drivewright as dw
 from drivewright import indexing
 from drivewright.indexing.contacts import CamContacts
-from drivewright.indexing.drivetrain import Drivetrain, PowerLawBearing
 from drivewright.indexing.drive_torque import TableLoad, drive_torque
+from drivewright.indexing.drivetrain import Drivetrain, PowerLawBearing
 from drivewright.indexing.torsion_test.regression import fit_line
 
 from .theory_figures_1 import (
