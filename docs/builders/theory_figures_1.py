@@ -40,7 +40,7 @@ STYLE = {
     "lines.linewidth": 1.5,
     "svg.hashsalt": "drivewright",
     "path.simplify": True,
-    "path.simplify_threshold": 0.4,
+    "path.simplify_threshold": 0.1,
 }
 
 
