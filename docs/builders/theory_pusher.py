@@ -103,7 +103,7 @@ def cams(model):
     figure, (left, right) = axes(1, 2, 9.2, 4.3, width_ratios=[1, 1])
     sketch(left, "Conjugate cams and lever, pivot turned to $-y$")
     for cam, fill, edge in ((back, "#f1f3f6", GREY), (main, LIGHT, INK)):
-        area(left, model.profiles[cam.name].points(1e-4) @ [1, 1j] * turn * MM, fill, edge, lw=1.1)
+        area(left, model.profiles[cam.name].points(1e-5) @ [1, 1j] * turn * MM, fill, edge, lw=1.1)
     grid = np.linspace(0, TURN, 721)
     curve(left, pair.pitch(main, grid).d0 * turn * MM, BLUE, lw=0.9, ls=(0, (5, 2)))
     curve(left, pair.pitch(back, grid).d0 * turn * MM, ORANGE, lw=0.9, ls=(0, (5, 2)))
@@ -123,6 +123,7 @@ def cams(model):
     point(left, hinge, "$E$", 5 - 4j, size=5)
     dimension(left, 0j, hinge, "$a'$", 46 * side, shift=0)
     limits(left, -42, 58, -46, 44)
+    grid = np.radians(np.linspace(50, 140, 721))
     right.plot(np.degrees(grid), pair.travel(grid).d0 * MM, color=BLUE)
     right.set(title="Rod travel and pressure angles", xlabel="carrier angle [°]", ylabel="rod travel $g$ [mm]", xlim=(50, 140))
     steep = right.twinx()
