@@ -4,7 +4,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from matplotlib import pyplot as plt
 from scipy.integrate import solve_ivp
 
 import drivewright as dw
@@ -23,7 +22,6 @@ from .theory_figures_1 import (
     LIGHT,
     ORANGE,
     RED,
-    STYLE,
     TURN,
     VIOLET,
     angle_mark,
@@ -35,9 +33,9 @@ from .theory_figures_1 import (
     frame,
     label,
     point,
-    save,
     sketch,
     turn_axis,
+    write,
 )
 
 PRESETS = Path(dw.__file__).parent / "mechanisms" / "linkage" / "presets"
@@ -48,10 +46,7 @@ DEFAULT = FourBar(  # the default four-bar, whose ideal motion depends on its le
 
 def build(docs: Path, progress: Callable[[str], None]) -> None:
     """Write the figures of the linkage page to docs/theory/img."""
-    for name, draw in FIGURES.items():
-        progress(f"linkage theory: {name}")
-        with plt.rc_context(STYLE):
-            save(draw(), docs, f"linkage-{name}")
+    write(docs, "linkage", FIGURES, progress)
 
 
 # ---------------------------------------------------------------------------------------------------------------- sketches
@@ -142,7 +137,7 @@ def _pin(ax):
 
 def _four_bar():
     model = dw.build(dw.load(PRESETS / "default.toml"))
-    run = simulate(model.assembly, model.turn_length, samples=np.linspace(0, model.turn_length, 721))
+    run = simulate(model.assembly, model.turn_length, samples=np.linspace(0, model.turn_length, 361))
     bodies = record(run, {"rocker": Marker("rocker"), "coupler": Marker("coupler")})
     crank = bodies.t * TURN / model.turn_length
     speed = TURN / model.turn_length
