@@ -1,4 +1,4 @@
-"""Figures of the theory page on chains, drawn by the package's own functions."""
+"""Figures of the theory pages on chains and on solids in contact, drawn by the package's own functions."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -15,6 +15,7 @@ from drivewright.chains.plate import design_plate
 from drivewright.chains.sprocket import design_sprocket
 from drivewright.contact.normal import KelvinVoigt
 from drivewright.contact.time_step import mean_force
+from drivewright.solids.contact.complementarity import solve_complementarity
 
 from .theory_figures_1 import (
     BLUE,
@@ -44,8 +45,9 @@ FINE = 2e-5  # [m] to which outlines are drawn
 
 
 def build(docs: Path, progress: Callable[[str], None]) -> None:
-    """Write the figures of the chain page to docs/theory/img."""
+    """Write the figures of both pages to docs/theory/img."""
     write(docs, "silent-chain", FIGURES, progress)
+    write(docs, "contact", CONTACT_FIGURES, progress)
 
 
 def _link(radius=RADIUS):
@@ -219,3 +221,62 @@ def _step():
 
 
 FIGURES = {"frames": _frames, "closure": _closure, "phased": _phased, "step": _step}
+
+
+# -------------------------------------------------------------------------------------------------------- solids in contact
+
+
+def _pairing():
+    figure, (left, right) = axes(1, 2, 8.8, 3.5, gridspec_kw={"width_ratios": [1.0, 1.15]})
+    _hats(left)
+    _line_contact(right)
+    return figure
+
+
+def _hats(ax):
+    sketch(ax, "hats of pressure between two skins")
+    x = np.linspace(-3.0, 3.0, 121)
+    first, second = x + 1j * (0.09 * x**2 + 0.28), x - 0.02j * x**2
+    area(ax, [*first, 3.0 + 2.6j, -3.0 + 2.6j], "#dbe7f4", lw=1.2)
+    area(ax, [*second, 3.0 - 1.5j, -3.0 - 1.5j], LIGHT, lw=1.2)
+    nodes = np.linspace(-2.4, 2.4, 9)
+    at = nodes + 1j * (0.09 * nodes**2 + 0.28)
+    for place in at:
+        ax.plot(place.real, place.imag, "o", ms=4, color=INK, zorder=5)
+    height = np.maximum(1.0 - (nodes / 1.9) ** 2, 0.0)
+    curve(ax, at + 1j * height, RED, lw=1.6)
+    for k in range(1, len(nodes) - 1):
+        if height[k] > 0:
+            curve(ax, [at[k - 1], at[k] + 1j * height[k], at[k + 1]], RED, lw=0.7, ls="--")
+    label(ax, 0.0 + 1.55j, "$p = \\sum p_i h_i$", RED)
+    for place in (-1.8, 1.8):
+        foot = place + 1j * (0.09 * place**2 + 0.28)
+        normal = np.exp(1j * (-0.5 * np.pi + 0.5 * (0.18 - 0.04) * place))
+        arrow(ax, foot, foot + normal * 0.62, BLUE, width=1.1)
+        label(ax, foot + normal * 0.28 + 0.28, "$g_0$", BLUE)
+    label(ax, -2.35 + 2.2j, "body 1", INK, fontsize=8.5)
+    label(ax, -2.35 - 1.1j, "body 2", INK, fontsize=8.5)
+
+
+def _line_contact(ax):
+    """Cylinder on a half-plane in units of Hertz's half width and peak pressure: E* = 2 R p0/b, and F = pi b p0/2."""
+    count, reach = 81, 1.6
+    edges = np.linspace(-reach, reach, count + 1)
+    x, width = 0.5 * (edges[1:] + edges[:-1]), edges[1] - edges[0]
+    radius, scale = 50.0, 0.01  # lengths times `scale` enter the logarithm, whose constant is a rigid motion
+    modulus = 2.0 * radius
+    ahead, behind = scale * (x[:, None] - edges[None, 1:]), scale * (x[:, None] - edges[None, :-1])
+    integral = (behind * (np.log(np.abs(behind)) - 1) - ahead * (np.log(np.abs(ahead)) - 1)) / scale
+    flexibility = -2.0 / (np.pi * modulus) * integral * width
+    gap = width * x**2 / (2.0 * radius)
+    found = solve_complementarity(flexibility, gap, np.full((1, count), width), np.array([-0.5 * np.pi]), np.ones(count, bool))
+    fine = np.linspace(-1, 1, 201)
+    ax.plot(fine, np.sqrt(1 - fine**2), color=INK, lw=1, label="Hertz")
+    ax.plot(x, found.x, "o", ms=3.5, color=RED, label="pressure")
+    ax.plot(x, found.gap / width * radius, "s", ms=3, color=BLUE, label=r"gap $\times\,R/b^2$")
+    ax.set(title="line contact by the quadratic programme", xlabel="place / half width [-]", ylabel="pressure / Hertz's peak, gap [-]")
+    ax.legend(loc="upper right", fontsize=8)
+    ax.set_ylim(-0.05, 1.3)
+
+
+CONTACT_FIGURES = {"pairing": _pairing}
