@@ -1,0 +1,21 @@
+"""The typesetter of the formulas: MathJax, one file, copied from the package that brings it, so that pages need no network."""
+
+import importlib.util
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+PACKAGE = "mathjax"  # of the distribution django-static-mathjax, which holds MathJax's files and nothing else
+SCRIPT = "static/mathjax/es5/tex-svg-full.js"  # TeX in, SVG out; no fonts to load
+LICENCE = "static/mathjax/LICENSE"
+
+
+def build(docs: Path, progress: Callable[[str], None]) -> None:
+    """Write docs/assets/mathjax."""
+    found = importlib.util.find_spec(PACKAGE)
+    if found is None or found.origin is None:
+        raise SystemExit("MathJax is not installed: pip install 'drivewright[docs]'")
+    source, target = Path(found.origin).parent, docs / "assets" / "mathjax"
+    target.mkdir(parents=True, exist_ok=True)
+    for file in (SCRIPT, LICENCE):
+        shutil.copyfile(source / file, target / Path(file).name)
