@@ -14,7 +14,18 @@ from rich.console import Console
 from rich.markup import escape
 
 DOCS = Path(__file__).resolve().parent
-STEPS = ("mathematics", "home", "theory", "example_list", "studies", "papers", "reference")
+STEPS = (
+    "assets",
+    "home",
+    "theory",
+    "example_list",
+    "studies",
+    "papers",
+    "reference_commands",
+    "reference_keys",
+    "reference_results",
+    "reference_python",
+)
 WITH_FULL = {"studies", "papers"}  # their `build` takes `full=True`
 
 

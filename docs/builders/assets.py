@@ -1,4 +1,4 @@
-"""The typesetter of the formulas: MathJax, one file, copied from the package that brings it, so that pages need no network."""
+"""What pages load: the typesetter of the formulas (MathJax, one file of the package that brings it) and the mark of the program."""
 
 import importlib.util
 import shutil
@@ -11,7 +11,7 @@ LICENCE = "static/mathjax/LICENSE"
 
 
 def build(docs: Path, progress: Callable[[str], None]) -> None:
-    """Write docs/assets/mathjax."""
+    """Write docs/assets/mathjax and docs/assets/mark.svg."""
     found = importlib.util.find_spec(PACKAGE)
     if found is None or found.origin is None:
         raise SystemExit("MathJax is not installed: pip install 'drivewright[docs]'")
@@ -19,3 +19,4 @@ def build(docs: Path, progress: Callable[[str], None]) -> None:
     target.mkdir(parents=True, exist_ok=True)
     for file in (SCRIPT, LICENCE):
         shutil.copyfile(source / file, target / Path(file).name)
+    shutil.copyfile(docs.parent / "src" / "drivewright" / "studio" / "web" / "mark.svg", docs / "assets" / "mark.svg")
