@@ -5,6 +5,8 @@ import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+import drivewright
+
 PACKAGE = "mathjax"  # of the distribution django-static-mathjax, which holds MathJax's files and nothing else
 SCRIPT = "static/mathjax/es5/tex-svg-full.js"  # TeX in, SVG out; no fonts to load
 LICENCE = "static/mathjax/LICENSE"
@@ -19,4 +21,4 @@ def build(docs: Path, progress: Callable[[str], None]) -> None:
     target.mkdir(parents=True, exist_ok=True)
     for file in (SCRIPT, LICENCE):
         shutil.copyfile(source / file, target / Path(file).name)
-    shutil.copyfile(docs.parent / "src" / "drivewright" / "studio" / "web" / "mark.svg", docs / "assets" / "mark.svg")
+    shutil.copyfile(Path(drivewright.__file__).parent / "studio" / "web" / "mark.svg", docs / "assets" / "mark.svg")

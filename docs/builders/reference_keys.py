@@ -12,6 +12,7 @@ from drivewright.spec.commented_template import limits_text
 from drivewright.spec.fields import dimension_of, has_user_keys, list_depth, table_of
 from drivewright.spec.mechanism_spec import MechanismSpec
 from drivewright.spec.serialisation import to_plain, toml_value
+from drivewright.view.text import unit_text
 
 HEADS = ("key", "meaning", "unit", "allowed", "default")
 SHARED_PAGE = "spec-shared.md"
@@ -94,7 +95,7 @@ def _keys(model: type[Any]) -> list[str]:
 
 def _row(name: str, field: FieldInfo) -> tuple[str, ...]:
     dimension = dimension_of(field)
-    unit = dimension.display_unit if dimension else ""
+    unit = unit_text(dimension.display_unit) if dimension else ""
     return code(name), cell(sentence(field.description or "")), cell(unit), cell(limits_text(field)), _default(field)
 
 

@@ -74,9 +74,21 @@ def _lines(page: Page) -> Iterator[str]:
     """Lines of one page: a table of its modules, then a section for each."""
     modules = [module for name in page.modules for module in _modules(f"drivewright.{name}")]
     yield from (f"# {page.title}", "", page.about)
-    yield from table(("module", "about"), ((f"[{code(module)}][{module}]", cell(_summary(module))) for module in modules))
+    yield from table(("module", "about"), ((f"[{code(module)}](#{module})", cell(_summary(module))) for module in modules))
     for module in modules:
-        yield from ("", f"## {module.removeprefix('drivewright.')}", "", f"::: {module}")
+        yield from ("", f"## {module.removeprefix('drivewright.')} {{#{module}}}", "", f"::: {module}")
+        yield from _passed_on(module)
+
+
+def _passed_on(module: str) -> list[str]:
+    """For a package that passes names of its modules on: no members of its own, but a table of those names."""
+    package = import_module(module)
+    names = {name: getattr(package, name) for name in getattr(package, "__all__", ())}
+    rows = [(name, value) for name, value in names.items() if getattr(value, "__module__", module) != module]
+    if not rows or not hasattr(package, "__path__"):
+        return []
+    shown = ((code(f"{module}.{name}"), cell(_first_sentence(value))) for name, value in rows)
+    return ["    options:", "      members: false", *table(("name", "about"), shown)]
 
 
 def _modules(name: str) -> Iterator[str]:
@@ -89,5 +101,10 @@ def _modules(name: str) -> Iterator[str]:
 
 def _summary(module: str) -> str:
     """First sentence of a module's docstring."""
-    text = (import_module(module).__doc__ or "").strip().split("\n\n")[0]
-    return sentence(text)
+    return _first_sentence(import_module(module))
+
+
+def _first_sentence(value: object) -> str:
+    """First paragraph of what a docstring says, a constant's class left aside."""
+    text = value.__doc__ if callable(value) or hasattr(value, "__path__") or hasattr(value, "__spec__") else None
+    return sentence((text or "").strip().split("\n\n")[0])
