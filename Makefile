@@ -36,13 +36,16 @@ growth: $(VENV)/test.ready
 wheel: $(VENV)/core.ready
 	$(BIN)/python scripts/wheel.py
 
+# The site, readable from disk: about three minutes. FULL=1 computes all cases of the worked studies and all parts of the papers, too.
 docs: $(VENV)/docs.ready
-	$(BIN)/python docs/generate.py
-	$(BIN)/mkdocs build --strict
+	OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 $(BIN)/python docs/generate.py $(if $(FULL),--full)
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
+	$(BIN)/python docs/check_site.py site
 
 lint: $(VENV)/test.ready
 	$(BIN)/ruff check src tests benchmarks docs
 	$(BIN)/ruff format --check src tests benchmarks docs
+	$(BIN)/codespell src docs examples benchmarks scripts README.md CONTRIBUTING.md CHANGELOG.md
 	$(BIN)/basedpyright
 
 system:

@@ -33,6 +33,7 @@ EXTRAS = {
     "needs_studio": (("nicegui",), "studio"),
     "needs_cluster": (("distributed",), "cluster"),
     "needs_browser": (("playwright",), "dev"),
+    "needs_docs": (("mkdocs", "material", "mkdocstrings", "mathjax"), "docs"),
 }
 BROWSER = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("chromium-browser")
 

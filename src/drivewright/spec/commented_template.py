@@ -93,7 +93,7 @@ def _key_line(name, field, given, off):
 
 def _allowed_values(field, default, value):
     """Limits, kind of quantity and default in words."""
-    words = [_limits_text(field)]
+    words = [limits_text(field)]
     if not field.is_required() and (default is None or default != value):
         words.append("no default" if default is None else f"default {toml_value(default)}")
     elif default is not None and len(choices_of(field.annotation)) != 1:
@@ -101,7 +101,7 @@ def _allowed_values(field, default, value):
     return "; ".join(words)
 
 
-def _limits_text(field):
+def limits_text(field):
     """What is allowed: "0 < angle <= 180 deg", '"a" or "b"', "length"."""
     choices, dimension = choices_of(field.annotation), dimension_of(field)
     if choices:
