@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from drivewright.scene import Body, Frame, Scene, Shape, circle
-from drivewright.view.moving import draw_view, image, images, moving_webp, still_webp, view_of, within
+from drivewright.view.moving import draw_view, image, images, largest_within, moving_webp, still_webp, view_of
 
 pytestmark = pytest.mark.interface
 
@@ -75,7 +75,10 @@ def test_a_moving_file_runs_endlessly_in_the_period():
     assert still.size == SIZE and getattr(still, "n_frames", 1) == 1
 
 
-def test_the_most_images_that_the_budget_allows():
-    assert within(10, (2, 8, 4), bytes) == bytes(8)
-    assert within(5, (2, 8, 4), bytes) == bytes(4)
-    assert within(1, (2, 8, 4), bytes) == bytes(2)
+def test_fewer_images_where_the_budget_is_small():
+    scene = _scene()
+    pictures = images(scene, view_of(scene, 1.6), 12, SIZE)
+    whole = moving_webp(pictures, 1.2)
+    assert largest_within(len(whole), pictures, 1.2) == whole
+    half = largest_within(len(whole) - 1, pictures, 1.2)
+    assert half == moving_webp(pictures[::2], 1.2) and len(half) < len(whole)
