@@ -53,7 +53,7 @@ def test_pictures_are_small_and_show_something(name):
 
 def test_no_picture_without_an_example():
     known = {path for name in NAMES for path in pictures(name)}
-    assert {path for path in pictures("x")[0].parent.glob("*.webp")} <= known
+    assert set(pictures("x")[0].parent.glob("*.webp")) <= known
 
 
 def test_each_example_is_listed_with_questions_of_the_list():

@@ -19,8 +19,10 @@ GALLERY, CARDS, MADE = "gallery", "gallery.toml", "made.toml"
 
 
 class Card(NamedTuple):
-    """What a gallery shows of an example: `about` is what its head says; `questions` are {tag: words}; paths of its pictures, `moving` where
-    its drive moves."""
+    """What a gallery shows of an example.
+
+    `about` is what its head says; `questions` are {tag: words}; `still` and `moving` are paths of its pictures, the second where it moves.
+    """
 
     name: str
     kind: str
