@@ -250,6 +250,12 @@ def test_new_writes_a_spec_that_runs_and_refuses_to_write_over_it(drivewright, t
     assert (toy / "lift.csv").read_text().endswith("1,1\n")
 
 
+def test_the_gallery_is_written_and_its_path_printed(drivewright, toy):
+    code, out, _ = drivewright("examples", "--gallery", "--out", "here")
+    assert code == 0 and out.strip() == "here/gallery/index.html" and (toy / out.strip()).is_file()
+    assert "leave the name" in refused(drivewright("examples", "disc_cam", "--gallery"))
+
+
 @pytest.mark.parametrize(
     ("arguments", "wanted"),
     [

@@ -373,10 +373,17 @@ def studio(
 def examples(
     name: Annotated[str | None, typer.Argument(help="example to copy into this folder")] = None,
     run_: Annotated[str | None, typer.Option("--run", help="'all', or the name of an example to run")] = None,
-    out: Annotated[Path, typer.Option("--out", help="folder of the runs")] = Path("out"),
+    gallery_: Annotated[
+        bool, typer.Option("--gallery", help="write a page of all examples, with a picture of each, and print its path")
+    ] = False,
+    out: Annotated[Path, typer.Option("--out", help="folder of the runs, and of the page in gallery/")] = Path("out"),
 ) -> None:
-    """List, copy or run the worked examples and studies."""
+    """List, copy or run the worked examples and studies, or show them on a page."""
     from drivewright.cli import gallery
+
+    if gallery_:
+        gallery.show_gallery(out, name or run_)
+        return
 
     known, studies = gallery.examples(), gallery.studies()
     for chosen in (name, run_ if run_ != "all" else None):

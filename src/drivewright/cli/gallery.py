@@ -8,25 +8,10 @@ from typing import Any
 from drivewright import registry, runner
 from drivewright._jit.compilation import seconds_of_a_first_run
 from drivewright.cli import show
+from drivewright.errors import InputError
+from drivewright.report.worked_examples import examples, studies
 from drivewright.result import Result
 from drivewright.spec import load, read_document
-
-PACKED = Path(__file__).parent.parent / "examples"
-CHECKOUT = Path(__file__).parents[3] / "examples"
-
-
-def examples() -> dict[str, Path]:
-    """Name -> path of every example spec."""
-    return {path.stem: path for path in sorted(_folder().glob("*.toml"))}
-
-
-def studies() -> dict[str, Path]:
-    """Name -> path of every worked study: specs with a [study] table, for `sweep`."""
-    return {path.stem: path for path in sorted((_folder() / "studies").glob("*.toml"))}
-
-
-def _folder() -> Path:
-    return PACKED if PACKED.is_dir() else CHECKOUT
 
 
 def listing() -> None:
@@ -38,6 +23,15 @@ def listing() -> None:
         data = {name: read_document(path) for name, path in known.items()}
         rows = [(name, tables.get("mechanism", ""), tables.get("title", "")) for name, tables in data.items()]
         show.table(title, (("name", "left"), ("kind", "left"), ("what it shows", "left")), rows)
+
+
+def show_gallery(out: Path, other: str | None) -> None:
+    """Write the gallery page below `out` and print its path; `other` is an example that was named as well, which is refused."""
+    from drivewright.report.gallery import write_gallery
+
+    if other is not None:
+        raise InputError("--gallery shows every example; leave the name and --run out")
+    print(write_gallery(out / "gallery" / "index.html"))
 
 
 def copy(path: Path, folder: Path) -> list[Path]:

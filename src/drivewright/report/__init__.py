@@ -8,6 +8,7 @@ content          what a report says, as plain text in plain dictionaries
 dxf              DXF drawings of flat parts
 export           manufacturing files of a design: everything that `drivewright export` can write
 folder           the run folder
+gallery          the gallery of the worked examples: a page of its own, or one of the documentation
 gcode            G-code (ISO 6983) that mills a flat part out of a plate
 html             the self-contained report page
 index            a gallery page over several run folders
@@ -20,4 +21,6 @@ renames          renames that the standard library does not have
 study            the report of a study beside its cases
 svgout           SVG drawings of flat parts in true millimetres, for laser cutters and plots
 tabular          tables as CSV and Excel files in the units people read, with the unit of every column in its header
+thumbnails       the pictures that stand for a design: its scene, still and moving, or a plot of its run
+worked_examples  the worked examples: their specs, what each answers, and the pictures that stand for them
 """

@@ -9,6 +9,7 @@ markers        sparse markers that tell the lines of one panel apart without the
 merged_scenes  several scenes as one: the bodies of each design in its own colour
 meshes         a closed triangle surface seen from the side
 motion         poses (x, y, angle) seen by an observer, and between two frames of a cycle
+moving         moving pictures: a scene over its cycle as images of one size, and an endless WebP of them
 outlines       outlines as polylines with no more points than a picture needs
 overlays       a plot of several designs in one picture: a panel for each quantity, in it a curve for each design
 palette        colours by role, once, for the figures, the report's style sheet and the player

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from drivewright.errors import UnknownName
-from drivewright.scene import Drawing, Scene, place
+from drivewright.scene import Drawing, Frame, Scene, place
 from drivewright.units import System
 from drivewright.view.motion import path, pose_at, seen_from, step_back
 from drivewright.view.outlines import overall_size, simplified_points
@@ -15,6 +15,7 @@ from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_colum
 from drivewright.view.text import display_unit, literal, number, quantity, sentence, with_unit
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 FINENESS = 4e-4  # curves become chords within this part of the whole picture: a twentieth of a millimetre on paper
@@ -63,7 +64,7 @@ def draw_scene(
 
     A panel for each phase 0 ... 1 of the cycle in `at`; the bodies' edges at the phases in `ghosts` lie faintly behind.
     """
-    observer = _observer(scene, frame)
+    observer = observer_of(scene, frame)
     with styled():
         figure, axes = figure_to_scale(len(at), sentence(observer.label))
         for axis, phase in zip(axes, at, strict=True):
@@ -85,7 +86,8 @@ def draw_thumbnail(scene: Scene, phase: float = 0.3) -> "Figure":
     return figure
 
 
-def _observer(scene, name):
+def observer_of(scene: Scene, name: str | None) -> Frame:
+    """The observer of a name, the first one without a name."""
     frames = {frame.name: frame for frame in scene.frames}
     if name is not None and name not in frames:
         raise UnknownName("frame of the scene", name, frames)
@@ -97,7 +99,17 @@ def _length(system: System) -> tuple[float, str]:
 
 
 def _draw_state(axis, scene, observer, phase, ghosts, system: System = "mm"):
-    """One moment with its traces; ghosts behind, the frame's own shapes as far as they lie near."""
+    """One moment with its traces, ghosts behind, and what it is called."""
+    draw_moment(axis, scene, observer, phase, ghosts, system)
+    value = scene.cycle[0] + phase * (scene.cycle[-1] - scene.cycle[0])
+    at = quantity(value, scene.cycle_unit, 4, system)
+    axis.set_title(f"{sentence(scene.cycle_label)} {at}", fontweight="normal", fontsize=9, color=MUTED)
+    axis.set_xlabel(f"{observer.axes[0]} [{_length(system)[1]}]")
+
+
+def draw_moment(axis: "Axes", scene: Scene, observer: Frame, phase: float, ghosts: Sequence[float] = (), system: System = "mm") -> None:
+    """Draw a scene at a phase 0 ... 1 of its cycle as an observer sees it, with its traces, into axes in the unit of lengths that `system`
+    shows; ghosts behind, the frame's own shapes as far as they lie near."""
     tolerance = FINENESS * overall_size(scene)
     length = _length(system)[0]
     _draw_ghosts(axis, scene, observer, ghosts, 4 * tolerance, length)
@@ -108,10 +120,6 @@ def _draw_state(axis, scene, observer, phase, ghosts, system: System = "mm"):
     near = _around(axis.dataLim.get_points(), 0.25)
     for shape in observer.shapes:
         _draw_shape(axis, shape, (0.0, 0.0, 0.0), "ground", tolerance, length, near)
-    value = scene.cycle[0] + phase * (scene.cycle[-1] - scene.cycle[0])
-    at = quantity(value, scene.cycle_unit, 4, system)
-    axis.set_title(f"{sentence(scene.cycle_label)} {at}", fontweight="normal", fontsize=9, color=MUTED)
-    axis.set_xlabel(f"{observer.axes[0]} [{_length(system)[1]}]")
 
 
 def _seen_bodies(scene, observer, phase):

@@ -1,0 +1,29 @@
+"""The gallery: pictures of the worked examples where a spec has changed, and the page that shows them."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+from drivewright.report.gallery import gallery_markdown
+from drivewright.report.thumbnails import remake
+
+PICTURES = "gallery"  # beside the page
+
+
+def build(docs: Path, progress: Callable[[str], None]) -> None:
+    """Write docs/gallery.md and docs/gallery/*.webp."""
+    remake(progress=progress)
+    shutil.rmtree(docs / PICTURES, ignore_errors=True)
+    (docs / PICTURES).mkdir()
+
+    def link(picture: Path) -> str:
+        """The address of a picture from the page, which the site puts into a folder of its own name."""
+        shutil.copyfile(picture, docs / PICTURES / picture.name)
+        return picture.name
+
+    (docs / "gallery.md").write_text(gallery_markdown(link), encoding="utf-8")
+    progress("gallery: page written")
+
+
+if __name__ == "__main__":
+    build(Path(__file__).parents[1], print)

@@ -1,0 +1,115 @@
+"""The worked examples that come with the package: their specs, what each answers, and the pictures that stand for them.
+
+They are packed into the wheel; in a checkout they lie beside the sources.  `gallery/` among them holds `gallery.toml` (questions of each
+example, how its picture is drawn), the pictures NAME.webp and NAME.moving.webp, and `made.toml`: the digest of the spec each was made from.
+"""
+
+import hashlib
+import json
+import tomllib
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from drivewright.spec import load, read_document
+
+PACKED = Path(__file__).parent.parent / "examples"
+CHECKOUT = Path(__file__).parents[3] / "examples"
+GALLERY, CARDS, MADE = "gallery", "gallery.toml", "made.toml"
+
+
+class Card(NamedTuple):
+    """What a gallery shows of an example.
+
+    `about` is what its head says; `questions` are {tag: words}; `still` and `moving` are paths of its pictures, the second where it moves.
+    """
+
+    name: str
+    kind: str
+    title: str
+    about: str
+    questions: dict[str, str]
+    still: Path
+    moving: Path | None
+
+    @property
+    def command(self) -> str:
+        """What runs it."""
+        return f"drivewright examples --run {self.name}"
+
+
+def examples() -> dict[str, Path]:
+    """Name -> path of every example spec."""
+    return {path.stem: path for path in sorted(folder().glob("*.toml"))}
+
+
+def studies() -> dict[str, Path]:
+    """Name -> path of every worked study: specs with a [study] table, for `sweep`."""
+    return {path.stem: path for path in sorted((folder() / "studies").glob("*.toml"))}
+
+
+def folder() -> Path:
+    """Where the examples are."""
+    return PACKED if PACKED.is_dir() else CHECKOUT
+
+
+def cards() -> list[Card]:
+    """A card for each example, by kind and name."""
+    made = [_card(name, path) for name, path in examples().items()]
+    return sorted(made, key=lambda card: (card.kind, card.name))
+
+
+def _card(name: str, path: Path) -> Card:
+    tables, words = read_document(path), question_words()
+    asked = {tag: words[tag] for tag in picture_settings(name).get("questions", ())}
+    still, moving = pictures(name)
+    about = _about(path.read_text(encoding="utf-8"))
+    return Card(name, tables.get("mechanism", ""), tables.get("title", name), about, asked, still, moving if moving.is_file() else None)
+
+
+def _about(text: str) -> str:
+    """The comment at the head of a spec as one paragraph."""
+    lines = text.splitlines()
+    head = lines[: next((n for n, line in enumerate(lines) if not line.startswith("#")), len(lines))]
+    return " ".join(" ".join(line.removeprefix("#") for line in head).split())
+
+
+def pictures(name: str) -> tuple[Path, Path]:
+    """Paths of the still and of the moving picture of an example; nothing moves where the second is not there."""
+    place = folder() / GALLERY
+    return place / f"{name}.webp", place / f"{name}.moving.webp"
+
+
+def question_words() -> dict[str, str]:
+    """Tag -> words of every question."""
+    return dict(_settings()["questions"])
+
+
+def picture_settings(name: str) -> dict[str, Any]:
+    """What gallery.toml has of an example; {} where it does not name it."""
+    return dict(_settings()["examples"].get(name, {}))
+
+
+@cache
+def _settings() -> dict[str, Any]:
+    return tomllib.loads((folder() / GALLERY / CARDS).read_text(encoding="utf-8"))
+
+
+def digest(path: Path) -> str:
+    """SHA-256 of what a spec says, comments and order apart, of its data files, and of how its picture is drawn."""
+    drawn = {key: value for key, value in picture_settings(path.stem).items() if key != "questions"}
+    tables = {key: value for key, value in read_document(path).items() if key not in ("title", "optimise")}
+    sums = [hashlib.sha256(file.read_bytes()).hexdigest() for file in load(path).data_files()]
+    return hashlib.sha256(json.dumps([tables, drawn, sums], sort_keys=True, default=str).encode()).hexdigest()
+
+
+def outdated() -> list[str]:
+    """Names of the examples whose picture is missing or was made from another spec."""
+    made = made_from()
+    return [name for name, path in examples().items() if made.get(name) != digest(path) or not pictures(name)[0].is_file()]
+
+
+def made_from() -> dict[str, str]:
+    """Name -> digest of the spec that the pictures of an example were made from."""
+    file = folder() / GALLERY / MADE
+    return tomllib.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
