@@ -110,8 +110,10 @@ class PageRun:
 
     def __init__(self, page: Path, folder: Path) -> None:
         self.page, self.folder, self.current = page, folder.resolve(), folder.resolve()
-        self.last_code, self.background = 0, []
+        self.last_code = 0
+        self.background: list[subprocess.Popen[bytes]] = []
         self.pictures: dict[str, Path] = {}
+        self.missing: list[str] = []  # pictures that the run did not make
         self.by_subprocess = "pip install" in page.read_text(encoding="utf-8")  # a plug-in is seen by a new process only
 
     def outcomes(self) -> Iterator[Outcome]:
@@ -124,7 +126,7 @@ class PageRun:
                     path.parent.mkdir(parents=True, exist_ok=True)
                     path.write_text(step.text, encoding="utf-8")
                 elif isinstance(step, Picture):
-                    self.pictures[step.target] = self._kept(step)
+                    self._keep(step)
                 else:
                     outcome = self._run(step)
                     expected = isinstance(following, Command) and following.text == "echo $?"
@@ -137,15 +139,16 @@ class PageRun:
                 process.terminate()
                 process.wait(timeout=30)
 
-    def _kept(self, picture: Picture) -> Path:
+    def _keep(self, picture: Picture) -> None:
         """A copy of the picture as it is at this place of the page: a later run may write it anew."""
         source = self.current / picture.source
         if not source.is_file():
             there = sorted(each.name for each in source.parent.glob("*")) if source.parent.is_dir() else []
-            raise AssertionError(f"{self.page.name}: the run made no {picture.source}; there are {there}")
+            self.missing.append(f"the run made no {picture.source}; there are {there}")
+            return
         copy = self.folder / ".pictures" / Path(picture.target).name
         copy.parent.mkdir(exist_ok=True)
-        return Path(shutil.copyfile(source, copy))
+        self.pictures[picture.target] = Path(shutil.copyfile(source, copy))
 
     def _run(self, command: Command) -> Outcome:
         words = shlex.split(command.text.replace("\\\n", " "), comments=True)

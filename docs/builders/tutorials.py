@@ -40,6 +40,7 @@ def faults(page: Path, folder: Path) -> list[str]:
     """What the page shows and its commands do not print; and pictures that are missing or too large."""
     run = PageRun(page, folder)
     found = [f"$ {each.command.text}\n{text}" for each in run.outcomes() if (text := difference(each.command.shown, each.printed))]
+    found += run.missing
     for target, made in run.pictures.items():
         if not (page.parent / target).is_file():
             found.append(f"{target} is not in the tree")
@@ -59,7 +60,7 @@ def refresh(page: Path, folder: Path) -> list[str]:
     for target, made in run.pictures.items():
         (page.parent / target).parent.mkdir(exist_ok=True)
         shutil.copyfile(made, page.parent / target)
-    return complaints
+    return complaints + run.missing
 
 
 def _with_output(text: str, at: int, outcome: Outcome) -> tuple[str, int, list[str]]:
