@@ -20,6 +20,7 @@ import shutil
 import subprocess
 import sys
 import time
+import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -113,6 +114,7 @@ class PageRun:
         self.last_code = 0
         self.background: list[subprocess.Popen[bytes]] = []
         self.pictures: dict[str, Path] = {}
+        self.paths: list[Path] = []  # of packages that the page installs
         self.missing: list[str] = []  # pictures that the run did not make
         self.by_subprocess = "pip install" in page.read_text(encoding="utf-8")  # a plug-in is seen by a new process only
 
@@ -154,6 +156,9 @@ class PageRun:
         words = shlex.split(command.text.replace("\\\n", " "), comments=True)
         if command.text == "echo $?":
             return Outcome(command, [str(self.last_code)], 0)
+        if words[:3] == ["pip", "install", "-e"]:
+            self._install(self.current / words[3])
+            return Outcome(command, [], 0)
         if words[0] == "cd":
             self.current = (self.current / words[1]).resolve()
             return Outcome(command, [], 0)
@@ -168,10 +173,24 @@ class PageRun:
         self.last_code = code
         return Outcome(command, self._as_shown(printed), code)
 
+    def _install(self, package: Path) -> None:
+        """What `pip install -e` does for a package with a folder src, without a network or a change of this Python: its metadata
+        and its sources on the path of the processes of this page."""
+        project = tomllib.loads((package / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+        about = self.folder / ".installed" / f"{project['name'].replace('-', '_')}-{project['version']}.dist-info"
+        about.mkdir(parents=True)
+        (about / "METADATA").write_text(f"Metadata-Version: 2.1\nName: {project['name']}\nVersion: {project['version']}\n")
+        lines = [
+            f"[{group}]\n" + "".join(f"{name} = {place}\n" for name, place in points.items())
+            for group, points in project["entry-points"].items()
+        ]
+        (about / "entry_points.txt").write_text("\n".join(lines), encoding="utf-8")
+        self.paths += [about.parent, package / "src"]
+
     def _start(self, command: Command, words: list[str]) -> Outcome:
         """A process beside the others, given a moment to come up."""
         log = open(self.folder / ".background", "w")  # noqa: SIM115: the process keeps it
-        self.background.append(subprocess.Popen(_argv(words), cwd=self.current, env=_environment(), stdout=log, stderr=log))
+        self.background.append(subprocess.Popen(_argv(words), cwd=self.current, env=_environment(self.paths), stdout=log, stderr=log))
         time.sleep(3.0)
         return Outcome(command, [], 0)
 
@@ -182,7 +201,7 @@ class PageRun:
         done = subprocess.run(
             _argv(words),
             cwd=self.current,
-            env=_environment(),
+            env=_environment(self.paths),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE if separate else subprocess.STDOUT,
@@ -199,7 +218,7 @@ class PageRun:
 
 def _argv(words: list[str]) -> list[str]:
     """The words of a command as this Python's own programs."""
-    python = {"drivewright": ["-m", "drivewright"], "python": [], "pip": ["-m", "pip"], "dask": ["-m", "dask"]}
+    python = {"drivewright": ["-m", "drivewright"], "python": [], "dask": ["-m", "dask"]}
     if words[0] in python:
         return [sys.executable, *python[words[0]], *words[1:]]
     if words[0] in {"cat", "ls", "mkdir", "rm", "cp", "head"}:
@@ -207,9 +226,9 @@ def _argv(words: list[str]) -> list[str]:
     raise ValueError(f"a page may not run {words[0]!r}")
 
 
-def _environment() -> dict[str, str]:
-    paths = [str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]
-    names = {"PYTHONPATH": os.pathsep.join(filter(None, paths)), "OPENBLAS_NUM_THREADS": "1", "PYTHONIOENCODING": "utf-8"}
+def _environment(more: list[Path]) -> dict[str, str]:
+    paths = [*map(str, more), str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]
+    names = {"PYTHONPATH": os.pathsep.join(filter(None, paths)), "OPENBLAS_NUM_THREADS": "1", "PYTHONIOENCODING": "utf-8", "PYTHONUNBUFFERED": "1"}
     return {**os.environ, **_plain_terminal(), **names}
 
 
