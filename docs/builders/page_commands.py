@@ -17,6 +17,7 @@ import os
 import re
 import shlex
 import shutil
+import socket
 import subprocess
 import sys
 import time
@@ -34,6 +35,9 @@ TITLE = re.compile(r'title="([^"]+)"')
 NUMBER = re.compile(r"[-+−]?\d[\d,]*(?:\.\d+)?(?:[eE][-+]?\d+)?")
 INTERVAL = re.compile(r"\([^()]*\d[^()]* to [^()]*\d[^()]*\)")
 CHANGING = re.compile(r"\b\d+(\.\d+)? (s|seconds|min)\b|per second|compil|^\s*(\d+%|━)")  # lines that tell a time, or progress
+READY = re.compile(r"Scheduler at|Registered to")  # what a process in the background says when it can be used
+PATIENCE = 120.0  # seconds that it may take
+PORT = "8911"  # what pages write; each run takes one that is free
 ANY_LINES = "..."
 UNKNOWN = "???"  # below a command: `--refresh` puts what it prints in its place, or of that the lines in which the pattern behind occurs
 RELATIVE = 0.01
@@ -111,7 +115,7 @@ class PageRun:
 
     def __init__(self, page: Path, folder: Path) -> None:
         self.page, self.folder, self.current = page, folder.resolve(), folder.resolve()
-        self.last_code = 0
+        self.last_code, self.port = 0, _free_port() if "dask scheduler" in page.read_text(encoding="utf-8") else PORT
         self.background: list[subprocess.Popen[bytes]] = []
         self.pictures: dict[str, Path] = {}
         self.paths: list[Path] = []  # of packages that the page installs
@@ -153,7 +157,7 @@ class PageRun:
         self.pictures[picture.target] = Path(shutil.copyfile(source, copy))
 
     def _run(self, command: Command) -> Outcome:
-        words = shlex.split(command.text.replace("\\\n", " "), comments=True)
+        words = shlex.split(command.text.replace("\\\n", " ").replace(PORT, self.port), comments=True)
         if command.text == "echo $?":
             return Outcome(command, [str(self.last_code)], 0)
         if words[:3] == ["pip", "install", "-e"]:
@@ -188,10 +192,16 @@ class PageRun:
         self.paths += [about.parent, package / "src"]
 
     def _start(self, command: Command, words: list[str]) -> Outcome:
-        """A process beside the others, given a moment to come up."""
-        log = open(self.folder / ".background", "w")  # noqa: SIM115: the process keeps it
-        self.background.append(subprocess.Popen(_argv(words), cwd=self.current, env=_environment(self.paths), stdout=log, stderr=log))
-        time.sleep(3.0)
+        """A process beside the others; returns when it says that it is ready."""
+        path = self.folder / f".background-{len(self.background)}"
+        with path.open("w", encoding="utf-8") as log:
+            process = subprocess.Popen(_argv(words), cwd=self.current, env=_environment(self.paths), stdout=log, stderr=log)
+        self.background.append(process)
+        end = time.monotonic() + PATIENCE
+        while not READY.search(said := path.read_text(encoding="utf-8")):
+            if process.poll() is not None or time.monotonic() > end:
+                raise AssertionError(f"{self.page.name}: `{command.text}` is not ready:\n{said}")
+            time.sleep(0.1)
         return Outcome(command, [], 0)
 
     def _execute(self, words: list[str], separate: bool) -> tuple[str, str, int]:
@@ -212,8 +222,14 @@ class PageRun:
         return done.stdout, done.stderr or "", done.returncode
 
     def _as_shown(self, printed: str) -> list[str]:
-        text = printed.replace(str(self.folder), SHOWN_FOLDER).replace("\x1b[0m", "")
+        text = printed.replace(str(self.folder), SHOWN_FOLDER).replace(self.port, PORT).replace("\x1b[0m", "")
         return [line.rstrip() for line in text.splitlines()]
+
+
+def _free_port() -> str:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        return str(taken.getsockname()[1])
 
 
 def _argv(words: list[str]) -> list[str]:
@@ -228,7 +244,12 @@ def _argv(words: list[str]) -> list[str]:
 
 def _environment(more: list[Path]) -> dict[str, str]:
     paths = [*map(str, more), str(ROOT / "src"), os.environ.get("PYTHONPATH", "")]
-    names = {"PYTHONPATH": os.pathsep.join(filter(None, paths)), "OPENBLAS_NUM_THREADS": "1", "PYTHONIOENCODING": "utf-8", "PYTHONUNBUFFERED": "1"}
+    names = {
+        "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+        "OPENBLAS_NUM_THREADS": "1",
+        "PYTHONIOENCODING": "utf-8",
+        "PYTHONUNBUFFERED": "1",
+    }
     return {**os.environ, **_plain_terminal(), **names}
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 if __name__ == "__main__":
     sys.path[:0] = [str(Path(__file__).parents[1]), str(Path(__file__).parents[2] / "src")]
 
+from builders import notebook
 from builders.page_commands import Command, Outcome, PageRun, difference, page_steps, refreshed
 
 DOCS = Path(__file__).parents[1]
@@ -63,6 +64,45 @@ def refresh(page: Path, folder: Path) -> list[str]:
     return complaints + run.missing
 
 
+def notebooks(docs: Path = DOCS) -> list[Path]:
+    """All notebooks; each has a page of its name beside it."""
+    return [path for folder in FOLDERS for path in sorted((docs / folder).glob("*.ipynb"))]
+
+
+def notebook_faults(path: Path, folder: Path) -> list[str]:
+    """What the notebook shows and its cells do not give."""
+    shown, real = notebook.read(path), notebook.executed(path, folder)
+    found = []
+    for old, new in zip(shown["cells"], real["cells"], strict=True):
+        if text := difference(notebook.printed(old), notebook.printed(new)):
+            found.append(f"{''.join(new['source'])}\n{text}")
+        if len(notebook.pictures(old)) != len(notebook.pictures(new)):
+            found.append(f"{''.join(new['source'])}\nanother number of pictures")
+    return found + stale_files(path)
+
+
+def stale_files(path: Path) -> list[str]:
+    """Page and pictures that are not those of the notebook."""
+    text, files = notebook.page(notebook.read(path), path.stem)
+    wanted = {path.with_suffix(".md"): text.encode(), **{path.parent / name: content for name, content in files.items()}}
+    return [f"{each.name} is not that of the notebook" for each, content in wanted.items() if not _has(each, content)]
+
+
+def _has(path: Path, content: bytes) -> bool:
+    return path.is_file() and path.read_bytes().replace(b"\r\n", b"\n") == content
+
+
+def refresh_notebook(path: Path, folder: Path) -> list[str]:
+    """Execute the notebook, keep its outputs in it, and write its page."""
+    new = notebook.executed(path, folder)
+    notebook.write(path, new)
+    text, files = notebook.page(new, path.stem)
+    path.with_suffix(".md").write_text(text, encoding="utf-8", newline="\n")
+    for name, content in files.items():
+        (path.parent / name).write_bytes(content)
+    return []
+
+
 def _with_output(text: str, at: int, outcome: Outcome) -> tuple[str, int, list[str]]:
     """(page with the lines below a command replaced, where that ends, complaints)."""
     command = outcome.command
@@ -78,11 +118,13 @@ def _with_output(text: str, at: int, outcome: Outcome) -> tuple[str, int, list[s
 def main(arguments: list[str]) -> int:
     """Run the pages named, or all; exit code 1 where one shows what is not so."""
     names = [each for each in arguments if not each.startswith("-")]
-    work = refresh if "--refresh" in arguments else faults
+    refreshing = "--refresh" in arguments
     failed = False
-    for page in pages():
+    for page in [*pages(), *notebooks()]:
         if names and not any(name in page.stem for name in names):
             continue
+        of_notebook = page.suffix == ".ipynb"
+        work = (refresh_notebook if of_notebook else refresh) if refreshing else (notebook_faults if of_notebook else faults)
         with tempfile.TemporaryDirectory(prefix="page-") as folder:
             told = work(page, Path(folder))
         failed |= bool(told)

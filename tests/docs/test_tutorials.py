@@ -27,7 +27,23 @@ def parameters(pages):
 @pytest.mark.parametrize("page", list(parameters(PAGES)))
 def test_tutorial_shows_what_its_commands_print(page, tmp_path):
     told = tutorials.faults(page, tmp_path)
-    assert not told, f"{page.name}: run `python docs/builders/tutorials.py --refresh {page.stem}` and read what has changed\n" + "\n".join(told)
+    assert not told, f"{page.name}: run `python docs/builders/tutorials.py --refresh {page.stem}` and read what has changed\n" + "\n".join(
+        told
+    )
+
+
+@pytest.mark.parametrize("path", tutorials.notebooks(), ids=lambda path: path.stem)
+def test_notebook_gives_what_it_shows_and_its_page_is_its_own(path, tmp_path):
+    pytest.importorskip("nbclient")
+    pytest.importorskip("ipykernel")
+    told = tutorials.notebook_faults(path, tmp_path)
+    assert not told, f"run `python docs/builders/tutorials.py --refresh {path.stem}`\n" + "\n".join(told)
+
+
+def test_notebook_keeps_nothing_of_a_machine():
+    for path in tutorials.notebooks():
+        text = path.read_text(encoding="utf-8")
+        assert not [word for word in ("execution_timing", "iopub", "/home/", "/tmp/", "<dc:date>") if word in text]
 
 
 # -- the comparison itself -----------------------------------------------------------------------------------------------------
