@@ -20,7 +20,8 @@ from drivewright._typing import Floats
 from drivewright.digits import plain
 from drivewright.errors import InputError, SolverError
 from drivewright.execution.case_table import MESSAGE, STATUS
-from drivewright.execution.outputs import case_outputs
+from drivewright.execution.outputs import CHECK, case_outputs
+from drivewright.labels import label_of
 from drivewright.result import Check, Column, Plot, Result, Table
 from drivewright.runner import build, incomplete_reasons, run, run_analyses, select_analyses, versions
 from drivewright.spec import MechanismSpec
@@ -203,9 +204,10 @@ def _outcome(problem, table):
             limit,
             sense,
             problem.about[name].unit,
-            "requirement",
+            "required by the search",
             low=bounds[name].get("low"),
             high=bounds[name].get("high"),
+            label=_label_of(name, best),
         )
         for name, sense, limit in problem.limits
     )
@@ -221,6 +223,14 @@ def _outcome(problem, table):
         "table": table,
         "findings": tuple(findings),
     }
+
+
+def _label_of(name: str, best: Result[Any]) -> str:
+    """What a requirement is about, in the words of the result: the label of a value, or of a check, whose margin counts."""
+    if name in best.values:
+        return label_of(best.values[name].meaning, best.values[name].label)
+    named = next((check for check in best.checks if f"{CHECK}{check.name}" == name), None)
+    return f"{named.display_label}, margin" if named else name
 
 
 def _front(problem, values):
