@@ -99,7 +99,8 @@ def player_texts() -> tuple[str, ...]:
 
 def page(template: str, values: Mapping[str, Any], templates: Mapping[str, str] | None = None, **more: object) -> str:
     """A template filled in; every value is escaped unless the template marks it safe.  `templates` of a user replace ours by name."""
-    look = (templates or {}).get("report.css", _text("templates/report.css")) + _text("player.css")
+    own = {name: text for name, text in (templates or {}).items() if name.endswith(".css")}
+    look = own.pop("report.css", _text("templates/report.css")) + _text("player.css") + "".join(own.values())
     language = values.get("language", "en")
     filled = {"letterhead": NO_LETTERHEAD, **values, **more, "colours": style_sheet(), "style": look, "script": scripts()}
     if not templates:

@@ -60,5 +60,5 @@ class Report(Spec):
     )
     author: Text = Field("", description="author in the head of reports")
     templates: Templates = Field(
-        (), description='folder in the spec\'s folder, e.g. "templates", whose report.html.j2 and report.css replace those of the page'
+        (), description='folder in the spec\'s folder, e.g. "templates", whose report.html.j2 and report.css replace ours'
     )
