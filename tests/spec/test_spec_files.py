@@ -204,7 +204,7 @@ BASE = 'mechanism = "toy"\nlength = "40 mm"\n'
         (
             "lenth = 1",
             "lenth",
-            "unknown key (did you mean 'length'?); known here: format, mechanism, title, units, optimise, study, length,",
+            "unknown key (did you mean 'length'?); known here: format, mechanism, title, units, optimise, study, report, length,",
         ),
         ("DRIVE = {}", "DRIVE", "unknown key (did you mean 'drive'?)"),
         ("zzz = 1", "zzz", "unknown key; known here: format,"),

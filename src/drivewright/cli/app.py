@@ -30,6 +30,10 @@ SetOption = Annotated[list[str] | None, typer.Option("--set", help="key=value, r
 OnlyOption = Annotated[str, typer.Option("--only", help="analyses to run, comma separated, with what they need")]
 AllOption = Annotated[bool, typer.Option("--all", help="every analysis")]
 UnitsOption = Annotated[str | None, typer.Option("--units", help="units of the pages: mm, si or inch; as the spec's own key")]
+ReportOption = Annotated[
+    str, typer.Option("--report", help="short: the first page; normal; full: everything open, with how it was computed")
+]
+LanguageOption = Annotated[str, typer.Option("--lang", help="language of the report: en or zh")]
 OutOption = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
 ADVICE_HELP = "say what to change for checks that fail: however long that takes, or not at all; unless given, within 3 s"
 VARY_HELP = (
@@ -99,6 +103,8 @@ def run(
     only: OnlyOption = "",
     all_: AllOption = False,
     units: UnitsOption = None,
+    report: ReportOption = "normal",
+    lang: LanguageOption = "en",
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="draw the figures")] = True,
     as_json: Annotated[bool, typer.Option("--json", help="print the result as JSON to stdout")] = False,
     strict: StrictOption = False,
@@ -110,22 +116,27 @@ def run(
     from drivewright.execution.helper import compiling_ahead, helping_hand
     from drivewright.report.content import prepare_drawing, views
     from drivewright.report.folder import write_run_folder
+    from drivewright.report.form import report_form
+    from drivewright.report.letterhead import read_letterhead
     from drivewright.studies.advising import PATIENCE, advise
 
     _refuse_both(only, all_)
+    form = report_form(report, lang)
     stems = [path.stem for path in specs]
     if len(set(stems)) < len(stems):
         raise InputError("two specs have the same file name and would share a run folder; run them one by one with --out")
     results = []
     for path in specs:
         spec = _load(path, set_, units)
+        with show.located(path):
+            read_letterhead(spec)  # a wrong logo is told before anything is computed
         with helping_hand(prepare_drawing, figures) as compute, show.progress(path.name, spec.mechanism) as step, show.located(path):
             with compiling_ahead(spec):
                 model = runner.build(spec)
                 result = runner.run(spec, _names(only), all_, step, model)
             if advice is not False and not result.ok:
                 result = advise(result, None if advice else PATIENCE, step)
-            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model), compute)
+            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model), compute, form)
         results.append(result)
         if not as_json:
             show.result(result, verbose)
@@ -173,17 +184,21 @@ def export(
     out: OutOption = None,
     set_: SetOption = None,
     units: UnitsOption = None,
-    anyway: Annotated[bool, typer.Option("--anyway", help="also with a failed geometry check")] = False,
+    report: ReportOption = "normal",
+    lang: LanguageOption = "en",
+    anyway: Annotated[bool, typer.Option("--anyway", help="manufacturing files also with a failed geometry check")] = False,
 ) -> None:
     """Write manufacturing files and the PDF report."""
     from drivewright.report.export import export as write
     from drivewright.report.folder import recover_run_folder
+    from drivewright.report.form import report_form
 
+    form = report_form(report, lang)
     loaded = _load(spec, set_, units)
     with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = _folder(spec, out)
         recover_run_folder(folder)
-        files = write(loaded, _names(to), folder / "cad", anyway, step)
+        files = write(loaded, _names(to), folder / "cad", anyway, step, form)
     for file in files:
         print(file)
 

@@ -1,7 +1,11 @@
 """Advice in words: 'prime radius 42 mm instead of 38 mm gives 30°'."""
 
+from collections.abc import Mapping
+from typing import Any
+
 from drivewright.advice import Advice, Change
 from drivewright.labels import key_in_words
+from drivewright.report.words import Words, words_of
 from drivewright.result import Check, Result
 from drivewright.units import System
 from drivewright.view.text import number, shown_scale, with_unit
@@ -9,35 +13,35 @@ from drivewright.view.text import number, shown_scale, with_unit
 MOST_TURNED = 3  # other checks that are named
 
 
-def advice_texts(result: Result) -> dict[str, str]:
-    """{check: what to change so that it passes} of the advice of a result."""
+def advice_texts(result: Result[Any], words: Words | None = None) -> dict[str, str]:
+    """{check: what to change so that it passes} of the advice of a result, in English or in other words."""
     checks = {check.name: check for check in result.checks}
-    return {each.check: advice_text(each, checks, result.units) for each in result.advice}
+    return {each.check: advice_text(each, checks, result.units, words) for each in result.advice}
 
 
-def advice_text(advice: Advice, checks: dict[str, Check], system: System) -> str:
-    """ "prime radius 42 mm instead of 38 mm gives 30°; then 'Wall of the hub' fails"."""
+def advice_text(advice: Advice, checks: Mapping[str, Check], system: System, words: Words | None = None) -> str:
+    """ "prime radius 42 mm instead of 38 mm gives 30°; but 'Wall of the hub' would fail"."""
+    words = words or words_of("en")
     check = checks[advice.check]
-    changes = " and ".join(change_text(change, system) for change in advice.changes)
     shown = shown_scale(check.unit, system=system, size=check.limit)
-    text = f"{changes} give{'' if len(advice.changes) > 1 else 's'} {with_unit(number(shown.of(advice.value), 4), shown.unit)}"
+    changes = [_change(change, system, words) for change in advice.changes]
+    reached = with_unit(number(shown.of(advice.value), 4), shown.unit)
+    text = words("* gives *", *changes, reached) if len(changes) == 1 else words("* and * give *", *changes, reached)
     if advice.also_passes:
-        text += f"; {_labels(advice.also_passes, checks)} pass{'' if len(advice.also_passes) > 1 else 'es'} too"
+        text += words("; * passes too", _labels(advice.also_passes, checks, words))
     if advice.then_fails:
-        text += f"; but {_labels(advice.then_fails, checks)} would fail"
+        text += words("; but * would fail", _labels(advice.then_fails, checks, words))
     return text
 
 
-def change_text(change: Change, system: System) -> str:
+def _change(change: Change, system: System, words: Words) -> str:
     """ "prime radius 42 mm instead of 38 mm"."""
     shown = shown_scale(change.unit, system=system, size=change.before)
     after, before = (with_unit(number(shown.of(value)), shown.unit) for value in (change.after, change.before))
-    return f"{key_in_words(change.key)} {after} instead of {before}"
+    return words("* instead of *", f"{key_in_words(change.key)} {after}", before)
 
 
-def _labels(names: tuple[str, ...], checks: dict[str, Check]) -> str:
+def _labels(names: tuple[str, ...], checks: Mapping[str, Check], words: Words) -> str:
     """The labels of checks, the first few of them."""
-    labels = [f"'{checks[name].display_label}'" for name in names[:MOST_TURNED]]
-    if len(names) > MOST_TURNED:
-        return f"{', '.join(labels)} and {len(names) - MOST_TURNED} more"
-    return " and ".join(filter(None, (", ".join(labels[:-1]), labels[-1])))
+    labels = [f"'{words(checks[name].display_label)}'" for name in names[:MOST_TURNED]]
+    return ", ".join([*labels, words("* more", len(names) - MOST_TURNED)] if len(names) > MOST_TURNED else labels)

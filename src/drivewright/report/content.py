@@ -14,7 +14,13 @@ from drivewright._typing import ArrayLike, Floats
 from drivewright.execution.helper import Map
 from drivewright.labels import label_of
 from drivewright.report.advice import advice_texts
-from drivewright.result import UNDECIDED, Array, Check, Plot, Result, SpecLike, Table, Value
+from drivewright.report.computed import how_computed
+from drivewright.report.form import ReportForm
+from drivewright.report.letterhead import read_letterhead
+from drivewright.report.localised import localised
+from drivewright.report.paper_figures import paper_svg
+from drivewright.report.words import Words, translated, words_of
+from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
 from drivewright.units import Scale, System
@@ -79,9 +85,11 @@ class Sketch(NamedTuple):
     arguments: tuple[Any, ...]
 
 
-def pictures(result: Result[Any], seen: Views, compute: Map = map) -> tuple[Picture, ...]:
+def pictures(result: Result[Any], seen: Views, compute: Map = map, language: str = "en", paper: bool = False) -> tuple[Picture, ...]:
     """Every figure of a run: the scene for each observer, the plots, the drawings; `compute` may draw them side by side."""
-    return tuple(compute(partial(draw_sketch, result.spec), list(_sketches(result, seen))))
+    return tuple(
+        compute(partial(draw_sketch, result.spec, told_in=(language, result.mechanism), paper=paper), list(_sketches(result, seen)))
+    )
 
 
 def _sketches(result, seen):
@@ -106,10 +114,15 @@ def _fail(error):
     raise error
 
 
-def draw_sketch(spec: SpecLike, sketch: Sketch) -> Picture:
-    """The figure as SVG; one that cannot be drawn says why in words.  `spec` is what the reason speaks of."""
+def draw_sketch(spec: SpecLike, sketch: Sketch, told_in: tuple[str, str] = ("en", ""), paper: bool = False) -> Picture:
+    """The figure as SVG, also as small as `paper` wants it; one that cannot be drawn says why.
+
+    `spec` is what the reason speaks of; `told_in` are a language and a kind of drive, whose words are used."""
+    words = words_of(*told_in)
+    sketch = sketch._replace(title=words(sketch.title))
     try:
-        return Picture(sketch.name, sketch.title, svg(sketch.draw(*sketch.arguments)))
+        figure = localised(sketch.draw(*sketch.arguments), words, told_in[0])
+        return Picture(sketch.name, sketch.title, paper_svg(figure) if paper else svg(figure))
     except Exception as error:  # one figure that fails must not cost the others
         return Picture(sketch.name, sketch.title, _instead(f"This figure is missing: {failure_reason(spec, error)}"))
 
@@ -151,31 +164,45 @@ def _marks(result: Result[Any], plot: Plot, scene: Scene | None) -> tuple[tuple[
     return tuple((shown.of(value), label) for value, label in scene.marks)
 
 
-def content(result: Result[Any], remarks: Sequence[str] = (), headlines: Sequence[str] | None = None) -> Content:
-    """Title, verdict, headline, checks, values, arrays, tables, findings, sources and provenance of a result.
+def content(
+    result: Result[Any], remarks: Sequence[str] = (), headlines: Sequence[str] | None = None, form: ReportForm = ReportForm()
+) -> Content:
+    """Title, verdict, headline, checks, values, arrays, tables, findings, sources, provenance of a result, as far as its form wants them.
 
     `headlines` names the values shown first; the mechanism's unless given.
     """
-    return {
-        "title": result.title,
-        "mechanism": result.mechanism,
+    words = words_of(form.language, result.mechanism)
+    first = {
+        "detail": form.detail,
+        "language": form.language,
+        "title": words.exact(result.title),
+        "mechanism": words.exact(result.mechanism.replace("-", " ")) if form.language != "en" else result.mechanism,
         "version": program(),
         "digest": result.digest,
-        **summary(result, headlines),
+        "letterhead": read_letterhead(result.spec).content(),
+        "warnings": [words(each) for each in result.warnings],
+        "cite": f"Drivewright {program()}, {result.mechanism}: {result.title}, digest {result.digest[:12]}.",
+    }
+    return first | translated(summary(result, headlines, words) | _behind_page_one(result, remarks, form), words)
+
+
+def _behind_page_one(result: Result[Any], remarks: Sequence[str], form: ReportForm) -> Content:
+    """What comes after the first page; of that a short report has its warnings alone."""
+    if form.detail == "short":
+        return {"values": [], "arrays": [], "tables": [], "findings": list(result.warnings), "spec": "", "sources": [], "provenance": []}
+    return {
         "arrays": [_array(name, array, result.units) for name, array in result.arrays.items()],
-        "tables": [_table(table) for table in result.tables.values()],
+        "tables": [_table(table, result.units if form.detail == "full" else None) for table in result.tables.values()],
         "findings": [*result.findings, *remarks],
-        "warnings": list(result.warnings),
         "spec": result.spec.to_toml(moved=True),
         "sources": [str(source) for source in result.provenance.get("sources", ())],
-        "provenance": provenance(result),
-        "cite": f"Drivewright {program()}, {result.mechanism}: {result.title}, digest {result.digest[:12]}.",
+        "provenance": provenance(result) if form.detail != "full" else [("digest", result.digest), *how_computed(result)],
     }
 
 
-def summary(result: Result[Any], headlines: Sequence[str] | None = None) -> Content:
-    """Verdict, headline, checks and values of a result: what changes with every number of a design."""
-    advice = advice_texts(result)
+def summary(result: Result[Any], headlines: Sequence[str] | None = None, words: Words | None = None) -> Content:
+    """Verdict, headline, checks and values of a result: what changes with every number of a design; its advice in `words`."""
+    advice = advice_texts(result, words)
     return {
         "verdict": verdict_of(result),
         "headline": headline(result, headlines),
@@ -294,15 +321,28 @@ def _array(name: str, array: Array, system: System) -> Content:
     }
 
 
-def _table(table: Table) -> Content:
-    """A column whose intervals are in the table stands for their ends too."""
+def _table(table: Table, system: System | None = None) -> Content:
+    """A column whose intervals are in the table stands for their ends too; with a `system` of units, each with its least and greatest."""
     heads = [(c, " (with its interval)" if table.bounds_of(c.name) else "") for c in table.columns if not table.bounded(c.name)]
     return {
         "name": table.name,
         "title": table.title,
         "rows": len(table.columns[0].data),
-        "columns": [{"name": c.name, "unit": unit_text(c.unit), "meaning": sentence(c.meaning) + more} for c, more in heads],
+        "columns": [
+            {"name": c.name, "unit": unit_text(c.unit), "meaning": sentence(c.meaning) + more} | (_ends(c, system) if system else {})
+            for c, more in heads
+        ],
     }
+
+
+def _ends(column: Column, system: System) -> Content:
+    """Least and greatest number of a column in the unit people read, "" of one without numbers."""
+    data = np.asarray(column.data)
+    finite = data[np.isfinite(data)] if data.dtype.kind in "iuf" else data[:0]
+    if not len(finite):
+        return {"least": "", "greatest": ""}
+    shown = shown_scale(column.unit, system=system, size=float(np.abs(finite).max()))
+    return {"least": number(shown.of(float(finite.min()))), "greatest": number(shown.of(float(finite.max()))), "unit": shown.unit}
 
 
 def provenance(result: Result[Any]) -> list[tuple[str, str]]:

@@ -9,13 +9,16 @@ from drivewright import registry, runner
 from drivewright.errors import GeometryCheckFailed, InputError, UnknownName
 from drivewright.registry import Mechanism
 from drivewright.report import dxf, gcode, svgout, tabular
-from drivewright.report.folder import file_name
+from drivewright.report.form import ReportForm
+from drivewright.report.letterhead import read_letterhead
+from drivewright.report.names import file_name
 from drivewright.result import Result
 from drivewright.scene import Drawing, Part
 from drivewright.spec import MechanismSpec
 from drivewright.view.text import quantity
 
-FORMATS = ("dxf", "svg", "csv", "step", "stl", "gcode", "pdf")
+REPORTS = ("pdf",)  # no workshop makes a part from them
+FORMATS = ("dxf", "svg", "csv", "step", "stl", "gcode", *REPORTS)
 
 
 def export(
@@ -24,24 +27,27 @@ def export(
     folder: str | Path,
     anyway: bool = False,
     progress: Callable[[int, int, str], object] | None = None,
+    form: ReportForm = ReportForm(),
 ) -> list[Path]:
     """Write the formats of a design into `folder`; returns the paths.  What is checked, and what tables there are, is that of the
     default analyses and of those for manufacture.
 
-    GeometryCheckFailed where a geometry check fails, unless `anyway`; a solid format needs the extra 'fe', the PDF the extra 'pdf'.
+    GeometryCheckFailed where a geometry check fails, unless `anyway`, or only the PDF report is wanted, which says so itself, in the
+    `form` given; a solid format needs the extra 'fe', the PDF the extra 'pdf'.
     """
     _refuse_unknown(formats)
+    read_letterhead(spec)
     mechanism = registry.mechanism(spec.mechanism)
     model = mechanism.build(spec)
     result = runner.run(spec, [analysis.name for analysis in mechanism.analyses if analysis.default or analysis.manufacture], model=model)
-    if not anyway:
+    if not anyway and any(name not in REPORTS for name in formats):
         _refuse_bad_geometry(result)
     folder = Path(folder)
     step = progress or (lambda done, total, what: None)
     files = []
     for number, name in enumerate(formats):
         step(number, len(formats), name)
-        files += WRITERS[name](mechanism, model, result, folder)
+        files += _pdf(result, folder, form) if name in REPORTS else WRITERS[name](mechanism, model, result, folder)
     return files
 
 
@@ -130,10 +136,10 @@ def _gcode(mechanism, model, result, folder):
     return [_written(lambda d, path: gcode.write_gcode(d, path, **settings), d, folder / f"{file_name(d.name)}.nc") for d in milled]
 
 
-def _pdf(mechanism, model, result, folder):
+def _pdf(result: Result[Any], folder: Path, form: ReportForm) -> list[Path]:
     from drivewright.report import pdf
 
-    return [_written(pdf.write_pdf, result, folder / "report.pdf")]
+    return [_written(partial(pdf.write_pdf, form=form), result, folder / "report.pdf")]
 
 
 def _written(write, what, path):
@@ -144,4 +150,4 @@ def _written(write, what, path):
     return path
 
 
-WRITERS = {"dxf": _dxf, "svg": _svg, "csv": _csv, "step": _step, "stl": _stl, "gcode": _gcode, "pdf": _pdf}
+WRITERS = {"dxf": _dxf, "svg": _svg, "csv": _csv, "step": _step, "stl": _stl, "gcode": _gcode}

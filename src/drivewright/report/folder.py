@@ -1,7 +1,6 @@
 """The run folder: written beside its place, then moved in whole, so that there is always a complete one or none."""
 
 import json
-import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
@@ -11,25 +10,36 @@ import numpy as np
 from drivewright.errors import InputError
 from drivewright.execution.helper import Map
 from drivewright.report.content import Picture, Views, pictures, thumbnail, views
+from drivewright.report.form import ReportForm
 from drivewright.report.html import write_report
+from drivewright.report.letterhead import read_letterhead
 from drivewright.report.moving import Place, recover, replacing_folder
+from drivewright.report.names import file_name
 from drivewright.result import Result, Table
 from drivewright.surface_fields import SurfaceFields
 
 OURS = {"result.json", "report.html", "spec.toml", "figures", "tables", "fields", "data"}  # what a run writes, and the next one replaces
 
 
-def write_run_folder(result: Result[Any], out: str | Path, figures: bool = True, seen: Views | None = None, compute: Map = map) -> Path:
+def write_run_folder(
+    result: Result[Any],
+    out: str | Path,
+    figures: bool = True,
+    seen: Views | None = None,
+    compute: Map = map,
+    form: ReportForm = ReportForm(),
+) -> Path:
     """Write the run folder of a result to `out` and return its path.
 
     result.json, report.html, figures/*.svg, tables/*.parquet, fields/*.npz, spec.toml.  `seen` is a `Views`; None takes what the result's
     mechanism shows.  What an earlier run wrote is replaced, everything else in the folder stays; InputError for a folder that is
-    not empty and no run folder.  `compute` may draw the figures side by side.
+    not empty and no run folder.  `compute` may draw the figures side by side; `form` is that of the report.
     """
+    read_letterhead(result.spec)  # what is wrong with it is said before anything is drawn
     out = recover_run_folder(out)
     refuse_foreign(out)
     with replacing_folder(Place(out, OURS, refuse_foreign)) as fresh:
-        _fill(fresh, result, views(result) if seen is None else seen, figures, compute)
+        _fill(fresh, result, views(result) if seen is None else seen, figures, compute, form)
     return out
 
 
@@ -71,17 +81,13 @@ def record_text(result: Result[Any]) -> str:
     return json.dumps(result.record(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def file_name(name: str) -> str:
-    """A name as part of a file name: what no file system minds."""
-    return re.sub(r"[^\w.-]+", "-", name).strip(".-") or "unnamed"
-
-
-def _fill(folder: Path, result: Result[Any], seen: Views, figures: bool, compute: Map) -> None:
+def _fill(folder: Path, result: Result[Any], seen: Views, figures: bool, compute: Map, form: ReportForm) -> None:
     """Everything of one run, the result first: it is what makes a folder a run folder."""
     (folder / "result.json").write_text(record_text(result), encoding="utf-8")
     result.spec.write(folder / "spec.toml")
-    named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen, compute)] if figures else []
-    write_report(result, seen, folder, named)
+    drawn = pictures(result, seen, compute, form.language) if figures else ()
+    named = [picture._replace(name=file_name(picture.name)) for picture in drawn]
+    write_report(result, seen, folder, named, form)
     _write_tables(folder, result.tables.values())
     _write_fields(folder, result.fields.values())
     _write_figures(folder, [*named, thumbnail(seen.scene)] if figures and seen.scene else named)

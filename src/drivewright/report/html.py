@@ -2,15 +2,23 @@
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+import traceback
+from collections.abc import Collection, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from drivewright.atomic import write_text
+from drivewright.errors import InputError
 from drivewright.report.content import Picture, Views, content
-from drivewright.report.pack import pack_plots, pack_scene
+from drivewright.report.form import ReportForm
+from drivewright.report.letterhead import Letterhead, read_letterhead
+from drivewright.report.names import file_name
+from drivewright.report.numbering import in_order, numbered_figures, seen_in, with_figures
+from drivewright.report.pack import pack_plot_groups, pack_scene
+from drivewright.report.words import translated, words_of
 from drivewright.result import Result
+from drivewright.scene import Scene
 from drivewright.view.palette import style_sheet
 
 if TYPE_CHECKING:
@@ -18,49 +26,124 @@ if TYPE_CHECKING:
     from markupsafe import Markup
 
 HERE = Path(__file__).parent
+SETTINGS: Any = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}  # of every Jinja environment
+NO_LETTERHEAD = Letterhead().content()
 MODULES = ("clock.js", "scene.js", "drawing.js", "controls.js", "player.js", "plots.js")  # each behind those that it imports
 
 
-def write_report(result: Result[Any], seen: Views, folder: str | Path, pictures: Sequence[Picture] = ()) -> Path:
+def write_report(
+    result: Result[Any], seen: Views, folder: str | Path, pictures: Sequence[Picture] = (), form: ReportForm = ReportForm()
+) -> Path:
     """Write `folder`/report.html: numbers, checks, motion player with linked plots, pictures, sources.  `seen` is a `Views`."""
+    chosen = seen_in(form, result, seen)
+    figures = numbered_figures(result, chosen)
+    packed = packed_views(result, chosen, form.language, seen.scene)
+    moving = {f"plot-{plot['name']}" for plot in packed["plots"]["plots"]} if packed and packed["plots"] else set()
+    drawn = [(number, each) for number, each in in_order(pictures, figures) if form.detail != "short" or number <= len(figures)]
     text = page(
         "report.html.j2",
-        content(result, seen.remarks),
-        player=player_data(result, seen),
-        pictures=[embedded(picture) for picture in pictures],
+        with_figures(content(result, seen.remarks, form=form), result, chosen),
+        read_letterhead(result.spec).templates,
+        player=packed and data_text(packed),
+        pictures=[{**embedded(each), "number": number, "moving": _is_moving(each.name, moving, packed)} for number, each in drawn],
     )
     path = Path(folder) / "report.html"
     write_text(path, text)
     return path
 
 
-def player_data(result: Result[Any], seen: Views) -> str | None:
-    """The player's and the plots' data as JSON that cannot end a script element; None without a scene."""
-    if seen.scene is None:
+def _is_moving(name: str, plots: Collection[str], packed: object) -> bool:
+    """Whether a picture stands for something that moves on the page."""
+    return name in {file_name(plot) for plot in plots} or (packed is not None and name.startswith("scene-"))
+
+
+def packed_views(result: Result[Any], seen: Views, language: str = "en", scene: Scene | None = None) -> dict[str, Any] | None:
+    """The data of the player and of the plots, with the words of the player; None without a scene.
+
+    `scene` is the one that moves, that of `seen` unless given."""
+    scene = scene or seen.scene
+    if scene is None:
         return None
-    data = {"scene": pack_scene(seen.scene, result.units), "plots": pack_plots(result, seen.scene, seen.plots)}
+    words = words_of(language, result.mechanism)
+    plots = pack_plot_groups(result, scene, seen.plots)
+    numbers = {figure.name: words("Figure *", figure.number) for figure in numbered_figures(result, seen)}
+    for plot in plots["plots"] if plots else ():
+        for panel in plot["panels"]:
+            panel["figure"] = numbers[f"plot-{plot['name']}"]
+    spoken = {} if language == "en" else {english: words(english) for english in player_texts()}
+    return {**translated({"scene": pack_scene(scene, result.units), "plots": plots}, words), **({"words": spoken} if spoken else {})}
+
+
+def player_data(result: Result[Any], seen: Views, language: str = "en") -> str | None:
+    """The player's and the plots' data as JSON that cannot end a script element; None without a scene."""
+    packed = packed_views(result, seen, language)
+    return packed and data_text(packed)
+
+
+def data_text(packed: Mapping[str, Any]) -> str:
+    """JSON that cannot end a script element."""
+    plots = packed["plots"] and {
+        "cycle": packed["plots"]["cycle"],
+        "panels": [panel for plot in packed["plots"]["plots"] for panel in plot["panels"]],
+    }
+    data = {**packed, "plots": plots}
     return json.dumps(data, ensure_ascii=True, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
-def page(template: str, values: Mapping[str, Any], **more: object) -> str:
-    """A template filled in; every value is escaped unless the template marks it safe."""
-    look = _text("templates/report.css") + _text("player.css")
-    return environment().get_template(template).render(**values, **more, colours=style_sheet(), style=look, script=scripts())
+@cache
+def player_texts() -> tuple[str, ...]:
+    """The English texts of the player's controls."""
+    table = re.search(r"export const TEXT = \{(.*?)\};", _text("controls.js"), re.DOTALL)
+    return tuple(re.findall(r'"([^"]+)"', table[1])) if table else ()
+
+
+def page(template: str, values: Mapping[str, Any], templates: Mapping[str, str] | None = None, **more: object) -> str:
+    """A template filled in; every value is escaped unless the template marks it safe.  `templates` of a user replace ours by name."""
+    own = {name: text for name, text in (templates or {}).items() if name.endswith(".css")}
+    look = own.pop("report.css", _text("templates/report.css")) + _text("player.css") + "".join(own.values())
+    language = values.get("language", "en")
+    filled = {"letterhead": NO_LETTERHEAD, **values, **more, "colours": style_sheet(), "style": look, "script": scripts()}
+    if not templates:
+        return environment(language).get_template(template).render(**filled)
+    try:
+        return _environment_of(language, templates).get_template(template).render(**filled)
+    except Exception as error:  # whatever a template of a user does wrong
+        raise InputError(f"report.templates: {_place(error)}{type(error).__name__}: {error}; correct the template") from error
+
+
+def _place(error: Exception) -> str:
+    """'report.html.j2, line 7: ' of the template that an error comes from."""
+    name, line = getattr(error, "name", None), getattr(error, "lineno", None)
+    if line is None:
+        steps = [step for step in traceback.extract_tb(error.__traceback__) if step.filename.endswith((".j2", "<template>"))]
+        name, line = (steps[-1].filename, steps[-1].lineno) if steps else (None, None)
+    return f"{'template' if name == '<template>' else Path(name).name}, line {line}: " if name and line else ""
 
 
 @cache
-def environment() -> "Environment":
-    """The Jinja environment of the page templates, which escapes every value."""
+def environment(language: str = "en") -> "Environment":
+    """The Jinja environment of the page templates, which escapes every value; `t` in it translates the words of the frame."""
     import jinja2
 
-    templates = jinja2.Environment(
-        loader=jinja2.FileSystemLoader(HERE / "templates"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
+    return _prepared(
+        jinja2.Environment(loader=jinja2.FileSystemLoader(HERE / "templates"), **SETTINGS, undefined=jinja2.StrictUndefined), language
     )
+
+
+def _environment_of(language: str, templates: Mapping[str, str]) -> "Environment":
+    """The same with templates of a user in front of ours, in Jinja's sandbox: they reach no file and no Python."""
+    import jinja2
+    from jinja2.sandbox import SandboxedEnvironment
+
+    loader = jinja2.ChoiceLoader([jinja2.DictLoader(templates), jinja2.FileSystemLoader(HERE / "templates")])
+    return _prepared(SandboxedEnvironment(loader=loader, **SETTINGS, undefined=jinja2.StrictUndefined), language)
+
+
+def _prepared(templates: "Environment", language: str) -> "Environment":
+    """An environment with our filters and words."""
     templates.filters["breakable"] = _breakable
+    templates.globals["t"] = words_of(language)
+    templates.globals["language"] = language
     return templates
 
 

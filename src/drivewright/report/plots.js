@@ -49,7 +49,8 @@ function createPanel(packed, cycle, clock, theme) {
   const canvas = element("canvas", {class: "dw-plot-canvas"}), cursor = element("div", {class: "dw-cursor"}), cover = element("div", {class: "dw-cover"}, cursor);
   const dots = series.map(one => element("div", {class: "dw-dot", style: `--chip: var(--${one.role})`}));
   cover.append(...dots);
-  const node = element("div", {class: "dw-plot"}, element("div", {class: "dw-plot-head"}, element("span", {class: "dw-plot-title", title}, title),
+  const number = packed.figure ? [element("span", {class: "dw-plot-figure"}, packed.figure)] : [];
+  const node = element("div", {class: "dw-plot"}, element("div", {class: "dw-plot-head"}, element("span", {class: "dw-plot-title", title}, ...number, title),
     element("span", {class: "dw-plot-values"}, ...readouts)), element("div", {class: "dw-plot-area"}, canvas, cover));
   const surface = fitCanvas(canvas, () => { draw(); show(); });
   const unwatch = watchVisible(node, now => { visible = now; draw(); show(); });

@@ -24,6 +24,7 @@ mechanism_spec      the whole spec of one drive: what all kinds have in common
 optimise_table      the [optimise] table: unknowns, requirements and objectives
 parsing             from TOML files and "key=value" texts to raw tables, and from raw tables to a spec
 readings            what a quantity that could be meant otherwise was read as, key by key
+report_table        the [report] table: company, logo, author and templates of the reports
 sample_values       values that the keys of a spec could have: for the commented template and for forms
 serialisation       a spec as raw tables, as TOML text, and as the canonical text under its digest
 shared_tables       many specs that differ in a few keys, all other tables validated once

@@ -8,7 +8,7 @@ from drivewright.errors import UnitError
 from drivewright.spec.serialisation import document
 from drivewright.units import any_quantity
 
-IDLE = ("title", "units", "study", "optimise")  # tables and keys that change no number of a run
+IDLE = ("title", "units", "study", "optimise", "report")  # tables and keys that change no number of a run
 
 
 class DifferingKey(NamedTuple):

@@ -11,6 +11,7 @@ from drivewright.spec.base import Spec
 from drivewright.spec.fields import Field, Integer, Text, value_at
 from drivewright.spec.optimise_table import Optimise
 from drivewright.spec.readings import readings
+from drivewright.spec.report_table import Report
 from drivewright.spec.serialisation import canonical_text, data_file_places, data_files_in, document, toml_text
 from drivewright.spec.study_table import Study
 from drivewright.units import System
@@ -28,6 +29,7 @@ class MechanismSpec(Spec):
     units: System = Field("mm", description="units shown in reports: mm (mm, N, MPa), si (m, N, Pa) or inch (in, lbf, ksi)")
     optimise: Optimise | None = Field(None, description="unknowns, requirements and objectives for `drivewright optimise`")
     study: Study | None = Field(None, description="what varies from case to case for `drivewright sweep`")
+    report: Report | None = Field(None, description="company, logo, author and templates of the reports")
 
     readings: ClassVar[Mapping[str, str]] = {}  # {key: what its unit, one of another kind, is read as}; each spec has its own
 
@@ -63,13 +65,13 @@ class MechanismSpec(Spec):
 
     def _tables(self, places: Mapping[Path, str] | None = None) -> dict[str, Any]:
         tables = document(self, places)
-        shared = {name: tables.pop(name) for name in ("optimise", "study") if name in tables}
+        shared = {name: tables.pop(name) for name in ("optimise", "study", "report") if name in tables}
         return tables | shared  # what all kinds share reads best at the end
 
     def digest(self) -> str:
-        """SHA-256 of the canonical effective spec in SI; data files by content; title, study and the units shown change no number of a
-        run, so they are left out."""
-        return hashlib.sha256(canonical_text(self, leave_out=("title", "study", "units")).encode()).hexdigest()
+        """SHA-256 of the canonical effective spec in SI; data files by content; title, study, the units shown and the look of reports
+        change no number of a run, so they are left out."""
+        return hashlib.sha256(canonical_text(self, leave_out=("title", "study", "units", "report")).encode()).hexdigest()
 
     def data_files(self) -> list[Path]:
         """Absolute paths of all data files the spec names."""

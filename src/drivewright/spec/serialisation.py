@@ -114,7 +114,8 @@ def toml_key(step: str) -> str:
 
 def canonical_text(spec: Any, leave_out: Iterable[str] = ()) -> str:
     """The same text for equal specs, however they are written: SI, keys sorted, data files by content."""
-    tables = {name: value for name, value in _canonical(spec).items() if name not in leave_out}
+    fields = {name: field for name, field in type(spec).model_fields.items() if name not in leave_out}
+    tables = {name: _canonical(getattr(spec, name), field) for name, field in fields.items()}
     return json.dumps(tables, sort_keys=True, separators=(",", ":"))
 
 

@@ -1,0 +1,8 @@
+"""Names of files that no file system minds."""
+
+import re
+
+
+def file_name(name: str) -> str:
+    """A name as part of a file name."""
+    return re.sub(r"[^\w.-]+", "-", name).strip(".-") or "unnamed"

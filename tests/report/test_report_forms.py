@@ -1,0 +1,243 @@
+"""Short, normal and full reports, the order and numbers of their figures, and what a letterhead may bring along."""
+
+import re
+import struct
+import zlib
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+from sample_designs import all_views, four_bar_result
+
+from drivewright.errors import InputError, UnknownName
+from drivewright.report.content import Views, content, pictures
+from drivewright.report.form import ReportForm, report_form
+from drivewright.report.html import write_report
+from drivewright.report.letterhead import LARGEST_LOGO, read_letterhead
+from drivewright.report.numbering import BEARS_NAME, DRAWS_LIMIT, UNRELATED, failed_first, numbered_figures, relation, seen_in, with_figures
+from drivewright.report.pdf import HALF_WIDTH, figure_rows, write_pdf
+from drivewright.result import Check, Plot
+
+pytestmark = pytest.mark.interface
+
+SEEN = all_views()
+SHORT, NORMAL, FULL = ReportForm("short"), ReportForm(), ReportForm("full")
+SCRIPT = '<svg xmlns="http://www.w3.org/2000/svg"><script>alert(1)</script></svg>'
+
+
+def written(tmp_path, result, form=NORMAL, drawn=()):
+    return write_report(result, SEEN, tmp_path, drawn, form).read_text(encoding="utf-8")
+
+
+# -- forms ---------------------------------------------------------------------------------------------------------------------
+
+
+def test_a_form_has_a_name():
+    assert report_form("full", "zh") == ReportForm("full", "zh")
+    for names in (("long", "en"), ("short", "de")):
+        with pytest.raises(UnknownName):
+            report_form(*names)
+
+
+def test_a_short_report_is_its_first_page(tmp_path):
+    result = replace(four_bar_result(), findings=("told", "warned"), warnings=("warned",))
+    text = written(tmp_path, result, SHORT, pictures(result, SEEN))
+    assert 'id="player"' in text and "Design checks" in text and "Angle swept by the rocker" in text
+    assert not [part for part in ('id="values"', 'id="spec"', 'id="sources"', 'id="tables"', "told") if part in text]
+    assert "warned" in text, "what the verdict counts is said"
+    assert text.count("<figure") == 3, "the scene and two plots"
+
+
+def test_a_full_report_is_all_open_and_says_how_it_was_computed(tmp_path):
+    result = four_bar_result()
+    normal, full = written(tmp_path, result), written(tmp_path, result, FULL)
+    assert re.search(r'<details class="card" id="values">', normal) and not re.search(r'<details class="card"[^>]*[^n]>\s', full)
+    assert 'id="spec" open' in full and "How it was computed" in full and "computing time" in full and "Greatest" in full
+    assert "How it was computed" not in normal and "2.4669517247e-06\u00a0m" in full
+
+
+def test_the_numerical_settings_of_a_spec_are_in_a_full_report():
+    from places import EXAMPLES
+
+    from drivewright.report.computed import settings
+    from drivewright.spec import load
+
+    rows = dict(settings(load(EXAMPLES / "disc_cam.toml")))
+    assert rows["manufacture.chord_tolerance"] and "follower.face" not in rows and not any(key.startswith("study") for key in rows)
+
+
+# -- numbers and order of figures ----------------------------------------------------------------------------------------------
+
+
+def plot(name, *y, limits=()):
+    return Plot(name, name, "motion", "angle", y, limits)
+
+
+def check(name, ok):
+    return Check(name, 1.0, 2.0 if ok else 0.5, "<=", "m", "")
+
+
+@pytest.mark.parametrize(
+    ("shown", "name", "wanted"),
+    [
+        (plot("a", "b", limits=(("play.forward", "limit"),)), "play.forward", DRAWS_LIMIT),
+        (plot("a", "b", limits=(("-play.forward", "limit"),)), "play.backward", DRAWS_LIMIT),
+        (plot("a", "main.play"), "play.forward", BEARS_NAME),
+        (plot("play", "b"), "play", BEARS_NAME),
+        (plot("a", "playing", limits=((1.0, "play"),)), "play", UNRELATED),
+    ],
+)
+def test_how_a_plot_shows_a_check(shown, name, wanted):
+    assert relation(shown, check(name, True)) == wanted
+
+
+def test_plots_of_failed_checks_come_first_and_all_others_keep_their_order():
+    plots = (plot("one", "x"), plot("two", "bad"), plot("three", "good"), plot("four", "y", limits=(("bad", "limit"),)), plot("five", "z"))
+    result = replace(four_bar_result(), checks=(check("good", True), check("bad", False)))
+    assert [each.name for each in failed_first(result, Views(plots=plots)).plots] == ["four", "two", "one", "three", "five"]
+
+
+def test_a_failed_check_names_the_figure_that_shows_it(tmp_path):
+    result = four_bar_result()
+    failed = next(each for each in result.checks if not each.ok)
+    plots = tuple(each._replace(limits=((failed.name, "limit"),)) if each.name == "track" else each for each in SEEN.plots)
+    seen = seen_in(NORMAL, result, SEEN._replace(plots=plots))
+    number = next(each.number for each in numbered_figures(result, seen) if each.name == "plot-track")
+    assert number == 1 + len(SEEN.scene.frames), "the first behind the scenes"
+    rows = with_figures(content(result), result, seen)["checks"]
+    assert rows[0]["figure"] == {"number": number, "name": "plot-track"}
+    text = write_report(result, seen, tmp_path, pictures(result, seen)).read_text(encoding="utf-8")
+    assert f'href="#figure-{number}"' in text and f'id="figure-{number}"' in text
+    numbers = [int(found) for found in re.findall(r'id="figure-(\d+)"', text)]
+    assert numbers == list(range(1, len(numbers) + 1))
+
+
+# -- paper ---------------------------------------------------------------------------------------------------------------------
+
+
+def picture(name, width, height=100):
+    return SimpleNamespace(name=name, title=name, svg=f'<svg width="{width}pt" height="{height}pt"/>')
+
+
+def test_two_narrow_figures_share_a_row_and_a_wide_one_has_its_own():
+    drawn = [picture("plot-a", 300), picture("plot-b", 300), picture("plot-c", 500), picture("plot-d", 200), picture("scene-e", 900, 4000)]
+    rows = figure_rows(list(enumerate(drawn, 1)))
+    assert [[entry["number"] for entry in row] for row in rows] == [[1, 2], [3], [4], [5]]
+    assert rows[0][0]["width"] <= HALF_WIDTH and rows[1][0]["width"] > HALF_WIDTH
+    assert rows[3][0]["width"] * 4000 / 900 < 300, "a tall one is made small enough for its page"
+
+
+def pages(path):
+    return len(re.findall(rb"/Type\s*/Page\b(?!s)", path.read_bytes()))
+
+
+@pytest.mark.needs_pdf
+def test_a_short_pdf_has_one_page_and_a_full_one_the_most(tmp_path):
+    counts = [pages(write_pdf(four_bar_result(), tmp_path / f"{n}.pdf", SEEN, form=form)) for n, form in enumerate((SHORT, NORMAL, FULL))]
+    assert counts[0] == 1 < counts[1] <= counts[2]
+
+
+@pytest.mark.needs_pdf
+def test_a_chinese_pdf_with_a_logo(tmp_path):
+    (tmp_path / "logo.svg").write_text(SCRIPT, encoding="utf-8")
+    result = branded(tmp_path, "logo.svg")
+    path = write_pdf(result, tmp_path / "r.pdf", Views(), form=ReportForm("normal", "zh"))
+    assert path.read_bytes().startswith(b"%PDF") and b"alert" not in path.read_bytes()
+
+
+@pytest.mark.needs_pdf
+def test_the_pdf_of_a_design_with_a_failed_geometry_check_is_written(tmp_path):
+    from places import EXAMPLES
+
+    from drivewright.errors import GeometryCheckFailed
+    from drivewright.report.export import export
+    from drivewright.spec import load
+
+    spec = load(EXAMPLES / "seedling_pusher.toml")
+    assert [path.name for path in export(spec, ("pdf",), tmp_path, form=SHORT)] == ["report.pdf"]
+    with pytest.raises(GeometryCheckFailed):
+        export(spec, ("pdf", "svg"), tmp_path / "both")
+    assert not (tmp_path / "both").exists()
+
+
+# -- letterhead ----------------------------------------------------------------------------------------------------------------
+
+
+def branded(folder, logo="", templates=(), **texts):
+    table = SimpleNamespace(
+        company=texts.get("company", "Works & <b>Co</b>"),
+        author=texts.get("author", "Me"),
+        logo=folder / logo if logo else None,
+        templates=tuple(folder / name for name in templates),
+    )
+    result = four_bar_result()
+    return replace(result, spec=SimpleNamespace(**vars(result.spec), report=table))
+
+
+def png(width, height):
+    def chunk(kind, data):
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(b"\0\0")) + chunk(b"IEND", b"")
+
+
+def test_a_letterhead_is_printed_as_text_and_the_logo_is_an_image(tmp_path):
+    (tmp_path / "logo.svg").write_text(SCRIPT, encoding="utf-8")
+    text = written(tmp_path, branded(tmp_path, "logo.svg"))
+    assert "Works &amp; &lt;b&gt;Co&lt;/b&gt; · " in text and " · Me" in text
+    assert re.search(r'<img class="logo" src="data:image/svg\+xml;base64,', text) and "alert" not in text
+
+
+def test_a_png_is_known_by_its_content(tmp_path):
+    (tmp_path / "logo.svg").write_bytes(png(40, 10))
+    assert read_letterhead(branded(tmp_path, "logo.svg").spec).suffix == ".png"
+
+
+@pytest.mark.parametrize(
+    ("data", "wanted"),
+    [
+        (b"GIF89a", "neither an SVG .* nor a PNG file"),
+        (b"<html><svg/></html>", "neither an SVG"),
+        (b'<!DOCTYPE svg [<!ENTITY a "aaaa">]><svg>&a;</svg>', "neither an SVG"),
+        (b"<svg>" + b" " * LARGEST_LOGO, "more than 500 kB"),
+        (png(100_000, 100_000), "100000 × 100000 pixels"),
+        (b"\x89PNG\r\n\x1a\n", "0 × 0 pixels"),
+    ],
+)
+def test_what_is_no_logo_is_refused_before_anything_is_written(tmp_path, data, wanted):
+    from drivewright.report.folder import write_run_folder
+
+    (tmp_path / "logo.svg").write_bytes(data)
+    with pytest.raises(InputError, match=f"report.logo: logo.svg .*{wanted}"):
+        write_run_folder(branded(tmp_path, "logo.svg"), tmp_path / "run", figures=False, seen=Views())
+    assert not (tmp_path / "run").exists()
+
+
+def test_templates_replace_ours_by_name(tmp_path):
+    (tmp_path / "report.html.j2").write_text(
+        '{% extends "layout.html.j2" %}{% block main %}<p>Only {{ title }}: {{ verdict.text }}</p>{% endblock %}', encoding="utf-8"
+    )
+    (tmp_path / "report.css").write_text("body { color: teal }", encoding="utf-8")
+    (tmp_path / "house.css").write_text("h1 { color: plum }", encoding="utf-8")
+    text = written(tmp_path, branded(tmp_path, templates=("report.html.j2", "report.css", "house.css")))
+    assert "<p>Only Four-bar sample: 1 of 3 checks fails</p>" in text
+    assert "color: teal" in text and ".tiles {" not in text and text.index("teal") < text.index("plum")
+    added = written(tmp_path, branded(tmp_path, templates=("house.css",)))
+    assert ".tiles {" in added and "plum" in added
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("{{ ''.__class__.__mro__ }}", "SecurityError"),
+        ("{{ t.__init__.__globals__ }}", "SecurityError|UndefinedError"),
+        ("{% include '/etc/hostname' %}", "TemplateNotFound"),
+        ("{{ missing }}", "UndefinedError"),
+        ("\n\n{% if %}", "line 3"),
+    ],
+)
+def test_a_template_reaches_neither_python_nor_files(tmp_path, text, wanted):
+    (tmp_path / "report.html.j2").write_text(text, encoding="utf-8")
+    with pytest.raises(InputError, match=rf"report\.templates: .*({wanted})"):
+        written(tmp_path, branded(tmp_path, templates=("report.html.j2",)))
