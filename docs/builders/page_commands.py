@@ -7,7 +7,8 @@ A page is Markdown. In its order,
   a command without lines below is run and its output not compared;
 * `<!-- picture: out/my_cam/figures/plot-motion.svg -->` names the file of the run that the next image shows.
 
-Commands are `drivewright`, `python`, `pip`, `cd`, `cat`, `ls`, `mkdir`, `rm`, `cp` and `echo $?`; one that ends in "&" runs until the page ends.
+Commands are `drivewright`, `python`, `pip`, `cd`, `cat`, `ls`, `mkdir`, `rm`, `cp` and `echo $?`.
+One that ends in "&" runs until the page ends.
 A command that fails is an error unless `echo $?` follows it.
 """
 
@@ -340,7 +341,9 @@ def _number(text: str) -> float:
 
 
 def refreshed(command: Command, printed: list[str]) -> tuple[list[str], list[str]]:
-    """(lines to show, complaints): the shown lines with the numbers of today; in the place of "??? PATTERN" the printed lines that have it."""
+    """(lines to show, complaints): the shown lines with the numbers of today.
+
+    In the place of "??? PATTERN" the printed lines that have it stand."""
     if command.shown and command.shown[0].startswith(UNKNOWN):
         return _chosen([line for line in printed if line.strip()], command.shown[0].removeprefix(UNKNOWN).strip()), []
     lines, complaints, at = [], [], 0

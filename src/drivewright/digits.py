@@ -1,9 +1,21 @@
 """How many digits a number has: those that its 95 % interval supports, `EXACT` where it has none."""
 
 import math
+from collections.abc import Iterable
 
 EXACT = 5
+NOISE = 1e-12  # of the largest number of the same unit in a design: what is smaller is rounding
 ROUGH = 2  # digits of each number where only the power of ten is known
+
+
+def noise_floors(numbers: Iterable[tuple[float, str]]) -> dict[str, float]:
+    """{unit: magnitude below which a number of that unit is rounding} of the numbers [SI] of one design: `NOISE` of the largest of the
+    unit; of pure numbers `NOISE` itself."""
+    floors: dict[str, float] = {}
+    for value, unit in numbers:
+        if math.isfinite(value):
+            floors[unit] = max(floors.get(unit, 0.0), NOISE * abs(value))
+    return floors | {"-": NOISE}
 
 
 def last_place(value: float, low: float | None, high: float | None, digits: int = EXACT) -> int | None:

@@ -31,6 +31,10 @@ LEADING = (
     "and",
     "or",
 )
+USUAL = (  # (SI unit, words of a label, the unit in which it is read)
+    ("-", re.compile(r"\b(share|fraction|efficiency|elongation|fluctuation|without holding contact)\b", re.IGNORECASE), "%"),
+    ("rad", re.compile(r"^(?!.*\bangle\b).*\b(play|backlash|transmission error|misalignment|slope)\b", re.IGNORECASE), "arcmin"),
+)
 PLAIN_UNITS = re.compile(r"\b(um|m\^2|mm\^2|m\^3|mm\^3|deg|arcmin|N m|s\^2)\b")  # as typed, not as set: µm, m², °
 
 
@@ -57,6 +61,11 @@ def key_in_words(key: str) -> str:
 def label_of_key(key: str, title: str | None = None) -> str:
     """The label of a key of a spec: its title, else the key in words: "base_radius" -> "Base radius"."""
     return label_of(key.replace("_", " "), title or "")
+
+
+def usual_unit(label: str, unit: str) -> str:
+    """The unit in which people read a quantity of this label, where it is not that of its dimension: "%" of a share, "arcmin" of a play."""
+    return next((wanted for si_unit, words, wanted in USUAL if unit == si_unit and words.search(label)), "")
 
 
 def faults(label: str) -> tuple[str, ...]:

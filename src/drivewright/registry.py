@@ -173,6 +173,24 @@ def headlines(mechanism: Mechanism[Any, Any], values: Iterable[str] | Mapping[st
 
     `values` are names, or {name: Value}; a value that has not settled is left out.
     """
+    return [name for group in headline_groups(mechanism, values) for name in group]
+
+
+def key_values(mechanism: Mechanism[Any, Any], values: Iterable[str] | Mapping[str, Any], most: int) -> list[str]:
+    """The few of them for a first page: one of each pattern of the headline, then a second one, until there are `most`."""
+    groups = headline_groups(mechanism, values)
+    turns = sorted((turn, place, name) for place, group in enumerate(groups) for turn, name in enumerate(group))
+    chosen = {name for _, _, name in turns[:most]}
+    return [name for group in groups for name in group if name in chosen]
+
+
+def headline_groups(mechanism: Mechanism[Any, Any], values: Iterable[str] | Mapping[str, Any]) -> list[list[str]]:
+    """The names of `headlines`, those of one pattern together."""
     values = [name for name in values if not isinstance(values, Mapping) or getattr(values[name], "settled", True)]
-    named = dict.fromkeys(name for pattern in mechanism.headline for name in values if fnmatchcase(name, pattern))
-    return list(named) or list(values)[:12]
+    groups: dict[str, list[str]] = {pattern: [] for pattern in mechanism.headline}
+    for name in values:
+        first = next((pattern for pattern in mechanism.headline if fnmatchcase(name, pattern)), None)
+        if first:
+            groups[first].append(name)
+    named = [group for group in groups.values() if group]
+    return named or [[name] for name in values[:12]]

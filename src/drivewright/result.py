@@ -6,13 +6,14 @@ A result is a value: frozen, picklable, SI throughout, every number with a unit 
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from html import escape
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from drivewright import plugins
+from drivewright import digits, plugins
 from drivewright._typing import ArrayLike, Floats
 from drivewright.advice import Advice
 from drivewright.errors import UnknownName
@@ -428,6 +429,14 @@ class Result(Generic[SpecT]):
             if check.name == name:
                 return check
         raise UnknownName("check", name, [c.name for c in self.checks])
+
+    def is_noise(self, value: Value | Check) -> bool:
+        """Whether a number is rounding beside the largest of its unit in this design: people are shown 0 then."""
+        return value.low is None and abs(value.value) <= self._noise_floors.get(value.unit, 0.0)
+
+    @cached_property
+    def _noise_floors(self) -> Mapping[str, float]:
+        return digits.noise_floors([(each.value, each.unit) for each in (*self.values.values(), *self.checks)])
 
     def table(self, name: str) -> "pyarrow.Table":
         """A table as pyarrow.Table with units in the column metadata."""

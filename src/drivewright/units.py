@@ -579,6 +579,7 @@ def unit_factor(unit: str, dimension: str) -> float:
 
 IN_INCH = {"m": "in", "kg": "lb", "N": "lbf", "Pa": "psi", "J": "lbf in", "W": "hp"}  # words of a unit that no `Dimension` has
 LONG = {"s": (3600.0, 1 / 3600, "h"), "rev": (1e6, 1e-6, "million rev")}  # {SI unit: (from where on, factor, unit)}
+SHORT = 1e-4  # m: below it a length is shown in micrometres
 
 
 class Scale(NamedTuple):
@@ -598,10 +599,14 @@ class Scale(NamedTuple):
 
 def scale(si_unit: str, wanted: str = "", system: System = "mm", size: float = 0.0) -> Scale:
     """The `Scale` of an SI unit in a system of units, for numbers of a size: times in hours and counts of revolutions ("rev") in millions
-    where they are long."""
+    where they are long, lengths in micrometres where they are short.  `wanted` may be "%" for a pure number."""
     long = LONG.get(si_unit)
     if long and not wanted and abs(size) >= long[0]:
         return Scale(long[1], long[2])
+    if si_unit == "m" and not wanted and system == "mm" and 0 < abs(size) < SHORT:
+        return Scale(1e6, "um")
+    if si_unit == "-" and wanted == "%":
+        return Scale(100.0, "%")
     factor, unit = display(si_unit, wanted, system)
     return Scale(factor, unit, -float(SCALES[unit] / _unit(unit)[0]) if si_unit == "K" else 0.0)
 

@@ -56,14 +56,14 @@ def test_an_unknown_system_is_refused(tmp_path):
 
 def test_numbers_of_the_terminal():
     assert show.number(0.0254, "m", system="inch") == "1 in" and show.number(0.0254, "m", 0.0127, 0.0381, system="inch").endswith(" in")
-    assert show.number(343.15, "K") == "70 degC" and show.number(343.15, "K", system="inch") == "158 degF"
+    assert show.number(343.15, "K") == "70 °C" and show.number(343.15, "K", system="inch") == "158 °F"
     assert show.number(12345678.0, "s") == "3429.4 h" and show.number(34.03e6, "rev") == "34.03 million rev"
 
 
 def test_checks_of_the_terminal(capsys):
     show.checks([Check("a", 0.0508, 0.0254, ">=", "m", "wall"), Check("b", 343.15, 363.15, "<=", "K", "oil")], "inch")
     rows = capsys.readouterr().out
-    assert "2 in" in rows and ">= 1 in" in rows and "158 degF" in rows and "<= 194 degF" in rows and "36 degF" in rows
+    assert "2 in" in rows and ">= 1 in" in rows and "158 °F" in rows and "<= 194 °F" in rows and "36 °F" in rows
 
 
 def test_a_run_is_told_on_one_screen(tmp_path):

@@ -135,14 +135,14 @@ def test_command_line_tells_the_interval_and_how_it_was_made(capsys):
 
 @pytest.mark.parametrize(
     ("value", "text"),
-    [(-1.79834e-7, "-0.00017983 mm"), (0.110291234, "110.29 mm"), (0.0, "0 mm"), (123.456789, "123460 mm"), (99.9999, "100000 mm")],
+    [(-1.79834e-7, "-0.17983 µm"), (0.110291234, "110.29 mm"), (0.0, "0 mm"), (123.456789, "123460 mm"), (99.9999, "100000 mm")],
 )
 def test_command_line_prints_five_digits_where_there_is_no_interval(value, text):
     assert show.number(value, "m") == text
 
 
 def test_command_line_prints_the_digits_that_an_interval_supports():
-    assert show.number(-1.79834e-7, "m", -6.56e-7, 2.96e-7) == "-0.00018 (-0.00066 to 0.00030) mm"
+    assert show.number(-1.79834e-7, "m", -6.56e-7, 2.96e-7) == "-0.18 (-0.66 to 0.30) µm"
 
 
 def test_command_line_prints_a_life_over_powers_of_ten_with_two_digits_each():

@@ -200,7 +200,7 @@ def test_reasons_that_differ_in_numbers_only_are_one_and_the_commonest_comes_fir
 def test_what_varied_in_words():
     by_key = {each.key: varied(each) for each in make_plan(spec(**SAMPLE)).variables}
     thin = {key: row[1].replace("\u00a0", " ") for key, row in by_key.items()}
-    assert thin["joint.rolling_radius"] == "normal, mean 1.2 mm, standard deviation 0.02 mm, within 1.14 mm … 1.26 mm"
+    assert thin["joint.rolling_radius"] == "normal, mean 1.2 mm, standard deviation 20 µm, within 1.14 mm … 1.26 mm"
     assert thin["plate.apothem"] == "uniform, 2.5 mm … 2.7 mm" and by_key["plate.apothem"][2] == "2.6\u00a0mm"
     assert thin["pitch"] == "triangular, 9.5 mm … 9.56 mm, peak at 9.525 mm"
     given = spec(**GRID)

@@ -136,8 +136,8 @@ def test_page_and_terminal_name_the_inputs(tmp_path, capsys):
         main(["sweep", str(tmp_path / "toy.toml"), *vary, "--out", str(tmp_path / "S"), "--on", "serial"])
     assert not end.value.code
     printed = " ".join(capsys.readouterr().out.replace("\u00a0", " ").split())
-    assert "area least: 64 mm^2 with size 8 mm, ratio 1 (case 0)" in printed
-    assert "area greatest: 144 mm^2 with size 12 mm, ratio 1 (case 8)" in printed
+    assert "area least: 64 mm² with size 8 mm, ratio 1 (case 0)" in printed
+    assert "area greatest: 144 mm² with size 12 mm, ratio 1 (case 8)" in printed
     study = dw.open_study(tmp_path / "S")
     content = study_content(study, analyse_study(study))
     table = next(each for each in content["tables"] if each["name"] == "extremes.area")

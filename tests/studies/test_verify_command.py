@@ -48,7 +48,7 @@ def test_validate_ends_well_while_the_verdicts_are_the_pinned_ones(capsys, monke
     monkeypatch.setattr(validation, "sources", lambda name=None: (source(OPEN),))
     code, out, _ = run(capsys, "validate")
     assert code == 0
-    for words in ("Somebody: A book. 1999.", "wheel angle", "50.22 deg", "48.128 deg", "-2.09 deg", "differs, open", "A remark."):
+    for words in ("Somebody: A book. 1999.", "wheel angle", "50.22 deg", "48.128°", "-2.09 deg", "differs, open", "A remark."):
         assert words in out
 
 

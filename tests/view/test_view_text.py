@@ -87,7 +87,7 @@ def test_quantities_in_the_unit_people_read(value, unit, text):
 
 
 def test_units_as_printed():
-    assert unit_text("kg m^2") == "kg\u00a0m²"
+    assert unit_text("kg m^2") == "kg·m²"
     assert unit_text("deg/s") == "°/s"
     assert unit_text("m^-1") == "m⁻¹"
     assert unit_text("-") == ""

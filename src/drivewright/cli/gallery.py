@@ -104,14 +104,11 @@ def _key_numbers(result: Result[Any], seconds: float) -> Iterator[str]:
 
     failed = [check for check in result.checks if not check.ok]
     yield f"\n{result.title}   ({seconds:.1f} s)"
-    for name in registry.headlines(registry.mechanism(result.mechanism), result.values)[:6]:
-        value = result.values[name]
-        yield f"  {name:40s} {show.number(value.value, value.unit, value.low, value.high):>14s}   {value.meaning}"
+    for name in registry.key_values(registry.mechanism(result.mechanism), result.values, 6):
+        yield f"  {show.label_text(result.values[name]):40s} {show.value_text(result, name):>14s}"
     for check in failed:
-        yield (
-            f"  check fails: {check.name} = {show.number(check.value, check.unit)}, "
-            f"limit {check.sense} {show.number(check.limit, check.unit)}"
-        )
+        value, limit, _ = show.check_numbers(check, result.units)
+        yield f"  check fails: {check.display_label} {value}, limit {limit}"
     if result.checks and not failed:
         yield f"  {verdict_of(result)['text']}"
     yield from (f"  warning: {warning}" for warning in result.warnings)

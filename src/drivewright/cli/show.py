@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, get_args
 
 from drivewright import atomic, digits, registry, units
 from drivewright.errors import InputError, MissingExtra, SpecError, UnknownName
+from drivewright.labels import usual_unit
 
 if TYPE_CHECKING:
     from rich.console import JustifyMethod
@@ -34,6 +35,7 @@ MOST_ENDS = 3  # values whose inputs are told at both ends
 MOST_REASONS = 3  # why its cases are not complete
 LONGEST_REASON = 300  # characters
 ROUNDING = 1e-9  # of a limit: a margin that is none
+CLOSE = ("°",)  # units that stand close to their number
 SELDOM = 30.0  # seconds between two lines on how far a command is, where no bar can be drawn
 
 
@@ -171,7 +173,9 @@ def number(
     value: float, unit: str, low: float | None = None, high: float | None = None, wanted: str = "", system: units.System = "mm"
 ) -> str:
     """A number in the unit people read, or in a `wanted` one, with the unit, and with its interval in the digits that this supports."""
-    return _on_scale(value, None if low is None or high is None else (low, high), units.scale(unit, wanted, system, value))
+    from drivewright.view.text import shown_scale
+
+    return _on_scale(value, None if low is None or high is None else (low, high), shown_scale(unit, wanted, system, value))
 
 
 def _on_scale(value: float, bounds: tuple[float, float] | None, shown: units.Scale) -> str:
@@ -189,18 +193,19 @@ def system_of(name: str) -> units.System:
 
 
 def _with_unit(text: str, shown: str) -> str:
-    return text if shown in ("-", "") else f"{text} {shown}"
+    unit = shown.replace("\u00a0", " ")
+    return text if unit in ("-", "") else f"{text}{'' if unit in CLOSE else ' '}{unit}"
 
 
 def result(run: "Result[Any]", everything: bool = False) -> None:
     """Verdict, key numbers, the checks that fail with what to do, warnings and findings of a run, on one screen; `everything` for all."""
     from drivewright.report.content import MOST_HEADLINES, verdict_of
 
-    headline = registry.headlines(registry.mechanism(run.mechanism), run.values)
-    names = list(run.values) if everything else headline[:MOST_HEADLINES]
-    rows = [(_label(run.values[name]), _value(run.values[name], run.units), _made(run.values[name])) for name in names]
+    names = list(run.values) if everything else registry.key_values(registry.mechanism(run.mechanism), run.values, MOST_HEADLINES)
+    rows = [(label_text(run.values[name]), value_text(run, name), _made(run, name)) for name in names]
     table(run.title, (("quantity", "left"), ("value", "right"), ("", "left")), rows)
-    checks(run.checks if everything else [c for c in run.checks if not c.ok or c.undecided], run.units)
+    shown = [c._replace(value=0.0) if run.is_noise(c) else c for c in run.checks if everything or not c.ok or c.undecided]
+    checks(shown, run.units)
     advice(run)
     for line in _remarks_of(run, everything):
         note(f"note: {line}")
@@ -235,19 +240,23 @@ def _coloured_note(text: str, state: str) -> None:
     Console(file=sys.stderr, highlight=False).print(Text(text, style=style), soft_wrap=True)
 
 
-def _value(value: "Value", system: units.System = "mm") -> str:
-    return number(value.value, value.unit, value.low, value.high, system=system)
+def value_text(run: "Result[Any]", name: str) -> str:
+    """A value in the unit in which people read it; 0 where it is rounding."""
+    value = run.values[name]
+    seen = 0.0 if run.is_noise(value) else value.value
+    return number(seen, value.unit, value.low, value.high, usual_unit(label_text(value), value.unit), run.units)
 
 
-def _label(value: "Value") -> str:
+def label_text(value: "Value") -> str:
+    """The short name of a value."""
     from drivewright.labels import label_of
 
     return label_of(value.meaning, value.label)
 
 
-def _made(value: "Value") -> str:
+def _made(run: "Result[Any]", name: str) -> str:
     """How its interval was made, where one is shown."""
-    return value.made if " to " in _value(value) else value.interval
+    return run.values[name].made if " to " in value_text(run, name) else run.values[name].interval
 
 
 def finish_run(results: "Sequence[Result[Any]]", only: "Sequence[str]" = (), as_json: bool = False, strict: bool = False) -> None:
@@ -277,7 +286,7 @@ def checks(design_checks: "Iterable[Check]", system: units.System = "mm") -> Non
         return Text("ok", style="green") if check.ok else Text("FAILS", style="bold red")
 
     rows = [
-        (verdict(c), c.display_label, *_check_numbers(c, system), f"{c.message} ({UNDECIDED})" if c.undecided else c.message)
+        (verdict(c), c.display_label, *check_numbers(c, system), f"{c.message} ({UNDECIDED})" if c.undecided else c.message)
         for c in sorted(design_checks, key=lambda c: c.ok)
     ]
     if rows:
@@ -301,9 +310,11 @@ def advice(run: "Result[Any]") -> None:
         note("note: the search for what to change stopped after its usual time; --advice goes on to the end")
 
 
-def _check_numbers(check: "Check", system: units.System) -> tuple[str, str, str]:
+def check_numbers(check: "Check", system: units.System) -> tuple[str, str, str]:
     """Value, limit and margin in one unit, the one that suits the limit: a life of half an hour stands beside its limit of 10000 h."""
-    shown = units.scale(check.unit, system=system, size=check.limit)
+    from drivewright.view.text import shown_scale
+
+    shown = shown_scale(check.unit, usual_unit(check.display_label, check.unit), system, check.limit or check.value)
     limit = _with_unit(digits.plain(shown.of(check.limit))[0], shown.unit)
     return _on_scale(check.value, check.bounds, shown), f"{check.sense} {limit}", _margin(check, shown)
 
@@ -361,7 +372,9 @@ def _inputs_of_ends(study: "Study", name: str, ends: "tuple[End, End]") -> str:
 
 def _ends(study: "Study", name: str, ends: "Sequence[End]") -> list[str]:
     """Least and greatest of a column in one unit, each with the interval that it has in its case."""
-    shown = units.scale(study.unit(name), system=study.spec.units, size=max(abs(end.number) for end in ends))
+    from drivewright.view.text import shown_scale
+
+    shown = shown_scale(study.unit(name), system=study.spec.units, size=max(abs(end.number) for end in ends))
     return [_on_scale(end.number, end.bounds, shown) for end in ends]
 
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from drivewright.advice import Advice, Change
-from drivewright.labels import key_in_words
+from drivewright.labels import key_in_words, usual_unit
 from drivewright.report.words import Words, words_of
 from drivewright.result import Check, Result
 from drivewright.units import System
@@ -23,7 +23,7 @@ def advice_text(advice: Advice, checks: Mapping[str, Check], system: System, wor
     """ "prime radius 42 mm instead of 38 mm gives 30°; but 'Wall of the hub' would fail"."""
     words = words or words_of("en")
     check = checks[advice.check]
-    shown = shown_scale(check.unit, system=system, size=check.limit)
+    shown = shown_scale(check.unit, usual_unit(check.display_label, check.unit), system, check.limit)
     changes = [_change(change, system, words) for change in advice.changes]
     reached = with_unit(number(shown.of(advice.value), 4), shown.unit)
     text = words("* gives *", *changes, reached) if len(changes) == 1 else words("* and * give *", *changes, reached)
@@ -38,7 +38,7 @@ def _change(change: Change, system: System, words: Words) -> str:
     """ "prime radius 42 mm instead of 38 mm"."""
     shown = shown_scale(change.unit, system=system, size=change.before)
     after, before = (with_unit(number(shown.of(value)), shown.unit) for value in (change.after, change.before))
-    return words("* instead of *", f"{key_in_words(change.key)} {after}", before)
+    return words("* instead of *", f"{words.exact(key_in_words(change.key))} {after}", before)
 
 
 def _labels(names: tuple[str, ...], checks: Mapping[str, Check], words: Words) -> str:

@@ -12,7 +12,7 @@ import numpy as np
 from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
 from drivewright.execution.helper import Map
-from drivewright.labels import label_of
+from drivewright.labels import label_of, usual_unit
 from drivewright.report.advice import advice_texts
 from drivewright.report.computed import how_computed
 from drivewright.report.form import ReportForm
@@ -20,7 +20,7 @@ from drivewright.report.letterhead import read_letterhead
 from drivewright.report.localised import localised
 from drivewright.report.paper_figures import paper_svg
 from drivewright.report.words import Words, translated, words_of
-from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table, Value
+from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
 from drivewright.units import Scale, System
@@ -28,7 +28,7 @@ from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbna
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.style import new_figure
-from drivewright.view.text import ends_shown, interval_hint, number, numbers, sentence, shown_scale, uncertain, unit_text, with_unit
+from drivewright.view.text import ends_shown, interval_hint, number, numbers, sentence, shown_scale, unit_text, with_unit
 
 MOST_HEADLINES = 8  # values that are shown first
 GHOSTS = tuple(n / 5 for n in range(5))
@@ -206,8 +206,8 @@ def summary(result: Result[Any], headlines: Sequence[str] | None = None, words: 
     return {
         "verdict": verdict_of(result),
         "headline": headline(result, headlines),
-        "checks": [_check(c, result.units, advice.get(c.name, "")) for c in sorted(result.checks, key=lambda c: c.ok)],
-        "values": [_value(name, value, result.units) for name, value in result.values.items() if math.isfinite(value.value)],
+        "checks": [_check(result, c, advice.get(c.name, "")) for c in sorted(result.checks, key=lambda c: c.ok)],
+        "values": [_value(result, name) for name, value in result.values.items() if math.isfinite(value.value)],
     }
 
 
@@ -244,21 +244,23 @@ def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Co
     """The values of those names; unless given the first of the mechanism's headline values, or of all; those that the run has."""
     if names is None:
         known = registry.is_known(result.mechanism)
-        names = registry.headlines(registry.mechanism(result.mechanism), result.values) if known else list(result.values)
-        names = names[:MOST_HEADLINES]
-    return [_value(name, result.values[name], result.units) for name in names]
+        mechanism = registry.mechanism(result.mechanism) if known else None
+        names = registry.key_values(mechanism, result.values, MOST_HEADLINES) if mechanism else list(result.values)[:MOST_HEADLINES]
+    return [_value(result, name) for name in names]
 
 
-def _value(name: str, value: Value, system: System) -> Content:
+def _value(result: Result[Any], name: str) -> Content:
     """`shown` in full; `number`, `unit` and the interval `low` .. `high` apart, "" where it says nothing, with its `hint`."""
-    shown = shown_scale(value.unit, system=system, size=value.value)
-    text, low, high = numbers(shown.of(value.value), *ends_shown(value.low, value.high, shown))
+    value = result.values[name]
+    seen = 0.0 if result.is_noise(value) else value.value
+    shown = shown_scale(value.unit, usual_unit(value.label, value.unit), result.units, seen)
+    text, low, high = numbers(shown.of(seen), *ends_shown(value.low, value.high, shown))
     return {
         "name": name,
         "label": label_of(value.meaning or name, value.label),
         "meaning": sentence(value.meaning or name),
         "convention": sentence(value.convention),
-        "shown": uncertain(value.value, value.unit, value.low, value.high, system=system),
+        "shown": with_unit(f"{text} ({low} to {high})" if low else text, shown.unit),
         "number": text,
         "unit": shown.unit,
         "low": low,
@@ -269,13 +271,14 @@ def _value(name: str, value: Value, system: System) -> Content:
     }
 
 
-def _check(check: Check, system: System, advice: str = "") -> Content:
+def _check(result: Result[Any], check: Check, advice: str = "") -> Content:
     """`advice` says what to change so that it passes, where that is known.
 
     The interval of the value is `low` .. `high`, the unit behind the latter; "" where it says nothing."""
-    shown = shown_scale(check.unit, system=system, size=check.limit)
+    seen = 0.0 if result.is_noise(check) else check.value
+    shown = shown_scale(check.unit, usual_unit(check_label(check), check.unit), result.units, check.limit or seen)
     unit, limit = shown.unit, with_unit(number(shown.of(check.limit)), shown.unit)
-    text, low, high = numbers(shown.of(check.value), *ends_shown(*(check.bounds or (None, None)), shown))
+    text, low, high = numbers(shown.of(seen), *ends_shown(*(check.bounds or (None, None)), shown))
     margin = _margin(check, shown) if math.isfinite(check.margin) else ""
     return {
         "name": check.name,

@@ -26,6 +26,7 @@ TALLEST, TALLEST_OF_WIDE = 340.0, 270.0  # points: of a picture, of a wide scene
 TALLEST_SHORT, TALLEST_ABOVE_MANY = 230.0, 170.0  # points: of a picture on a single page, beside few checks, above many
 MANY_CHECKS = 18
 FRAME = (
+    "To pass",
     "Design checks",
     "Check",
     "Value",

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from drivewright import registry
+from drivewright.labels import key_in_words
 
 PARTED = re.compile(r"(?s)(.+?)(\s\[[^\]]*\]|\s[×x]\s?[\d.]+)")  # a text with its unit, or its factor, behind it
 SENTENCES = re.compile(r"(?<=[a-z)])(: |; |\. )(?=[A-Za-z'])")  # where a text of several sentences is parted
@@ -102,8 +103,9 @@ def words_of(language: str, kind: str = "") -> Words:
     if language == "en":
         return Words()
     own = _own(language)
-    brought = registry.mechanism(kind).translations(language).get("texts", {}) if kind and registry.is_known(kind) else {}
-    return Words(brought, own) if brought else Words(own)
+    tables = registry.mechanism(kind).translations(language) if kind and registry.is_known(kind) else {}
+    keys = {key_in_words(key): label for key, label in tables.get("fields", {}).items() if "*" not in key}
+    return Words(*(book for book in (tables.get("texts", {}), own, keys) if book))
 
 
 @cache

@@ -2,7 +2,7 @@
 
 import textwrap
 from pathlib import Path
-from typing import Any, get_args, get_origin
+from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from drivewright import registry
 from drivewright.errors import UnknownName
@@ -12,6 +12,9 @@ from drivewright.spec.mechanism_spec import MechanismSpec
 from drivewright.spec.parsing import read_document
 from drivewright.spec.sample_values import SAMPLE_NAME, required_keys_sample, sample_value, shared_table_samples
 from drivewright.spec.serialisation import to_plain, toml_key, toml_value
+
+if TYPE_CHECKING:
+    from pydantic.fields import FieldInfo
 
 WIDTH, MAX_CODE_WIDTH = 118, 44  # of a line; of the part before the comment, where comments still stand in one column
 ANY_UNIT = "number or quantity"
@@ -101,7 +104,7 @@ def _allowed_values(field, default, value):
     return "; ".join(words)
 
 
-def limits_text(field):
+def limits_text(field: "FieldInfo") -> str:
     """What is allowed: "0 < angle <= 180 deg", '"a" or "b"', "length"."""
     choices, dimension = choices_of(field.annotation), dimension_of(field)
     if choices:

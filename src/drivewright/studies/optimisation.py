@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from drivewright import registry, units
+from drivewright import registry
 from drivewright._typing import Floats
 from drivewright.digits import plain
 from drivewright.errors import InputError, SolverError
@@ -33,6 +33,7 @@ from drivewright.studies.search.searching import METHODS, method_of
 from drivewright.studies.store import Memory, Store, joined
 from drivewright.studies.study_folder import Folder
 from drivewright.studies.study_reading import is_study
+from drivewright.view.text import shown_scale, with_unit
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -313,12 +314,17 @@ def _bounds(reached, name):
 def _with_interval(reached, name, system):
     """A number with its interval, in the digits that this supports."""
     output = reached[name]
-    shown = units.scale(output.unit, system=system, size=output.value)
+    shown = shown_scale(output.unit, system=system, size=output.value)
     value, *ends = plain(*(shown.of(each) for each in (output.value, *_bounds(reached, name).values())))
-    return f"{value} ({ends[0]} to {ends[1]}) {shown.unit}".removesuffix(" -") if ends else _shown(output.value, output.unit, system)
+    return _with_unit(f"{value} ({ends[0]} to {ends[1]})", shown.unit) if ends else _shown(output.value, output.unit, system)
 
 
 def _shown(value, unit, system, digits=6):
     """A number in the unit people read in a system of units, with the unit."""
-    shown = units.scale(unit, system=system, size=value)
-    return f"{shown.of(value):.{digits}g} {shown.unit}".removesuffix(" -")
+    shown = shown_scale(unit, system=system, size=value)
+    return _with_unit(f"{shown.of(value):.{digits}g}", shown.unit)
+
+
+def _with_unit(text, unit):
+    """Typed with plain spaces, to be copied from a terminal."""
+    return with_unit(text, unit).replace("\u00a0", " ")

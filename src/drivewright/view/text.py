@@ -67,11 +67,11 @@ def _grouped(text: str) -> str:
 
 
 def unit_text(unit: str) -> str:
-    """A unit as printed: 'm/s^2' -> 'm/s²', 'um/kN' -> 'µm/kN', 'deg' -> '°', none for a pure number."""
+    """A unit as printed: 'm/s^2' -> 'm/s²', 'um/kN' -> 'µm/kN', 'N m' -> 'N·m', 'deg' -> '°', none for a pure number."""
     if unit in ("-", "", "1"):
         return ""
     raised = re.sub(r"\^(-?\d+)", lambda match: match[1].translate(SUPERSCRIPT), unit)
-    return re.sub(r"\bum\b", "µm", re.sub(r"\bdeg(?=[CF]?\b)", "°", raised)).replace(" ", SOLID)
+    return re.sub(r"\bum\b", "µm", re.sub(r"\bdeg(?=[CF]?\b)", "°", raised)).replace("million ", f"million{SOLID}").replace(" ", "·")
 
 
 def display_unit(unit: str, system: System = "mm") -> tuple[float, str]:

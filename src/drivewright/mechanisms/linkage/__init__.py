@@ -26,13 +26,13 @@ HEADLINE = (
     "joints.*.max_force",
     "joints.*.impacts_per_turn",
     "joints.*.max_penetration",
-    "drive.max_torque",
     "lyapunov_exponent.per_turn",
     "tolerances.*.sigma",
     "wear.*.max_depth",
     "modes.*.frequency",
     "*.swing",
     "output.swing",
+    "drive.max_torque",
 )
 
 SOURCES = (
