@@ -96,6 +96,7 @@ def _loop(ax):
     for start, end, name, shift in ((o2, a, "$l_2$", 0.22), (b, o4, "$l_4$", 0.22)):
         label(ax, 0.5 * (start + end) + shift, name, GREY)
     ax.set_xlim(-1.2, 3.6)
+    ax.set_ylim(-0.75, 2.75)
 
 
 def _pin(ax):
