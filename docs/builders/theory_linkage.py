@@ -228,7 +228,7 @@ def _film():
         ax.set(title=title, xlabel=r"eccentricity ratio $\varepsilon$ [-]", xlim=(0, 0.92))
     panels[0].set_ylabel(r"$|F|\,/\,(P\,\sqrt{a^2+b^2})$ [-]")
     panels[1].legend(ncols=1, fontsize=8, loc="lower right")
-    panels[1].set_ylim(0.1, 600)
+    panels[1].set_ylim(0.02, 600)
     return figure
 
 
