@@ -96,6 +96,7 @@ def _loop(ax):
     for start, end, name, shift in ((o2, a, "$l_2$", 0.22), (b, o4, "$l_4$", 0.22)):
         label(ax, 0.5 * (start + end) + shift, name, GREY)
     ax.set_xlim(-1.2, 3.6)
+    ax.set_ylim(-0.75, 2.75)
 
 
 def _pin(ax):
@@ -227,7 +228,7 @@ def _film():
         ax.set(title=title, xlabel=r"eccentricity ratio $\varepsilon$ [-]", xlim=(0, 0.92))
     panels[0].set_ylabel(r"$|F|\,/\,(P\,\sqrt{a^2+b^2})$ [-]")
     panels[1].legend(ncols=1, fontsize=8, loc="lower right")
-    panels[1].set_ylim(0.1, 600)
+    panels[1].set_ylim(0.02, 600)
     return figure
 
 
