@@ -23,6 +23,7 @@ BOOK = Words(
         "force of *": "*的力",
         "cam": "凸轮",
         "rises": "上升",
+        "runs: --only *": "计算：--only *",
     }
 )
 
@@ -40,6 +41,7 @@ BOOK = Words(
         ("Force of A", "A的力"),
         ("cam · stroke", "凸轮 · 行程"),
         ("stroke; rises", "行程; 上升"),
+        ("runs: --only cam", "计算：--only cam"),
         ("Unheard of", "Unheard of"),
         ("", ""),
     ],

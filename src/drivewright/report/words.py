@@ -17,6 +17,7 @@ from drivewright.labels import key_in_words
 PARTED = re.compile(r"(?s)(.+?)(\s\[[^\]]*\]|\s[×x]\s?[\d.]+)")  # a text with its unit, or its factor, behind it
 SENTENCES = re.compile(r"(?<=[a-z)])(: |; |\. )(?=[A-Za-z'])")  # where a text of several sentences is parted
 TEXTS = ("title", "label", "meaning", "convention", "message", "undecided", "hint", "text", "axes")  # keys of content that hold words
+TYPED = "--only "  # what stands behind it is typed as it is
 LISTS = ("findings", "warnings")  # keys that hold lists of sentences
 
 
@@ -69,7 +70,12 @@ class Words:
         for book, patterns in zip(self._books, self._patterns, strict=True):
             for english, shape in patterns:
                 if parts := shape.fullmatch(text) or shape.fullmatch(_other_case(text)):
-                    return _filled(book[english], [self._find(part) or part for part in parts.groups()])
+                    literals = english.split("*")
+                    told = [
+                        part if literal.endswith(TYPED) else self._find(part) or part
+                        for literal, part in zip(literals, parts.groups(), strict=False)
+                    ]
+                    return _filled(book[english], told)
         return None
 
 
