@@ -5,7 +5,8 @@ from typing import Any
 
 from griffe import Extension, Module
 
-ENTRY = re.compile(r"^([a-z_]\w*(?:\.\w+)*|[a-z_]\w*(?:, \w+)+) {2,}(\S.*)$")
+NAME = r"`?[a-z_]\w*(?:\.\w+)*`?"
+ENTRY = re.compile(rf"^({NAME}(?:, {NAME})*) {{2,}}(\S.*)$")
 
 
 def listed(text: str) -> str:
@@ -14,7 +15,8 @@ def listed(text: str) -> str:
     in_list = False
     for line in text.splitlines():
         if entry := ENTRY.match(line):
-            lines += [*([] if in_list else [""]), f"- `{entry[1]}`: {entry[2]}"]
+            names = ", ".join(f"`{name.strip('`')}`" for name in entry[1].split(", "))
+            lines += [*([] if in_list else [""]), f"- {names}: {entry[2]}"]
             in_list = True
         elif in_list and line.startswith("  "):
             lines[-1] += f" {line.strip()}"

@@ -4,6 +4,7 @@ import pkgutil
 from collections.abc import Callable, Iterator
 from importlib import import_module
 from pathlib import Path
+from types import FunctionType, ModuleType
 from typing import NamedTuple
 
 from builders.markdown import cell, code, sentence, table, write_page
@@ -63,17 +64,17 @@ def build(docs: Path, progress: Callable[[str], None]) -> None:
         write_page(docs / "reference" / "python" / f"{page.name}.md", _lines(page))
 
 
-def documented_modules() -> Iterator[str]:
-    """Full names of all modules that the pages list."""
+def modules_of_pages() -> Iterator[tuple[str, str]]:
+    """(full name, page) of all modules that the pages list."""
     for page in PAGES:
         for name in page.modules:
-            yield from _modules(f"drivewright.{name}")
+            yield from ((module, page.name) for module in _modules(f"drivewright.{name}"))
 
 
 def _lines(page: Page) -> Iterator[str]:
     """Lines of one page: a table of its modules, then a section for each."""
     modules = [module for name in page.modules for module in _modules(f"drivewright.{name}")]
-    yield from (f"# {page.title}", "", page.about)
+    yield from ("---", "search: {boost: 0.3}  # pages that explain come first", "---", f"# {page.title}", "", page.about)
     yield from table(("module", "about"), ((f"[{code(module)}](#{module})", cell(_summary(module))) for module in modules))
     for module in modules:
         yield from ("", f"## {module.removeprefix('drivewright.')} {{#{module}}}", "", f"::: {module}")
@@ -105,6 +106,7 @@ def _summary(module: str) -> str:
 
 
 def _first_sentence(value: object) -> str:
-    """First paragraph of what a docstring says, a constant's class left aside."""
-    text = value.__doc__ if callable(value) or hasattr(value, "__path__") or hasattr(value, "__spec__") else None
-    return sentence((text or "").strip().split("\n\n")[0])
+    """First paragraph of the docstring of a module, class or function of ours; "" of anything else."""
+    home = getattr(value, "__module__", None) or getattr(value, "__name__", "")
+    ours = str(home).startswith("drivewright") and isinstance(value, (ModuleType, type, FunctionType))
+    return sentence((value.__doc__ or "").strip().split("\n\n")[0]) if ours else ""

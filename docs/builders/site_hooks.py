@@ -1,15 +1,18 @@
 """What mkdocs does to pages besides its plugins: folders in the navigation, and links from names of code to the reference."""
 
+import posixpath
 import re
 import sys
 from functools import cache
 from importlib import import_module
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 NAME = re.compile(r"(?<![\[`\w])`(drivewright(?:\.\w+)+)(\(\))?`(?![`\]])")
 FENCED = re.compile(r"(^```.*?^```)", flags=re.DOTALL | re.MULTILINE)
 PYTHON_PAGES = "reference/python/"
+DESCRIBED = (FunctionType, property, classmethod, staticmethod)
 
 
 def on_config(config: Any) -> Any:
@@ -35,16 +38,17 @@ def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
     """A name of code in backticks leads to its place in the reference."""
     if page.file.src_uri.startswith(PYTHON_PAGES):
         return markdown
-    known = documented_names()
-    return "".join(
-        part if part.startswith("```") else NAME.sub(lambda found: _linked(found, known), part) for part in FENCED.split(markdown)
-    )
+    folder = posixpath.dirname(page.file.src_uri)
+    parts = FENCED.split(markdown)
+    return "".join(part if part.startswith("```") else NAME.sub(lambda found: _linked(found, folder), part) for part in parts)
 
 
-def _linked(found: re.Match[str], known: frozenset[str]) -> str:
-    name = found[1]
-    target = _defined_name(name)
-    return f"[{found[0]}][{target}]" if target in known else found[0]
+def _linked(found: re.Match[str], folder: str) -> str:
+    """A name as a link, where the reference has it: to the heading of its module, or to its own entry."""
+    target, modules = _defined_name(found[1]), documented_modules()
+    if target in modules:
+        return f"[{found[0]}]({posixpath.relpath(modules[target], folder or '.')}#{target})"
+    return f"[{found[0]}][{target}]" if target in documented_names() else found[0]
 
 
 @cache
@@ -72,14 +76,25 @@ def _module_of(name: str) -> tuple[Any, list[str]]:
 
 
 @cache
-def documented_names() -> frozenset[str]:
-    """Names of the modules of the Python reference, and of what they define and document."""
-    from builders.reference_python import documented_modules
+def documented_modules() -> dict[str, str]:
+    """{module of the Python reference: its page}."""
+    from builders.reference_python import modules_of_pages
 
+    return {module: f"{PYTHON_PAGES}{page}.md" for module, page in modules_of_pages()}
+
+
+@cache
+def documented_names() -> frozenset[str]:
+    """Names of what the modules of the Python reference define and document."""
     names = set()
     for module in documented_modules():
-        names.add(module)
         for name, value in vars(import_module(module)).items():
             if not name.startswith("_") and getattr(value, "__module__", None) == module and getattr(value, "__doc__", None):
-                names.add(f"{module}.{name}")
+                names |= {f"{module}.{name}", *(f"{module}.{name}.{member}" for member in _members(value))}
     return frozenset(names)
+
+
+def _members(value: object) -> list[str]:
+    """Public methods and properties of a class that say what they do."""
+    members = vars(value).items() if isinstance(value, type) else ()
+    return [name for name, member in members if not name.startswith("_") and isinstance(member, DESCRIBED) and member.__doc__]

@@ -23,6 +23,7 @@ RECORD = "made.json"  # beside the figures that are kept: of which spec they are
 def build(docs: Path, progress: Callable[[str], None], full: bool = False) -> None:
     """Write docs/worked-studies.md and its figures."""
     lines = ["# Worked studies", "", "Made by running the files of `examples/studies`; [Studies](studies.md) says how to write one."]
+    shutil.rmtree(docs / "worked-studies", ignore_errors=True)
     paths = sorted((docs.parent / "examples" / "studies").glob("*.toml"))
     for number, path in enumerate(paths, 1):
         progress(f"{number} of {len(paths)}: {path.stem}")
