@@ -4,6 +4,7 @@ cad              STEP and STL files of parts, in millimetres; the bytes depend o
 comparison       several results of one kind side by side: their values, and how far they are apart
 comparison_page  the page of a comparison
 content          what a report says, as plain text in plain dictionaries
+dimension_drawings  what the keys of a kind measure, drawn from its presets
 dxf              DXF drawings of flat parts
 export           manufacturing files of a design: everything that `drivewright export` can write
 folder           the run folder
