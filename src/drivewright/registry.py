@@ -21,6 +21,7 @@ from drivewright.claims import Claims
 from drivewright.errors import InputError
 
 if TYPE_CHECKING:
+    from drivewright.dimensions import DimensionSheet
     from drivewright.result import Answer, Answers, Plot, Result, SpecLike
     from drivewright.scene import Drawing, Part, Scene
 
@@ -89,6 +90,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
     adjustable: Mapping[str, float] = field(default_factory=dict)  # {key, with "*": greatest factor} of what advice may change
     compile_ahead: Callable[[SpecT], Sequence[Callable[[], object]]] | None = None  # what compiles the kernels that a run comes to last
+    dimensions: "tuple[DimensionSheet, ...]" = ()  # drawings that show what its keys measure
     claims: Callable[[SpecT], Claims] | None = None  # what its results obey exactly, for `drivewright.testing`
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 

@@ -6,6 +6,7 @@ comparison       several results of one kind side by side: their values, and how
 comparison_page  the page of a comparison
 computed         how a result was computed: for the full report
 content          what a report says, as plain text in plain dictionaries
+dimension_drawings  what the keys of a kind measure, drawn from its presets
 dxf              DXF drawings of flat parts
 export           manufacturing files of a design: everything that `drivewright export` can write
 folder           the run folder

@@ -2,6 +2,7 @@
 
 axis_names     what a y axis is called that several lines share
 coincident     curves of several designs that lie upon each other: where they do, and which are the same
+dimensions     lines of measure: what the keys of a spec measure, named beside the drawing
 histograms     how often a sample takes which values, with its mean, its tails and its limits
 lines          which columns of a table are lines of a plot, with what each is compared with and the intervals of its values
 maps           a quantity over two others as coloured cells, each about its own point of the grid

@@ -6,6 +6,7 @@ from drivewright.mechanisms.cam import film, geometry, loads, profiles, surge
 from drivewright.mechanisms.cam.batch import batch
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.claims import claims
+from drivewright.mechanisms.cam.dimensions import SHEETS
 from drivewright.mechanisms.cam.energy import energy
 from drivewright.mechanisms.cam.scene import PLOTS, drawings, parts, scene
 from drivewright.mechanisms.cam.spec import CamSpec
@@ -34,6 +35,7 @@ mechanism = Mechanism(
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     scene=scene,
+    dimensions=SHEETS,
     plots=PLOTS,
     drawings=drawings,
     parts=parts,

@@ -8,6 +8,7 @@ from drivewright.mechanisms.indexer import assembly, drive, geometry, loads, rol
 from drivewright.mechanisms.indexer.batch import batch
 from drivewright.mechanisms.indexer.build import IndexerModel, build
 from drivewright.mechanisms.indexer.claims import claims
+from drivewright.mechanisms.indexer.dimensions import SHEETS
 from drivewright.mechanisms.indexer.plots import plots
 from drivewright.mechanisms.indexer.scene import drawings, parts, scene
 from drivewright.mechanisms.indexer.spec import IndexerSpec
@@ -124,6 +125,7 @@ mechanism = Mechanism(
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
+    dimensions=SHEETS,
     plots=plots,
     drawings=drawings,
     parts=parts,

@@ -6,6 +6,7 @@ from drivewright.mechanisms.linkage.analyses import ANALYSES
 from drivewright.mechanisms.linkage.batch import batch
 from drivewright.mechanisms.linkage.build import build, compile_ahead
 from drivewright.mechanisms.linkage.claims import claims
+from drivewright.mechanisms.linkage.dimensions import SHEETS
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.scene import scene
 from drivewright.mechanisms.linkage.spec import LinkageSpec
@@ -68,6 +69,7 @@ mechanism = Mechanism(
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
+    dimensions=SHEETS,
     plots=plots,
     drawings=drawings,
     parts=parts,

@@ -6,6 +6,7 @@ from drivewright.mechanisms.seedling_pusher import analyses, dynamics, manufactu
 from drivewright.mechanisms.seedling_pusher.build import build
 from drivewright.mechanisms.seedling_pusher.claims import claims
 from drivewright.mechanisms.seedling_pusher.designs import batch
+from drivewright.mechanisms.seedling_pusher.dimensions import SHEETS
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 from drivewright.registry import Analysis, Mechanism, oracle
 from drivewright.result import Plot
@@ -64,6 +65,7 @@ mechanism = Mechanism(
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     scene=scene.scene,
+    dimensions=SHEETS,
     plots=PLOTS,
     drawings=scene.drawings,
     parts=scene.parts,

@@ -6,6 +6,7 @@ from drivewright.mechanisms.shaft import frequencies, influence, rolling, rotati
 from drivewright.mechanisms.shaft.build import build
 from drivewright.mechanisms.shaft.claims import claims
 from drivewright.mechanisms.shaft.designs import batch
+from drivewright.mechanisms.shaft.dimensions import SHEETS
 from drivewright.mechanisms.shaft.plots import plots
 from drivewright.mechanisms.shaft.scene import drawings, parts, scene
 from drivewright.mechanisms.shaft.spec import ShaftSpec
@@ -109,6 +110,7 @@ mechanism = Mechanism(
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
+    dimensions=SHEETS,
     plots=plots,
     drawings=drawings,
     parts=parts,

@@ -7,6 +7,7 @@ from drivewright.mechanisms.silent_chain.build import build
 from drivewright.mechanisms.silent_chain.chain_drive import compile_ahead
 from drivewright.mechanisms.silent_chain.claims import claims
 from drivewright.mechanisms.silent_chain.designs import batch
+from drivewright.mechanisms.silent_chain.dimensions import SHEETS
 from drivewright.mechanisms.silent_chain.geometry import geometry
 from drivewright.mechanisms.silent_chain.meshing import meshing
 from drivewright.mechanisms.silent_chain.plots import plots
@@ -125,6 +126,7 @@ mechanism = Mechanism(
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
+    dimensions=SHEETS,
     plots=plots,
     drawings=drawings,
     parts=parts,
