@@ -1,16 +1,21 @@
 """Reports in another language: how texts are recognised, and that nothing of the frame is left in English."""
 
+import math
 import re
 import tomllib
+from dataclasses import replace
 
 import pytest
 from places import EXAMPLES, SOURCE
 
+from drivewright.advice import Advice, Change
+from drivewright.report.advice import failed_texts
 from drivewright.report.content import content, pictures, views
 from drivewright.report.form import ReportForm
 from drivewright.report.html import player_texts, write_report
 from drivewright.report.pdf import FRAME
 from drivewright.report.words import Words, words_of
+from drivewright.result import Check, Result
 
 pytestmark = pytest.mark.interface
 
@@ -107,3 +112,29 @@ def test_what_a_user_wrote_stays(run):
 
     result, _ = run
     assert content(replace(result, title="Cam 7 · press"), form=ReportForm("normal", "zh"))["title"] == "Cam 7 · press"
+
+
+def test_first_lines_name_what_fails_by_most_and_what_to_change():
+    result = Result(
+        spec=None,
+        mechanism="none",
+        title="t",
+        digest="d",
+        values={},
+        tables={},
+        findings=(),
+        provenance={},
+        checks=(
+            Check("near", 0.99, 1.0, ">=", "-", "nearly there", label="Nearly there"),
+            Check("half", 0.5, 1.0, ">=", "-", "half", label="Half"),
+            Check("steep", math.radians(37.8), math.radians(30), "<=", "rad", "steep", label="Pressure angle"),
+            Check("fine", 2.0, 1.0, ">=", "-", "fine", label="Fine"),
+        ),
+        advice=(Advice("half", (Change("cam.prime_radius", "m", 0.038, 0.042, "42 mm"),), 1.01, ("near",), ("fine",)),),
+    )
+    assert [text.replace("\u00a0", " ") for text in failed_texts(result)] == [
+        "Half 0.5 (limit ≥ 1): prime radius 42 mm instead of 38 mm gives 1.01; 'Nearly there' passes too; but 'Fine' would fail.",
+        "Pressure angle 37.8° (limit ≤ 30°).",
+        "Also failing: 'Nearly there'.",
+    ]
+    assert failed_texts(replace(result, checks=result.checks[3:], advice=())) == []

@@ -1,5 +1,6 @@
 """Advice in words: 'prime radius 42 mm instead of 38 mm gives 30°'."""
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,6 +12,33 @@ from drivewright.units import System
 from drivewright.view.text import number, shown_scale, with_unit
 
 MOST_TURNED = 3  # other checks that are named
+MOST_FAILED = 2  # checks of which the first lines of a report speak
+SIGNS = {"<=": "≤", ">=": "≥"}
+
+
+def failed_texts(result: Result[Any], words: Words | None = None) -> list[str]:
+    """A sentence for each of the checks that fail by most: its value, its limit, what to change; and the labels of more.
+
+    "Maximum pressure angle 34.2° (limit ≤ 30°): prime radius 42 mm instead of 38 mm gives 30°."
+    """
+    words, advice = words or words_of("en"), advice_texts(result, words)
+    failed = sorted((check for check in result.checks if not check.ok), key=lambda check: _shortfall(check), reverse=True)
+    texts = [_failed_text(check, advice.get(check.name, ""), result.units, words) for check in failed[:MOST_FAILED]]
+    others = {check.name: check for check in failed[MOST_FAILED:]}
+    return texts + ([words("Also failing: *.", _labels(tuple(others), others, words))] if others else [])
+
+
+def _shortfall(check: Check) -> float:
+    """How far a check is from passing, over the larger of value and limit: 1 and more where nothing of it is reached."""
+    size = max(abs(check.limit), abs(check.value)) if math.isfinite(check.value) else 0.0
+    return -check.margin / size if size else math.inf
+
+
+def _failed_text(check: Check, advice: str, system: System, words: Words) -> str:
+    shown = shown_scale(check.unit, usual_unit(check.display_label, check.unit), system, check.limit or check.value)
+    value, limit = (with_unit(number(shown.of(each), 4), shown.unit) for each in (check.value, check.limit))
+    text = words("* * (limit * *)", words(check.display_label), value, SIGNS[check.sense], limit)
+    return f"{text}: {advice}." if advice else f"{text}."
 
 
 def advice_texts(result: Result[Any], words: Words | None = None) -> dict[str, str]:

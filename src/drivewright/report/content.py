@@ -13,7 +13,7 @@ from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
 from drivewright.execution.helper import Map
 from drivewright.labels import label_of, usual_unit
-from drivewright.report.advice import advice_texts
+from drivewright.report.advice import SIGNS, advice_texts, failed_texts
 from drivewright.report.computed import how_computed
 from drivewright.report.form import ReportForm
 from drivewright.report.letterhead import read_letterhead
@@ -32,7 +32,6 @@ from drivewright.view.text import ends_shown, interval_hint, number, numbers, se
 
 MOST_HEADLINES = 8  # values that are shown first
 GHOSTS = tuple(n / 5 for n in range(5))
-SIGNS = {"<=": "≤", ">=": "≥"}
 Content: TypeAlias = dict[str, Any]  # plain text and numbers, as the templates take them
 LARGEST_ARRAY = 400  # entries: a larger one is only named; result.json has it
 
@@ -205,6 +204,7 @@ def summary(result: Result[Any], headlines: Sequence[str] | None = None, words: 
     advice = advice_texts(result, words)
     return {
         "verdict": verdict_of(result),
+        "failed": failed_texts(result, words),
         "headline": headline(result, headlines),
         "checks": [_check(result, c, advice.get(c.name, "")) for c in sorted(result.checks, key=lambda c: c.ok)],
         "values": [_value(result, name) for name, value in result.values.items() if math.isfinite(value.value)],
