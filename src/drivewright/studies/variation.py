@@ -83,7 +83,7 @@ def with_options(spec: SpecT, texts: Iterable[str] = (), points: str | Path | No
     if points is not None:
         given["points"] = str(points)
     vary = {}
-    for key, what in (_as_relation(spec, *parse_variation(text)) for text in texts):
+    for key, what in (_as_relation(spec, *_as_names(spec, *parse_variation(text))) for text in texts):
         if key in vary:
             raise SpecError(f"--vary {key} is given twice; give its levels in one list")
         vary[key] = what
@@ -96,6 +96,13 @@ def with_options(spec: SpecT, texts: Iterable[str] = (), points: str | Path | No
                 "KEY=normal(MEAN, SIGMA) or KEY=+-TOLERANCE"
             )
     return changed
+
+
+def _as_names(spec: MechanismSpec, key: str, what: Any) -> tuple[str, Any]:
+    """(key, what), levels of a key of text as text: 6204 is a designation, though it reads as a number."""
+    field = field_at(type(spec), key.split(".")) if isinstance(what, list) and dimension_at(type(spec), key)[0] else None
+    is_text = field is not None and type_of(field.annotation) is str
+    return (key, [str(level) if type(level) is int else level for level in what]) if is_text else (key, what)
 
 
 def _as_relation(spec: MechanismSpec, key: str, what: Any) -> tuple[str, Any]:
