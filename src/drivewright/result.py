@@ -6,7 +6,6 @@ A result is a value: frozen, picklable, SI throughout, every number with a unit 
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from html import escape
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import numpy as np
@@ -448,20 +447,8 @@ class Result(Generic[SpecT]):
         return f"<Result {self.mechanism!r} {self.title!r}: {len(self.values)} values, {len(self.tables)} tables, {verdict}>"
 
     def _repr_html_(self) -> str:
-        """The same for notebooks: checks and findings, then the values with unit and label."""
-        checks = "".join(
-            f"<tr><td>{'✓' if check.ok else '✗'}</td><td>{escape(check.display_label)}</td>"
-            f"<td>{check.value:.5g} {check.sense} {check.limit:.5g} {escape(check.unit)}</td></tr>"
-            for check in self.checks
-        )
-        values = "".join(
-            f"<tr><td>{escape(name)}</td><td>{v.value:.5g} {escape(v.unit)}</td><td>{escape(label_of(v.meaning, v.label))}</td></tr>"
-            for name, v in self.values.items()
-        )
-        findings = "".join(f"<li>{'⚠ ' if finding in self.warnings else ''}{escape(finding)}</li>" for finding in self.findings)
-        heading = f"<p><b>{escape(self.title)}</b> ({escape(self.mechanism)}, {self.outcome})</p>"
-        numbers = f"<details><summary>values [SI]</summary><table>{values}</table></details>"
-        return f"{heading}<table>{checks}</table><ul>{findings}</ul>{numbers}"
+        """A card for notebooks: verdict, picture, key numbers, checks; values and notes are folded."""
+        return plugins.load("drivewright.views", "notebook", "view")(self)
 
     @property
     def units(self) -> System:

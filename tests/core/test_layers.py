@@ -9,7 +9,7 @@ pytestmark = pytest.mark.interface
 
 ROWS = [
     "__main__ cli studio",
-    "reproduction validation studies report view execution",
+    "reproduction validation studies notebook report view execution",
     "oracles mechanisms",
     "indexing chains cams gears multibody shafts bearings solids fatigue",
     "motion curves contact materials",
