@@ -20,7 +20,9 @@ from drivewright.surface_fields import SurfaceFields
 from drivewright.units import System
 
 if TYPE_CHECKING:
+    import pandas
     import pyarrow
+    import xarray
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -430,6 +432,40 @@ class Result(Generic[SpecT]):
         if name not in self.tables:
             raise UnknownName("table", name, self.tables)
         return self.tables[name].arrow()
+
+    def to_pandas(self, table: str = "") -> "pandas.DataFrame":
+        """The values as a frame, a row each: SI value, ends of its 95 % interval, unit, label; indexed by name.
+
+        With the name of a `table` its columns; `attrs` has their units and labels.  MissingExtra without the extra 'frames'.
+        """
+        from drivewright import frames
+
+        if table:
+            return frames.frame(self.table(table), title=self.tables[table].title)
+        pandas = frames.require("pandas", "to_pandas()")
+        rows = [(each.value, each.low, each.high, each.unit, each.label) for each in map(Value.plain, self.values.values())]
+        made = pandas.DataFrame(rows, columns=["value", "low", "high", "unit", "label"], index=pandas.Index(self.values, name="name"))
+        made = made.astype({"value": float, "low": float, "high": float})
+        made.attrs.update(title=self.title, mechanism=self.mechanism, digest=self.digest)
+        return made
+
+    def to_xarray(self, table: str = "") -> "xarray.Dataset":
+        """The labelled `arrays` as a dataset; with the name of a `table` its columns over the first one, in SI.
+
+        `units` and `long_name` of everything are in its attributes.  MissingExtra without the extra 'frames'.
+        """
+        from drivewright import frames
+
+        if table not in self.tables and table:
+            raise UnknownName("table", table, self.tables)
+        if not table:
+            return frames.labelled({name: (each.axes, each.labels, each.values, each.unit) for name, each in self.arrays.items()})
+        axis = self.tables[table].columns[0].name
+        columns = {
+            each.name: frames.Variable((axis,), each.data, each.unit, label_of(each.meaning, each.label), each.meaning)
+            for each in self.tables[table].columns
+        }
+        return frames.dataset(columns, {axis: columns.pop(axis)}, title=self.tables[table].title)
 
     def plot(self, name: str, ax: "Axes | None" = None) -> "Figure":
         """A matplotlib Figure of a table or of one of the mechanism's plots.

@@ -26,7 +26,9 @@ from drivewright.studies.statistics import NORMAL
 from drivewright.studies.stored_rows import StoredRows, batches_of
 
 if TYPE_CHECKING:
+    import pandas as pd
     import pyarrow as pa
+    import xarray as xr
 
 MOST_SHOWN = 100_000  # rows of a study that a notebook analyses to show it
 BOUNDS = b"bounds"  # in the metadata of a column that is an end of an interval, or a standard error: the name of the column whose it is
@@ -78,6 +80,18 @@ class Study:
     def batches(self, names: Sequence[str] | None = None, first: int = 0, stop: int | None = None) -> Iterator[pa.Table]:
         """The rows of the cases from `first` up to `stop` in pieces that need little memory, all columns or some."""
         return batches_of(self.rows, names, first, stop)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A frame with a row per case, in SI; `attrs` has units and labels of its columns.  MissingExtra without the extra 'frames'."""
+        from drivewright.studies.study_frames import study_frame
+
+        return study_frame(self)
+
+    def to_xarray(self) -> xr.Dataset:
+        """A dataset with an axis per key of the grid, in SI with `units` and `long_name`; sampled points lie along "sample"."""
+        from drivewright.studies.study_frames import study_dataset
+
+        return study_dataset(self)
 
     def __repr__(self) -> str:
         """One line: how many cases are there, and what became of them."""
