@@ -31,6 +31,7 @@ EXTRAS = {
     "needs_optimise": (("pymoo",), "optimise"),
     "needs_peers": (("exudyn", "pylinkage", "mpmath", "jax", "Pynite"), "peers"),
     "needs_studio": (("nicegui",), "studio"),
+    "needs_frames": (("pandas", "xarray"), "frames"),
     "needs_cluster": (("distributed",), "cluster"),
     "needs_browser": (("playwright",), "dev"),
     "needs_docs": (("mkdocs", "material", "mkdocstrings", "mathjax"), "docs"),

@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from html import escape
 from typing import TYPE_CHECKING, Any, Generic, NamedTuple, Protocol, TypeAlias, TypeVar
 
 import numpy as np
@@ -23,7 +22,9 @@ from drivewright.surface_fields import SurfaceFields
 from drivewright.units import System
 
 if TYPE_CHECKING:
+    import pandas
     import pyarrow
+    import xarray
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
@@ -444,6 +445,40 @@ class Result(Generic[SpecT]):
             raise UnknownName("table", name, self.tables)
         return self.tables[name].arrow()
 
+    def to_pandas(self, table: str = "") -> "pandas.DataFrame":
+        """The values as a frame, a row each: SI value, ends of its 95 % interval, unit, label; indexed by name.
+
+        With the name of a `table` its columns; `attrs` has their units and labels.  MissingExtra without the extra 'frames'.
+        """
+        from drivewright import frames
+
+        if table:
+            return frames.frame(self.table(table), title=self.tables[table].title)
+        pandas = frames.require("pandas", "to_pandas()")
+        rows = [(each.value, each.low, each.high, each.unit, each.label) for each in map(Value.plain, self.values.values())]
+        made = pandas.DataFrame(rows, columns=["value", "low", "high", "unit", "label"], index=pandas.Index(self.values, name="name"))
+        made = made.astype({"value": float, "low": float, "high": float})
+        made.attrs.update(title=self.title, mechanism=self.mechanism, digest=self.digest)
+        return made
+
+    def to_xarray(self, table: str = "") -> "xarray.Dataset":
+        """The labelled `arrays` as a dataset; with the name of a `table` its columns over the first one, in SI.
+
+        `units` and `long_name` of everything are in its attributes.  MissingExtra without the extra 'frames'.
+        """
+        from drivewright import frames
+
+        if table not in self.tables and table:
+            raise UnknownName("table", table, self.tables)
+        if not table:
+            return frames.labelled({name: (each.axes, each.labels, each.values, each.unit) for name, each in self.arrays.items()})
+        axis = self.tables[table].columns[0].name
+        columns = {
+            each.name: frames.Variable((axis,), each.data, each.unit, label_of(each.meaning, each.label), each.meaning)
+            for each in self.tables[table].columns
+        }
+        return frames.dataset(columns, {axis: columns.pop(axis)}, title=self.tables[table].title)
+
     def plot(self, name: str, ax: "Axes | None" = None) -> "Figure":
         """A matplotlib Figure of a table or of one of the mechanism's plots.
 
@@ -460,20 +495,8 @@ class Result(Generic[SpecT]):
         return f"<Result {self.mechanism!r} {self.title!r}: {len(self.values)} values, {len(self.tables)} tables, {verdict}>"
 
     def _repr_html_(self) -> str:
-        """The same for notebooks: checks and findings, then the values with unit and label."""
-        checks = "".join(
-            f"<tr><td>{'✓' if check.ok else '✗'}</td><td>{escape(check.display_label)}</td>"
-            f"<td>{check.value:.5g} {check.sense} {check.limit:.5g} {escape(check.unit)}</td></tr>"
-            for check in self.checks
-        )
-        values = "".join(
-            f"<tr><td>{escape(name)}</td><td>{v.value:.5g} {escape(v.unit)}</td><td>{escape(label_of(v.meaning, v.label))}</td></tr>"
-            for name, v in self.values.items()
-        )
-        findings = "".join(f"<li>{'⚠ ' if finding in self.warnings else ''}{escape(finding)}</li>" for finding in self.findings)
-        heading = f"<p><b>{escape(self.title)}</b> ({escape(self.mechanism)}, {self.outcome})</p>"
-        numbers = f"<details><summary>values [SI]</summary><table>{values}</table></details>"
-        return f"{heading}<table>{checks}</table><ul>{findings}</ul>{numbers}"
+        """A card for notebooks: verdict, picture, key numbers, checks; values and notes are folded."""
+        return plugins.load("drivewright.views", "notebook", "view")(self)
 
     @property
     def units(self) -> System:

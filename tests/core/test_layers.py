@@ -9,12 +9,12 @@ pytestmark = pytest.mark.interface
 
 ROWS = [
     "__main__ cli studio",
-    "reproduction validation studies report view execution",
+    "reproduction validation studies notebook report view execution",
     "oracles mechanisms",
     "indexing chains cams gears multibody shafts bearings solids fatigue",
     "motion curves contact materials",
     "numerics",
-    "testing runner spec registry claims result advice surface_fields dimensions scene cases",
+    "testing runner spec registry claims result advice frames surface_fields dimensions scene cases",
     "units digits labels plugins _jit _typing errors stops steps atomic _garbage",
 ]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}

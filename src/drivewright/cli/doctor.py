@@ -13,6 +13,7 @@ EXTRAS = (
     ("pdf", "typst", "PDF report"),
     ("optimise", "pymoo", "NSGA-II for several objectives"),
     ("studio", "nicegui", "the web studio"),
+    ("frames", "xarray", "results and studies as frames of pandas and datasets of xarray"),
     ("cluster", "distributed", "studies on a Dask cluster, here or elsewhere"),
     ("peers", "exudyn", "independent engines for `verify` and the benchmarks"),
 )

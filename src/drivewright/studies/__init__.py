@@ -27,6 +27,7 @@ statistics        what a random sample says about a number
 store             what keeps the parts of a study, or of a search, as they are done
 stored_rows       the rows of a study in its folder, read part by part where they are many
 study             a study that has been run, whole or in part
+study_frames      a study as a frame of pandas and as a dataset of xarray
 study_folder      the folder in which a study lives, for who writes it
 study_reading     the same as a reader finds it
 sweeps            a study from its plan to its rows: `sweep(spec)` computes what is not there yet and keeps it

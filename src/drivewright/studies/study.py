@@ -6,7 +6,6 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from html import escape
 from itertools import tee
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,8 +26,11 @@ from drivewright.studies.statistics import NORMAL
 from drivewright.studies.stored_rows import StoredRows, batches_of
 
 if TYPE_CHECKING:
+    import pandas as pd
     import pyarrow as pa
+    import xarray as xr
 
+MOST_SHOWN = 100_000  # rows of a study that a notebook analyses to show it
 BOUNDS = b"bounds"  # in the metadata of a column that is an end of an interval, or a standard error: the name of the column whose it is
 
 
@@ -79,24 +81,28 @@ class Study:
         """The rows of the cases from `first` up to `stop` in pieces that need little memory, all columns or some."""
         return batches_of(self.rows, names, first, stop)
 
+    def to_pandas(self) -> pd.DataFrame:
+        """A frame with a row per case, in SI; `attrs` has units and labels of its columns.  MissingExtra without the extra 'frames'."""
+        from drivewright.studies.study_frames import study_frame
+
+        return study_frame(self)
+
+    def to_xarray(self) -> xr.Dataset:
+        """A dataset with an axis per key of the grid, in SI with `units` and `long_name`; sampled points lie along "sample"."""
+        from drivewright.studies.study_frames import study_dataset
+
+        return study_dataset(self)
+
     def __repr__(self) -> str:
         """One line: how many cases are there, and what became of them."""
         return f"<Study of {self.spec.mechanism!r}: {len(self)} of {len(self.plan)} cases, {self.counts}>"
 
     def _repr_html_(self) -> str:
-        """The same for notebooks: cases done and failed, what varies, and the folder."""
-        done = f"{len(self)} of {len(self.plan)}{', interrupted' if self.interrupted else ''}"
-        counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
-        rows = {
-            "cases done": f"{done} ({counts})" if counts else done,
-            "cases failed": str(self.counts.get("failed", 0)),
-            "varied keys": ", ".join(self.plan.keys),
-            "folder": str(self.folder) if self.folder else "in memory",
-        }
-        cells = "".join(f"<tr><td>{escape(name)}</td><td>{escape(text)}</td></tr>" for name, text in rows.items())
-        remarks = "".join(f"<li>{escape(remark)}</li>" for remark in self.remarks)
-        title = f"<b>{escape(self.spec.title or 'Study')}</b> ({escape(self.spec.mechanism)})"
-        return f"<p>{title}</p><table>{cells}</table>{f'<ul>{remarks}</ul>' if remarks else ''}"
+        """A card for notebooks: cases done and failed, what varies, the main plot and between which ends the values lie."""
+        from drivewright.notebook import study_card
+        from drivewright.studies.answers import analyse_study
+
+        return study_card(self, analyse_study(self) if self.answered and len(self) <= MOST_SHOWN else None)
 
     @property
     def counts(self) -> dict[str, int]:

@@ -1,6 +1,7 @@
 """Results, scenes and drawings as figures.  matplotlib is imported only when something is drawn.
 
 axis_names     what a y axis is called that several lines share
+cards          cards for notebooks: a figure, tables and notes as one piece of HTML
 coincident     curves of several designs that lie upon each other: where they do, and which are the same
 dimensions     lines of measure: what the keys of a spec measure, named beside the drawing
 histograms     how often a sample takes which values, with its mean, its tails and its limits

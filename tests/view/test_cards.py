@@ -1,0 +1,92 @@
+"""Cards of results and studies in notebooks: they are whole, light, without scripts, and their colours follow the page."""
+
+import re
+from html.parser import HTMLParser
+
+import pytest
+from places import EXAMPLES
+
+import drivewright as dw
+from drivewright.notebook import result_card
+from drivewright.view import cards
+from drivewright.view.palette import ROLES
+
+pytestmark = pytest.mark.interface
+
+LARGEST = 200_000  # characters of a card
+EMPTY = {"meta", "wbr", "br", "hr"}
+
+
+class Balanced(HTMLParser):
+    """Notes which elements are open, and which were closed that were not."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.wrong, self.tags = [], [], set()
+
+    def handle_starttag(self, tag, attrs):
+        self.tags.add(tag)
+        if tag not in EMPTY:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attrs):
+        self.tags.add(tag)
+
+    def handle_endtag(self, tag):
+        if not self.open or self.open.pop() != tag:
+            self.wrong.append(tag)
+
+
+def tags_of(page):
+    reader = Balanced()
+    reader.feed(page)
+    assert reader.open == [] and reader.wrong == []
+    return reader.tags
+
+
+@pytest.fixture(scope="module")
+def cam():
+    return dw.run(dw.load(EXAMPLES / "disc_cam.toml"))
+
+
+def test_a_card_is_whole_and_light_and_runs_no_script(cam):
+    page = result_card(cam)
+    assert {"svg", "table", "details", "style"} <= tags_of(page) and "script" not in tags_of(page)
+    assert len(page) < LARGEST and "http" not in re.sub(r'xmlns(:xlink)?="[^"]*"', "", page)
+
+
+def test_a_card_shows_the_headline_numbers_with_labels_and_units(cam):
+    page = result_card(cam)
+    for text in (
+        "Maximum pressure angle",
+        "27.374°",
+        "max_<wbr>pressure_<wbr>angle",
+        "all 13 checks pass",
+        "Disc cam with a spring-loaded",
+    ):
+        assert text in page
+
+
+def test_a_study_has_a_card_with_its_plot_and_the_ends_of_its_values(cam):
+    page = dw.sweep(cam.spec, {"follower.prime_radius": ["35 mm", "40 mm", "45 mm"]})._repr_html_()
+    assert {"svg", "table"} <= tags_of(page) and len(page) < LARGEST
+    for text in ("study of cam", "all 3 cases complete", "Least", "Greatest", "25.143°", "30.011°", "35\u00a0mm, 40\u00a0mm, 45\u00a0mm"):
+        assert text in page
+
+
+def test_a_picture_takes_the_colours_of_the_page_unless_they_are_data():
+    picture = '<?xml version="1.0"?><svg xmlns="x"><metadata>m</metadata><path id="a" style="fill: #1b55bd"/><use href="#a" id="b"/></svg>'
+    page = cards.figure(picture, 'a "b"', 300)
+    assert "var(--blue,#1b55bd)" in page and "metadata" not in page and 'id="a"' in page and 'id="b"' not in page
+    assert 'aria-label="a &quot;b&quot;"' in page and "var(" not in cards.figure(picture, "a", 300, follows_page=False)
+
+
+def test_a_picture_that_is_too_large_is_left_out():
+    assert cards.figure(f"<svg>{'<path/>' * cards.LARGEST_FIGURE}</svg>", "", 300) == ""
+
+
+def test_the_style_has_both_themes_and_stays_within_the_card():
+    style = cards.style_sheet()
+    assert all(f"--{role}: {theme};" in style for role, pair in ROLES.items() for theme in pair)
+    rules = re.findall(r"(?:^|\})\s*([^{}]+)\{", style)
+    assert rules and all(cards.CARD in selector for rule in rules for selector in rule.split(","))
