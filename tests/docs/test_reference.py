@@ -66,6 +66,16 @@ def test_every_key_is_there_with_its_meaning(pages, kind):
     assert all(cells.split(" | ")[0].strip() for cells in rows.values()), "a key without a meaning"
 
 
+def test_dimension_drawings_stand_where_they_are(builder, tmp_path):
+    drawings = tmp_path / "img" / "dimensions"
+    drawings.mkdir(parents=True)
+    assert list(builder("reference_keys")._drawings("cam", tmp_path)) == []
+    for name in ("cam-flat.svg", "cam.svg", "camshaft.svg"):
+        (drawings / name).touch()
+    text = "\n".join(builder("reference_keys")._drawings("cam", tmp_path))
+    assert re.findall(r"dimensions/([\w.-]+)\)", text) == ["cam.svg", "cam-flat.svg"]
+
+
 def test_names_of_users_become_placeholders(builder):
     collected = builder("collected")
     names = {"A": "BEARING", "slider": "BODY"}
