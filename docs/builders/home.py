@@ -16,7 +16,7 @@ def build(docs: Path, progress: Callable[[str], None]) -> None:
 
 
 def seen_from_docs(text: str) -> str:
-    """A page of the checkout as one of the site: links into `docs` lose that folder, of others the text stays; pictures have to be in it."""
+    """A page of the checkout as one of the site: links into `docs` lose that folder, of others the text stays; pictures must be in it."""
     return SOURCE.sub(_source, LINK.sub(_link, text))
 
 
