@@ -4,20 +4,33 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 
-OUTSIDE = re.compile(r"\]\((?!https?:|#|mailto:)([^)\s]+)\)")
+LINK = re.compile(r"(!?)\[([^\[\]]*)\]\((?!https?:|#|mailto:)([^)\s]+)\)")
+SOURCE = re.compile(r"\b(src|href)=\"(?!https?:|#|mailto:)([^\"]+)\"")
+ROOM = "docs/"
 
 
 def build(docs: Path, progress: Callable[[str], None]) -> None:
     """Write docs/index.md."""
     text = (docs.parent / "README.md").read_text(encoding="utf-8")
-    (docs / "index.md").write_text(OUTSIDE.sub(_seen_from_docs, text), encoding="utf-8")
+    (docs / "index.md").write_text(seen_from_docs(text), encoding="utf-8")
 
 
-def _seen_from_docs(link: re.Match[str]) -> str:
-    """A link of README.md: one into `docs` loses that folder; the site has no page for any other file, so only its text stays."""
-    target = link.group(1)
-    if not target.startswith("docs/"):
-        raise ValueError(
-            f"README.md links to {target}, which is outside of docs/ and so not on the site; name the file in backticks instead"
-        )
-    return f"]({target.removeprefix('docs/')})"
+def seen_from_docs(text: str) -> str:
+    """A page of the checkout as one of the site: links into `docs` lose that folder, of others the text stays; pictures must be in it."""
+    return SOURCE.sub(_source, LINK.sub(_link, text))
+
+
+def _link(link: re.Match[str]) -> str:
+    picture, text, target = link.groups()
+    if target.startswith(ROOM):
+        return f"{picture}[{text}]({target.removeprefix(ROOM)})"
+    if picture:
+        raise ValueError(f"README.md shows {target}: a picture of the home page has to be in {ROOM}")
+    return text
+
+
+def _source(attribute: re.Match[str]) -> str:
+    name, target = attribute.groups()
+    if name == "src" and not target.startswith(ROOM):
+        raise ValueError(f"README.md shows {target}: a picture of the home page has to be in {ROOM}")
+    return f'{name}="{target.removeprefix(ROOM)}"'

@@ -42,7 +42,7 @@ def build(docs: Path, progress: Callable[[str], None], full: bool = False) -> No
         if page := found[paper].page:
             _copy_page(page, docs / "papers" / paper.name)
     lines = ["# Papers", "", "Published papers, each as a page in its own order: `drivewright reproduce NAME` writes it.", ""]
-    lines += [f"| paper | page | {' | '.join(VERDICTS)} |", f"|---|---|{'---:|' * len(VERDICTS)}"]
+    lines += [f"| name | paper | {' | '.join(VERDICTS)} |", f"|---|---|{'---:|' * len(VERDICTS)}"]
     lines += [_row(paper, each, docs) for paper, each in found.items()]
     lines += ["", "Counted are printed numbers and claims, each by the best of its readings;"]
     lines += ["what is calibrated or from the print alone is not compared."]
@@ -91,7 +91,8 @@ def _row(paper: Paper, found: Found, docs: Path) -> str:
     number = counts(found.rows) if found.page else dict.fromkeys(VERDICTS, "-")
     files = {"page": FILES[0], "PDF": FILES[2]} if found.page else {}
     links = [f"[{name}](papers/{paper.name}/{file})" for name, file in files.items() if (docs / "papers" / paper.name / file).is_file()]
-    return f"| {paper.title} (`{paper.name}`) | {', '.join(links) or '-'} | {' | '.join(str(number[verdict]) for verdict in VERDICTS)} |"
+    title = ": ".join(filter(None, [paper.title, ", ".join(links)]))
+    return f"| `{paper.name}` | {title} | {' | '.join(str(number[verdict]) for verdict in VERDICTS)} |"
 
 
 def _remarks(states: dict[str, str]) -> list[str]:

@@ -41,11 +41,15 @@ def _page(kind: str, docs: Path) -> Iterator[str]:
 
 
 def _drawings(kind: str, docs: Path) -> Iterator[str]:
-    """The dimension drawings of a kind, where there are any: what its main keys measure."""
-    found = sorted((docs / "img" / "dimensions").glob(f"{kind}*.svg"))
-    for drawing in found:
-        variant = drawing.stem.removeprefix(kind).strip("-").replace("-", " ").replace("_", " ")
-        yield from (f"![What the main keys measure{', ' + variant if variant else ''}](../img/dimensions/{drawing.name})", "")
+    """The dimension drawings of a kind, where there are any: what its main keys measure; those of further presets are folded."""
+    first, *others = [*(docs / "img" / "dimensions").glob(f"{kind}.svg"), *sorted((docs / "img" / "dimensions").glob(f"{kind}-*.svg"))] or [
+        None
+    ]
+    if first:
+        yield from (f"![What the main keys measure](../img/dimensions/{first.name})", "")
+    for drawing in others:
+        variant = drawing.stem.removeprefix(f"{kind}-").replace("-", " ")
+        yield from (f'??? note "What the keys measure, {variant}"', "", f"    ![{variant}](../img/dimensions/{drawing.name})", "")
 
 
 def _shared_page() -> Iterator[str]:

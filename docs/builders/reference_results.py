@@ -12,6 +12,7 @@ from drivewright.view.text import unit_text
 NAMES = (
     "Upper-case words stand for the names that a spec gives (`bearings.BEARING.reaction` is `bearings.A.reaction`), N for a running number;"
 )
+LIMITS = {"<=": "at most the limit", ">=": "at least the limit"}
 
 
 def build(docs: Path, progress: Callable[[str], None]) -> None:
@@ -28,7 +29,7 @@ def _page(kind: str, collected: Collected) -> Iterator[str]:
     yield 'What `result["NAME"]`, `result.check("NAME")` and `result.table("NAME")` give, and `result.json` and `tables/` hold.'
     yield "All numbers are in SI."
     yield from ("", f"Collected by running the examples {names} with their default analyses.")
-    yield f"{NAMES} label and meaning are those of the first example that has the name. A design has those that concern it."
+    yield f"{NAMES} the meaning is that of the first example that has the name. A design has those that concern it."
     yield from ("", "## Analyses", *_analyses(analyses))
     for analysis in analyses:
         yield from _section(analysis, collected[analysis.name])
@@ -54,22 +55,16 @@ def _section(analysis: Analysis, found: Found) -> Iterator[str]:
         return
     yield from ("", f"## {analysis.name}", "", sentence(analysis.meaning))
     yield from table(
-        ("value", "label", "meaning", "unit", "sign, zero or sense"),
+        ("value", "meaning", "unit", "sign, zero or sense"),
         (
-            (code(name), cell(row.label), cell(sentence(row.meaning)), unit_text(row.unit), cell(sentence(row.convention)))
+            (code(name), cell(_meaning(row.label, row.meaning)), unit_text(row.unit), cell(sentence(row.convention)))
             for name, row in found.values.items()
         ),
     )
     yield from table(
-        ("check", "label", "passes where the value is", "unit", "message"),
+        ("check", "message", "passes where the value is", "unit"),
         (
-            (
-                code(name),
-                cell(row.label),
-                "at most the limit" if row.sense == "<=" else "at least the limit",
-                unit_text(row.unit),
-                cell(row.message),
-            )
+            (code(name), cell(_meaning(row.label, row.message)), LIMITS[row.sense], unit_text(row.unit))
             for name, row in found.checks.items()
         ),
     )
@@ -80,9 +75,15 @@ def _section(analysis: Analysis, found: Found) -> Iterator[str]:
 def _columns(name: str, title: str, found: Found) -> Iterator[str]:
     """The columns of one table, folded."""
     rows = [
-        (code(column), cell(row.label), cell(sentence(row.meaning)), unit_text(row.unit))
+        (code(column), cell(_meaning(row.label, row.meaning)), unit_text(row.unit))
         for (place, column), row in found.columns.items()
         if place == name
     ]
     yield from ("", f'??? note "Table {name}: {title.replace(chr(34), chr(39))}"', "")
-    yield from (f"    {line}" if line else "" for line in table(("column", "label", "meaning", "unit"), rows))
+    yield from (f"    {line}" if line else "" for line in table(("column", "meaning", "unit"), rows))
+
+
+def _meaning(label: str, meaning: str) -> str:
+    """Label and meaning in one: the label alone where the meaning begins with it."""
+    text = sentence(meaning)
+    return text if text.lower().startswith(label.lower()) else f"{label}: {meaning.strip()}"

@@ -60,6 +60,7 @@ def test_formulas_are_marked_and_their_typesetter_is_there(site):
         '<script src="https://cdn.example/x.js"></script>',
         '<link rel="stylesheet" href="//cdn.example/x.css">',
         '<img src="http://example.org/x.png">',
+        '<img src="not-there.png">',
         "<p style=\"background: url('https://example.org/x.png')\">",
     ],
 )
