@@ -102,13 +102,21 @@ def page(template: str, values: Mapping[str, Any], templates: Mapping[str, str] 
     own = {name: text for name, text in (templates or {}).items() if name.endswith(".css")}
     look = own.pop("report.css", _text("templates/report.css")) + _text("player.css") + "".join(own.values())
     language = values.get("language", "en")
-    filled = {"letterhead": NO_LETTERHEAD, **values, **more, "colours": style_sheet(), "style": look, "script": scripts()}
+    style = look + _page_numbers(language)
+    filled = {"letterhead": NO_LETTERHEAD, **values, **more, "colours": style_sheet(), "style": style, "script": scripts()}
     if not templates:
         return environment(language).get_template(template).render(**filled)
     try:
         return _environment_of(language, templates).get_template(template).render(**filled)
     except Exception as error:  # whatever a template of a user does wrong
         raise InputError(f"report.templates: {_place(error)}{type(error).__name__}: {error}; correct the template") from error
+
+
+def _page_numbers(language: str) -> str:
+    """The rule that puts "page 3 of 9" below every page on paper."""
+    before, between, behind = words_of(language)("page * of *").split("*")
+    content = f'"{before}" counter(page) "{between}" counter(pages) "{behind}"'
+    return f"@page {{ @bottom-right {{ content: {content}; font: 8pt sans-serif; color: #666; }} }}\n"
 
 
 def _place(error: Exception) -> str:

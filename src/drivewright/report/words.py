@@ -14,7 +14,8 @@ from typing import Any, NamedTuple
 from drivewright import registry
 from drivewright.labels import key_in_words
 
-PARTED = re.compile(r"(?s)(.+?)(\s\[[^\]]*\]|\s[×x]\s?[\d.]+)")  # a text with its unit, or its factor, behind it
+# A text with its unit, its factor or its value behind it: "lift [mm]", "deflection × 20", "cam angle 90°".
+PARTED = re.compile(r"(?s)(.+?)(\s\[[^\]]*\]|\s[×x]\s?[\d.]+|\s[−-]?\d[\d.]*\s?(?:°|[a-zA-Zµ/·²³]{1,8})?)")
 SENTENCES = re.compile(r"(?<=[a-z)])(: |; |\. )(?=[A-Za-z'])")  # where a text of several sentences is parted
 TEXTS = ("title", "label", "meaning", "convention", "message", "undecided", "hint", "text", "axes")  # keys of content that hold words
 TYPED = "--only "  # what stands behind it is typed as it is
