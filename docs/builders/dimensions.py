@@ -1,11 +1,11 @@
-"""Drawings of what the main keys of each kind measure: docs/img/dimensions/NAME.svg, and the page that shows them."""
+"""Drawings of what the main keys of each kind measure: in the folder of the kind, for the studio, and in docs/img/dimensions."""
 
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 from drivewright import registry
-from drivewright.report.dimension_drawings import dimension_figure
-from drivewright.view.style import svg
+from drivewright.report.dimension_drawings import write_drawings
 
 
 def build(docs: Path, progress: Callable[[str], None]) -> None:
@@ -15,10 +15,9 @@ def build(docs: Path, progress: Callable[[str], None]) -> None:
     lines = ["# What the keys measure", "", "Drawn from the presets of each kind, to scale; a test compares every length with its key."]
     for kind in registry.kinds():
         lines += ["", f"## {kind}"]
-        for sheet in registry.mechanism(kind).dimensions:
-            progress(f"dimensions: {sheet.name}")
-            (folder / f"{sheet.name}.svg").write_text(svg(dimension_figure(kind, sheet)), encoding="utf-8")
-            lines += ["", f"![{sheet.title}](img/dimensions/{sheet.name}.svg)"]
+        for sheet, path in zip(registry.mechanism(kind).dimensions, write_drawings(kind, progress), strict=True):
+            shutil.copyfile(path, folder / path.name)
+            lines += ["", f"![{sheet.title}](img/dimensions/{path.name})"]
     (docs / "dimensions.md").write_text("\n".join([*lines, ""]), encoding="utf-8")
 
 

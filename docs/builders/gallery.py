@@ -1,11 +1,12 @@
-"""The gallery: pictures of the worked examples where a spec has changed, and the page that shows them."""
+"""The gallery: pictures of worked examples and presets where a spec has changed, and the page that shows them."""
 
 import shutil
 from collections.abc import Callable
 from pathlib import Path
 
+from drivewright import registry
 from drivewright.report.gallery import gallery_markdown
-from drivewright.report.thumbnails import remake
+from drivewright.report.thumbnails import remake, remake_presets
 
 PICTURES = "gallery"  # beside the page
 
@@ -13,6 +14,8 @@ PICTURES = "gallery"  # beside the page
 def build(docs: Path, progress: Callable[[str], None]) -> None:
     """Write docs/gallery.md and docs/gallery/*.webp."""
     remake(progress=progress)
+    for kind in registry.kinds():
+        remake_presets(kind, progress)
     shutil.rmtree(docs / PICTURES, ignore_errors=True)
     (docs / PICTURES).mkdir()
 
