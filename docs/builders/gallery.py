@@ -20,9 +20,9 @@ def build(docs: Path, progress: Callable[[str], None]) -> None:
     (docs / PICTURES).mkdir()
 
     def link(picture: Path) -> str:
-        """The address of a picture from the page, which the site puts into a folder of its own name."""
+        """The address of a picture from the page."""
         shutil.copyfile(picture, docs / PICTURES / picture.name)
-        return picture.name
+        return f"{PICTURES}/{picture.name}"
 
     (docs / "gallery.md").write_text(gallery_markdown(link), encoding="utf-8")
     progress("gallery: page written")

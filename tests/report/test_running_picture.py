@@ -29,6 +29,10 @@ def test_the_file_is_small_and_runs_endlessly(module):
     assert film.n_frames == module.FRAMES * len(module.ACTS) and film.info["loop"] == 0
 
 
+def test_it_was_made_from_the_specs_as_they_stand(module):
+    assert (ROOT / "docs" / "img" / module.MADE).read_text() == module.digests(), "python docs/builders/moving.py makes it again"
+
+
 def test_the_turn_closes(module, acts):
     for act in acts:
         ends = [np.asarray(module.image(module.picture(act, phase)), int) for phase in (0.0, 1.0)]
