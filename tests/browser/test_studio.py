@@ -135,6 +135,20 @@ def test_another_design_begins_with_nothing_of_the_one_before(studio, tab):
     drawn(page)
 
 
+def test_a_new_design_starts_from_a_picture(studio, tab):
+    page = tab(studio[0])
+    page.get_by_test_id("new").click()
+    cards = page.locator(".st-card")
+    until(page, "[...document.querySelectorAll('.st-card img')].slice(0, 6).every(image => image.complete && image.naturalWidth === 480)")
+    assert cards.count() == page.locator(".st-card img").count() > 40
+    page.get_by_test_id("example-oscillating_cam").click()  # it has a data file
+    until(page, f"{STATE}.design.name === 'oscillating_cam' && !document.querySelector('.st-popover')")
+    drawn(page)
+    page.get_by_test_id("keys").click()
+    until(page, "[...document.querySelectorAll('.st-drawing img')].some(image => image.complete && image.naturalWidth > 300)")
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+
+
 def test_cancelled_analyses_can_be_begun_again(studio, tab):
     page = tab(shared(studio[0], "hyvo_chain"))
     analysed(page)

@@ -5,10 +5,11 @@ from itertools import combinations
 
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from places import ROOT
 
 from drivewright import registry
 from drivewright.dimensions import Angle, DimensionSheet, Length
-from drivewright.report.dimension_drawings import dimension_figure, measured
+from drivewright.report.dimension_drawings import dimension_figure, drawing_files, measured
 from drivewright.spec.fields import dimension_at, value_at
 from drivewright.view.dimensions import spread
 from drivewright.view.style import styled
@@ -33,6 +34,16 @@ def test_each_length_is_that_of_its_key(kind, sheet):
         known, dimension = dimension_at(registry.mechanism(kind).spec, each.key)
         wanted = "angle" if isinstance(each, Angle) else "length"
         assert known and dimension is not None and wanted in dimension.name, f"{each.key}: {dimension}"
+
+
+@EVERY
+def test_the_drawing_that_is_kept_names_all_keys(kind, sheet):
+    path = drawing_files(kind).get(sheet.name)
+    again = "python docs/builders/dimensions.py draws them again"
+    assert path is not None, again
+    text = path.read_text()
+    assert [each.key for each in measured(kind, sheet).dimensions if each.key not in text] == [], again
+    assert (ROOT / "docs" / "img" / "dimensions" / path.name).read_bytes() == path.read_bytes(), again
 
 
 def test_a_wrong_length_is_noticed():

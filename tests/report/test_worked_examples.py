@@ -8,10 +8,22 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from drivewright import registry
 from drivewright.report import worked_examples
 from drivewright.report.gallery import gallery_markdown, write_gallery
 from drivewright.report.thumbnails import MOVING_BUDGET, SIZE, STILL_BUDGET
-from drivewright.report.worked_examples import cards, digest, examples, folder, outdated, picture_settings, pictures, question_words
+from drivewright.report.worked_examples import (
+    cards,
+    digest,
+    examples,
+    folder,
+    outdated,
+    outdated_presets,
+    picture_settings,
+    pictures,
+    preset_pictures,
+    question_words,
+)
 
 pytestmark = pytest.mark.interface
 
@@ -21,6 +33,13 @@ NAMES = sorted(examples())
 
 def test_every_picture_was_made_from_the_spec_as_it_stands():
     assert outdated() == [], f"pictures of other specs, or none: {AGAIN}"
+
+
+@pytest.mark.parametrize("kind", registry.kinds())
+def test_every_preset_has_a_picture_of_the_spec_as_it_stands(kind):
+    assert outdated_presets(kind) == [], f"pictures of other specs, or none: {AGAIN}"
+    for path in preset_pictures(kind).values():
+        assert path.stat().st_size < STILL_BUDGET and Image.open(path).size == SIZE
 
 
 def test_a_changed_spec_is_noticed(tmp_path, monkeypatch):
@@ -36,7 +55,7 @@ def test_a_changed_spec_is_noticed(tmp_path, monkeypatch):
     changed.write_text(path.read_text())
     (tmp_path / "lift.csv").write_text(f"{(folder() / 'lift.csv').read_text()}\n")
     assert digest(changed) != digest(path), "its data file is another one"
-    monkeypatch.setattr(worked_examples, "made_from", dict)
+    monkeypatch.setattr(worked_examples, "made_from", lambda place: {})
     assert outdated() == NAMES
 
 

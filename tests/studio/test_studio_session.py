@@ -12,6 +12,7 @@ import pytest
 from places import EXAMPLES
 
 from drivewright.errors import InputError, SpecError
+from drivewright.studio.app import _files as served_files
 from drivewright.studio.jobs import JOBS
 from drivewright.studio.resources import KEPT, MOST_OFFERS, ServerResources
 from drivewright.studio.session import LARGEST, MOST_FILES, Session, first_design, opened, packed, unpacked
@@ -229,6 +230,27 @@ def test_another_drive_has_no_files(tab):
     assert only(tab.say("fresh", kind=kind), "design")[0]["files"] == ""
 
 
+def test_a_worked_example_brings_copies_of_its_data_files(tab):
+    (design,) = only(tab.say("example", name="oscillating_cam"), "design")
+    assert design["name"] == "oscillating_cam" and design["files"] and '"lift.csv"' in design["toml"]
+    other = Tab(tab.session.start, tab.session.resources)
+    other.say("hello", saved=design["toml"], files=design["files"])  # and is there after a reload
+    assert other.toml == design["toml"]
+    assert str(EXAMPLES) not in json.dumps(design)
+
+
+def test_what_is_offered_to_begin_with_has_its_pictures(tab):
+    (start,) = only(tab.say("hello"), "start")
+    served = served_files()
+    for kind in start["kinds"]:
+        assert set(kind["pictures"]) == set(kind["presets"]) and kind["examples"] and kind["drawings"]
+        assert all(f"preset.{kind['kind']}.{name}.webp" in served for name in kind["pictures"])
+        assert all(f"drawing.{sheet['name']}.svg" in served for sheet in kind["drawings"])
+        for example in kind["examples"]:
+            assert f"example.{example['name']}.webp" in served
+            assert (f"example.{example['name']}.moving.webp" in served) == example["moving"]
+
+
 def test_only_some_files_are_looked_at(tab):
     spec = {"name": "a.toml", "text": (EXAMPLES / "four_bar.toml").read_text(encoding="utf-8")}
     others = [{"name": f"{n}.csv", "text": ""} for n in range(MOST_FILES)]
@@ -306,6 +328,10 @@ def test_what_is_no_request_is_nothing(tab, message):
         {"what": "open", "files": [{"name": "x" * 300 + "/../" + "y" * 400 + ".toml", "text": "format = 1"}]},
         {"what": "put", "table": "x.y"},
         {"what": "fresh", "kind": "../x"},
+        {"what": "example", "name": "../oscillating_cam"},
+        {"what": "example", "name": "/etc/passwd"},
+        {"what": "example", "name": ["disc_cam"]},
+        {"what": "example"},
     ],
 )
 def test_an_odd_request_is_answered_and_changes_nothing(tab, message):

@@ -7,7 +7,7 @@ from typing import Any
 
 from drivewright.atomic import write_text
 from drivewright.report.content import program
-from drivewright.report.html import HERE, environment, page
+from drivewright.report.html import environment, page, template_text
 from drivewright.report.worked_examples import Card, cards, examples, question_words
 
 
@@ -33,8 +33,8 @@ def _filled(shown: Iterable[Card], address: Callable[[Path], str]) -> dict[str, 
         "cards": [_card(card, known[card.name], address) for card in shown],
         "kinds": sorted({card.kind for card in shown}),
         "questions": {tag: words for tag, words in question_words().items() if tag in asked},
-        "gallery_style": (HERE / "gallery.css").read_text(encoding="utf-8"),
-        "gallery_script": (HERE / "gallery.js").read_text(encoding="utf-8"),
+        "gallery_style": template_text("gallery.css"),
+        "gallery_script": template_text("gallery.js"),
     }
 
 

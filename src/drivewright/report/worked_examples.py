@@ -2,6 +2,7 @@
 
 They are packed into the wheel; in a checkout they lie beside the sources.  `gallery/` among them holds `gallery.toml` (questions of each
 example, how its picture is drawn), the pictures NAME.webp and NAME.moving.webp, and `made.toml`: the digest of the spec each was made from.
+Presets have such pictures in `presets/pictures` of their kind.
 """
 
 import hashlib
@@ -11,11 +12,13 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from drivewright import registry
 from drivewright.spec import load, read_document
 
 PACKED = Path(__file__).parent.parent / "examples"
 CHECKOUT = Path(__file__).parents[3] / "examples"
 GALLERY, CARDS, MADE = "gallery", "gallery.toml", "made.toml"
+PICTURES = "pictures"  # folder in that of the presets of a kind
 
 
 class Card(NamedTuple):
@@ -80,6 +83,12 @@ def pictures(name: str) -> tuple[Path, Path]:
     return place / f"{name}.webp", place / f"{name}.moving.webp"
 
 
+def preset_pictures(kind: str) -> dict[str, Path]:
+    """Preset -> path of its picture, of those that have one; a package that brings a kind may leave them out."""
+    place = registry.mechanism(kind).folder / "presets" / PICTURES
+    return {name: place / f"{name}.webp" for name in registry.mechanism(kind).presets() if (place / f"{name}.webp").is_file()}
+
+
 def question_words() -> dict[str, str]:
     """Tag -> words of every question."""
     return dict(_settings()["questions"])
@@ -97,7 +106,8 @@ def _settings() -> dict[str, Any]:
 
 def digest(path: Path) -> str:
     """SHA-256 of what a spec says, comments and order apart, of its data files, and of how its picture is drawn."""
-    drawn = {key: value for key, value in picture_settings(path.stem).items() if key != "questions"}
+    own = picture_settings(path.stem) if path.parent == folder() else {}
+    drawn = {key: value for key, value in own.items() if key != "questions"}
     tables = {key: value for key, value in read_document(path).items() if key not in ("title", "optimise")}
     sums = [hashlib.sha256(file.read_bytes()).hexdigest() for file in load(path).data_files()]
     return hashlib.sha256(json.dumps([tables, drawn, sums], sort_keys=True, default=str).encode()).hexdigest()
@@ -105,11 +115,18 @@ def digest(path: Path) -> str:
 
 def outdated() -> list[str]:
     """Names of the examples whose picture is missing or was made from another spec."""
-    made = made_from()
+    made = made_from(folder() / GALLERY)
     return [name for name, path in examples().items() if made.get(name) != digest(path) or not pictures(name)[0].is_file()]
 
 
-def made_from() -> dict[str, str]:
-    """Name -> digest of the spec that the pictures of an example were made from."""
-    file = folder() / GALLERY / MADE
+def outdated_presets(kind: str) -> list[str]:
+    """The same of the presets of a kind."""
+    mechanism, pictured = registry.mechanism(kind), preset_pictures(kind)
+    made = made_from(mechanism.folder / "presets" / PICTURES)
+    return [name for name, path in mechanism.presets().items() if made.get(name) != digest(path) or name not in pictured]
+
+
+def made_from(place: Path) -> dict[str, str]:
+    """Name -> digest of the spec that the pictures in a folder were made from."""
+    file = place / MADE
     return tomllib.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}

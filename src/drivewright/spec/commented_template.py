@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
 
 WIDTH, MAX_CODE_WIDTH = 118, 44  # of a line; of the part before the comment, where comments still stand in one column
+DRAWN = "# What the main keys measure is drawn in the studio, behind the ruler: drivewright studio FILE."
 ANY_UNIT = "number or quantity"
 KINDS = {bool: "true or false", int: "whole number", float: "number", str: "text", Path: "file"}
 
@@ -32,6 +33,7 @@ def template(kind: str, preset: str | None = None) -> str:
         '# Every key is here.  "#key = value" is left at its default, or out: take the # away to change it.',
         '# A quantity is text with a unit, e.g. "9.5 mm", "2000 rpm", "3e7 N/m".  [...] says what is allowed,',
         '# and "default" where the value shown is the one taken when the key is left out.',
+        *([DRAWN] if mechanism.dimensions else []),
         "",
     ]
     return "\n".join(intro + _lines(mechanism.spec, given, samples=shared_table_samples(mechanism, given))) + "\n"

@@ -17,13 +17,15 @@ from urllib.parse import quote
 
 from drivewright import registry
 from drivewright.errors import InputError, MissingExtra
+from drivewright.report.dimension_drawings import drawing_files
 from drivewright.report.html import MODULES
+from drivewright.report.worked_examples import cards, preset_pictures
 from drivewright.studio import preview, translations
 from drivewright.studio.access import LEAST_TOKEN, LOOPBACK, AccessControl
 from drivewright.studio.design import Design
 from drivewright.studio.page_policy import PagePolicy
 from drivewright.studio.resources import ServerResources
-from drivewright.studio.session import Session
+from drivewright.studio.session import Session, offered
 from drivewright.studio.tabs import Tabs
 from drivewright.view.palette import style_sheet
 
@@ -33,7 +35,7 @@ if TYPE_CHECKING:
 HERE = Path(__file__).parent
 PLAYER = HERE.parent / "report"
 SHARED = (*MODULES, "player.css")  # with the report
-TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
+TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".webp": "image/webp"}
 SAFE = {"X-Content-Type-Options": "nosniff", "Cache-Control": "no-cache"}
 PORT = 8123
 EVERY = ("0.0.0.0", "::")  # all addresses of this machine
@@ -194,9 +196,19 @@ def _element():
 
 @cache
 def _files():
-    """Name -> (bytes, type) of what the page fetches: the modules and styles of the studio and of the report's player."""
+    """Name -> (bytes, type) of what the page fetches: modules and styles of the studio and of the report's player, pictures of designs."""
     own = [path for path in sorted((HERE / "web").iterdir()) if path.suffix in TYPES]
-    return {path.name: (path.read_bytes(), TYPES[path.suffix]) for path in [*(PLAYER / name for name in SHARED), *own]}
+    named = {path.name: path for path in [*(PLAYER / name for name in SHARED), *own]} | dict(_pictures())
+    return {name: (path.read_bytes(), TYPES[path.suffix]) for name, path in named.items()}
+
+
+def _pictures():
+    """(name, path) of the pictures of presets and examples, and of the drawings of what keys measure."""
+    for kind in registry.kinds():
+        yield from ((f"preset.{kind}.{name}.webp", path) for name, path in preset_pictures(kind).items())
+        yield from ((f"drawing.{name}.svg", path) for name, path in drawing_files(kind).items())
+    for card in cards():
+        yield from ((f"example.{path.name}", path) for path in (card.still, card.moving) if path and path.is_file())
 
 
 async def _warmed(resources):
@@ -210,6 +222,8 @@ async def _warmed(resources):
         preview.warm(lambda message: None)
         for kind in (None, *registry.kinds()):
             translations.texts(kind)
+        offered()
+        _files()
 
     await asyncio.gather(
         asyncio.to_thread(load),

@@ -11,7 +11,8 @@ from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 from drivewright.errors import DrivewrightError, InputError, brief
-from drivewright.spec import parse_document
+from drivewright.report.worked_examples import examples
+from drivewright.spec import load, parse_document
 from drivewright.studio import translations
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document
@@ -110,6 +111,14 @@ def preset_design(send: object, kind: str, name: str | None) -> Design:
     """The design of a preset."""
     with in_words():
         return preset(kind, name)
+
+
+def example_files(send: object, name: str) -> list[dict[str, str]]:
+    """A worked example and its data files as a page would send them: [{name, text}]; InputError where no example has that name."""
+    path = examples().get(name)
+    if path is None:
+        raise InputError(f"there is no example {brief(name)}")
+    return [{"name": file.name, "text": file.read_text(encoding="utf-8")} for file in (path, *load(path).data_files())]
 
 
 def fragment(send: object, design: Design) -> str:

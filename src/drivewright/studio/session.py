@@ -6,13 +6,16 @@ after another, and whatever reads or changes a design does so in a worker proces
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError, InputError, SpecError, brief
 from drivewright.execution.workers import WorkerDied, WorkerFault
+from drivewright.report.dimension_drawings import drawing_files
 from drivewright.report.folder import file_name
+from drivewright.report.worked_examples import cards, preset_pictures
 from drivewright.studio import editing, translations
 from drivewright.studio.computations import Message, TabComputations
 from drivewright.studio.design import Design
@@ -113,7 +116,7 @@ class Session:
 
     async def hello(self, saved: str = "", shared: str = "", files: str = "") -> None:
         """A page begins: with what it had before a reload, with the design in its address, or with the start."""
-        self.send({"what": "start", "kinds": _kinds(), "words": translations.texts(None)})
+        self.send({"what": "start", "kinds": offered(), "words": translations.texts(None)})
         trouble = None
         if shared or saved:
             try:
@@ -195,6 +198,10 @@ class Session:
     async def fresh(self, kind: str, preset: str | None = None) -> None:
         """Another drive."""
         self._open(await self._call(editing.begin_preset, str(kind), preset and str(preset)), "")
+
+    async def example(self, name: str) -> None:
+        """A worked example, with copies of its data files."""
+        await self.open(await self._call(editing.example_files, str(name)))
 
     async def open(self, files: Sequence[Mapping[str, str]]) -> None:
         """A spec with its data files, as text."""
@@ -319,7 +326,9 @@ class Session:
 
 TAKE_LOCKS = ("sensitivity", "optimise")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
-WORDS = "hello again set unset add drop put take undo redo lock text load preset fresh open share reference pin job export save analyse"
+WORDS = (
+    "hello again set unset add drop put take undo redo lock text load preset fresh example open share reference pin job export save analyse"
+)
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 
 
@@ -335,5 +344,25 @@ def _presets(kind):
     return sorted(registry.mechanism(kind).presets(), key=lambda name: (name != "default", name))
 
 
-def _kinds():
-    return [{"kind": kind, "summary": registry.mechanism(kind).summary, "presets": _presets(kind)} for kind in registry.kinds()]
+def offered() -> list[dict[str, Any]]:
+    """What the page offers to start with: kinds with their presets and worked examples, and which of these have pictures."""
+    return _offered(tuple(registry.kinds()))
+
+
+@cache
+def _offered(kinds):
+    return [
+        {
+            "kind": kind,
+            "summary": registry.mechanism(kind).summary,
+            "presets": _presets(kind),
+            "pictures": sorted(preset_pictures(kind)),
+            "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
+            "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],
+        }
+        for kind in kinds
+    ]
+
+
+def _drawn_sheets(kind):
+    return [sheet for sheet in registry.mechanism(kind).dimensions if sheet.name in drawing_files(kind)]

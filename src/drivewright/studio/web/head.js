@@ -1,5 +1,6 @@
 // The bar at the top: what is open, new drives and presets, undo, files, sharing, comparing, theme and language.
 
+import { createDesigns, drawings, drawingsOf, spoken } from "./designs.js";
 import { acceptFiles } from "./files.js";
 import { icon, mark } from "./icons.js";
 import { createPopovers, pressable, put, themeOf } from "./parts.js";
@@ -7,8 +8,6 @@ import { element } from "./player.js";
 
 const NOTICE = 12000;  // ms that a complaint stays
 
-/** Kind or preset as words. */
-const spoken = name => name.replace(/[-_]/g, " ");
 const alike = (one, other) => spoken(one).toLowerCase() === spoken(other).toLowerCase();
 
 /** Whether the keys belong to a text box that holds something of its own: its undo is then the browser's. */
@@ -29,17 +28,13 @@ const held = (...inside) => element("div", {class: "st-hold"}, ...inside);
 
 // --------------------------------------------------------------------------------------------------------------------- menus
 
-/** What the menus of the bar hold; `fresh(kind, preset)` starts another drive. */
-function createMenus({store, say, t}, popovers, fresh) {
+/** What the menus of the bar hold. */
+function createMenus({store, say, t}, popovers) {
   function item(text, hint, act) {
     const made = pressable({class: "st-item", role: "menuitem"}, () => { popovers.close(true); act(); }, element("span", {}, text));
     if (hint) made.append(element("small", {}, hint));
     return made;
   }
-  const kindItems = ({kind, summary, presets}) => element("div", {class: "st-kind", role: "group", "aria-label": kind},
-    element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
-    element("div", {class: "st-items"}, ...presets.map(preset => item(t(spoken(preset)), "", () => fresh(kind, preset)))));
-  const kinds = () => (store.state.kinds || []).map(kindItems);
   function comparing() {
     const {reference, design} = store.state, presets = design?.presets || [], compare = message => () => say({what: "compare", ...message});
     const pin = item(t(reference ? "Pin this design instead" : "Pin this design"), t("later changes are seen against it"), compare({with: "this"}));
@@ -60,14 +55,15 @@ function createMenus({store, say, t}, popovers, fresh) {
     });
     return [element("p", {class: "st-item-hint"}, t("This address holds the whole design")), element("div", {class: "st-share"}, box, copy)];
   }
-  return {kinds, comparing, sharing};
+  return {comparing, sharing};
 }
 
 // ----------------------------------------------------------------------------------------------------------------------- bar
 
 /** The bar in `host`. */
 export function createHead(host, {store, say, t}) {
-  const popovers = createPopovers(), menus = createMenus({store, say, t}, popovers, fresh), stops = [];
+  const popovers = createPopovers(), menus = createMenus({store, say, t}, popovers), stops = [];
+  const designs = createDesigns({store, t}, {fresh, example, close: () => popovers.close(true)});
   const bar = element("div", {class: "st-bar"}), notice = element("div", {class: "st-notice", role: "alert", hidden: ""});
   const files = acceptFiles({say, t, tell});
   let parts = {}, chosen = "", asked = false, failed = "", hide = 0;
@@ -81,6 +77,7 @@ export function createHead(host, {store, say, t}) {
     hide = setTimeout(() => { notice.hidden = true; }, NOTICE);
   }
   function fresh(kind, preset) { chosen = preset || ""; say({what: "fresh", kind, preset}); }
+  function example(name) { chosen = ""; say({what: "example", name}); }
 
   // ---- its parts
   function presetChoice() {
@@ -99,7 +96,9 @@ export function createHead(host, {store, say, t}) {
     title: element("strong", {class: "st-title"}), kind: element("span", {class: "st-kind-name"}),
     dot: element("span", {class: "st-dot", title: t("not saved yet")}), preset: presetChoice(),
     fresh: button({id: "new", sign: "plus", title: t("New design"), text: t("New"), ...hanging("menu")},
-      made => popovers.toggle(made, "menu", t("New design"), menus.kinds)),
+      made => popovers.toggle(made, "menu", t("New design"), designs)),
+    keys: button({id: "keys", sign: "ruler", title: t("What the keys measure"), ...hanging("dialog")},
+      made => popovers.toggle(made, "dialog", t("What the keys measure"), () => drawings(store))),
     undo: button({id: "undo", sign: "undo", title: `${t("Undo")} (Ctrl+Z)`}, () => say({what: "undo"})),
     redo: button({id: "redo", sign: "redo", title: `${t("Redo")} (Ctrl+Y)`}, () => say({what: "redo"})),
   });
@@ -126,7 +125,7 @@ export function createHead(host, {store, say, t}) {
     popovers.close(false);
     bar.replaceChildren(
       element("div", {class: "st-brand"}, mark(), element("b", {}, "Drivewright")), rule(),
-      element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.preset, rule(), p.undo, p.redo,
+      element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.preset, held(p.keys), rule(), p.undo, p.redo,
       element("i", {class: "st-space"}), held(element("div", {class: "st-split"}, p.compare, p.more)), rule(),
       p.open, p.save, held(p.share), p.report, rule(), p.theme, p.language);
     files.reword();
@@ -146,11 +145,12 @@ export function createHead(host, {store, say, t}) {
   }
   function showDesign() {
     const design = store.state.design;
-    parts.undo.disabled = !design?.undo; parts.redo.disabled = !design?.redo; parts.preset.hidden = !design;
+    parts.undo.disabled = !design?.undo; parts.redo.disabled = !design?.redo; parts.preset.hidden = parts.keys.hidden = !design;
     if (!design) return;
     put(parts.title, t(design.title || spoken(design.kind))); parts.title.title = design.name || "";
     put(parts.kind, alike(design.title || "", design.kind) ? "" : t(spoken(design.kind)));
     parts.dot.classList.toggle("st-shown", Boolean(design.changed));
+    parts.keys.hidden = !drawingsOf(store).length;
     showPresets(design);
   }
   function showReference() {

@@ -1,0 +1,48 @@
+// What a new design can start from: presets and worked examples as cards with pictures; and the drawings of what the keys measure.
+
+import { pressable } from "./parts.js";
+import { element } from "./player.js";
+
+/** Kind or preset as words. */
+export const spoken = name => name.replace(/[-_]/g, " ");
+
+/**
+ * The cards of all kinds; `fresh(kind, preset)` and `example(name)` begin another design, `close()` puts the menu away.
+ * A picture moves while the pointer is on its card, unless the reader wants no motion.
+ */
+export function createDesigns({store, t}, {fresh, example, close}) {
+  const calm = matchMedia("(prefers-reduced-motion: reduce)");
+
+  function picture(still, moving) {
+    const made = element("img", {class: "st-thumb", src: `/web/${still}`, alt: "", loading: "lazy", width: 160, height: 100});
+    const show = on => () => { if (moving && !(on && calm.matches)) made.src = `/web/${on ? moving : still}`; };
+    return {made, start: show(true), stop: show(false)};
+  }
+  function card(text, hint, name, shown, act) {
+    const made = pressable({class: "st-item st-card", role: "menuitem", "data-testid": name}, () => { close(); act(); });
+    if (shown) {
+      made.append(shown.made);
+      for (const event of ["pointerenter", "focus"]) made.addEventListener(event, shown.start);
+      for (const event of ["pointerleave", "blur"]) made.addEventListener(event, shown.stop);
+    }
+    made.append(element("span", {}, text), element("small", {}, hint));
+    return made;
+  }
+  const preset = (kind, pictures) => name => card(t(spoken(name)), t("preset"), `preset-${kind}-${name}`,
+    pictures.includes(name) && picture(`preset.${kind}.${name}.webp`, ""), () => fresh(kind, name));
+  const worked = ({name, title, moving}) => card(t(title), t("worked example"), `example-${name}`,
+    picture(`example.${name}.webp`, moving && `example.${name}.moving.webp`), () => example(name));
+
+  const group = ({kind, summary, presets, pictures = [], examples = []}) =>
+    element("div", {class: "st-kind", role: "group", "aria-label": kind},
+      element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
+      element("div", {class: "st-cards"}, ...presets.map(preset(kind, pictures)), ...examples.map(worked)));
+  return () => (store.state.kinds || []).map(group);
+}
+
+/** The drawings of a kind: [{name, title}], [] where it has none. */
+export const drawingsOf = ({state}) => (state.kinds || []).find(({kind}) => kind === state.design?.kind)?.drawings || [];
+
+/** What the menu of drawings holds. */
+export const drawings = store => drawingsOf(store).map(({name, title}) =>
+  element("figure", {class: "st-drawing"}, element("img", {src: `/web/drawing.${name}.svg`, alt: title, loading: "lazy"})));
