@@ -13,12 +13,13 @@ from builders import tutorials  # noqa: E402
 
 pytestmark = pytest.mark.interface
 PAGES = [page for page in tutorials.pages() if page.parent.name == "how-to"]
-SLOW = frozenset({"worn-pin", "add-friction", "own-bearing", "bearing-by-life", "compare-designs", "intervals"})  # with the others, over a minute
+QUICK = frozenset({"resume-study", "tables-in-excel", "units-and-language", "verify-a-result", "export-for-machining"})
+EVERY_PAGE = [page for folder in tutorials.FOLDERS for page in sorted((tutorials.DOCS / folder).glob("*.md"))]
 IMPORTS = {"sweep-in-python": "pandas"}
 
 
 def parameters():
-    return [pytest.param(page, id=page.stem, marks=[pytest.mark.slow] if page.stem in SLOW else []) for page in PAGES]
+    return [pytest.param(page, id=page.stem, marks=[] if page.stem in QUICK else [pytest.mark.slow]) for page in PAGES]
 
 
 @pytest.mark.parametrize("page", parameters())
@@ -36,7 +37,7 @@ def test_index_lists_every_page(folder):
     assert sorted(listed) == sorted(page.name for page in (tutorials.DOCS / folder).glob("*.md") if page.name != "index.md")
 
 
-@pytest.mark.parametrize("page", [page for folder in tutorials.FOLDERS for page in sorted((tutorials.DOCS / folder).glob("*.md"))], ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", EVERY_PAGE, ids=lambda page: page.stem)
 def test_links_and_pictures_exist(page):
     for target in re.findall(r"\]\(([^)#\s:]+)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
         assert (page.parent / target).exists(), f"{page.name}: no {target}"
