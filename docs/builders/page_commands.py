@@ -7,8 +7,8 @@ A page is Markdown. In its order,
   a command without lines below is run and its output not compared;
 * `<!-- picture: out/my_cam/figures/plot-motion.svg -->` names the file of the run that the next image shows.
 
-Commands are `drivewright`, `python`, `pip`, `cd`, `cat`, `ls`, `mkdir`, `rm`, `cp` and `echo $?`.
-One that ends in "&" runs until the page ends.
+Commands are `drivewright`, `python`, `pip install -e`, `dask`, `cd`, `cat`, `head`, `ls`, `mkdir`, `rm`, `cp` and `echo $?`; one that
+ends in "&" runs until the page ends, and "> FILE" keeps what is printed to stdout.
 A command that fails is an error unless `echo $?` follows it.
 """
 
@@ -35,7 +35,10 @@ PICTURE = re.compile(r"<!-- picture: (?P<source>\S+) -->\s*\n!\[[^\]]*\]\((?P<ta
 TITLE = re.compile(r'title="([^"]+)"')
 NUMBER = re.compile(r"[-+−]?\d[\d,]*(?:\.\d+)?(?:[eE][-+]?\d+)?")
 INTERVAL = re.compile(r"\([^()]*\d[^()]* to [^()]*\d[^()]*\)")
-CHANGING = re.compile(r"\b\d+(\.\d+)? (s|seconds|min)\b|per second|compil|^\s*(\d+%|━)")  # lines that tell a time, or progress
+TIME = r"\d+(\.\d+)? ?(s|min|h)\b"
+CHANGING = re.compile(
+    rf"(\bin|about|evaluations,|left) {TIME}|{TIME} left|per second|compil|^\s*(\d+%|━)"
+)  # lines that tell a time, or progress
 READY = re.compile(r"Scheduler at|Registered to")  # what a process in the background says when it can be used
 PATIENCE = 120.0  # seconds that it may take
 PORT = "8911"  # what pages write; each run takes one that is free
@@ -286,7 +289,6 @@ def _in_this_process(arguments: list[str], folder: Path, separate: bool) -> tupl
 def difference(shown: list[str], printed: list[str]) -> str:
     """The first shown line that the command did not print in this order, or that has other numbers; "" where there is none."""
     rest = _telling(printed)
-    gap = True  # lines before the first shown one may be left out only after "..."
     gap = bool(shown) and shown[0].strip() == ANY_LINES
     for line in _telling(shown):
         if line.strip() == ANY_LINES:
@@ -303,7 +305,7 @@ def difference(shown: list[str], printed: list[str]) -> str:
         if found and not gap:
             return f"printed before {line.strip()!r} and not shown: {rest[0].strip()!r}"
         rest, gap = rest[found + 1 :], False
-    ends_open = not shown or shown[-1].strip() == ANY_LINES
+    ends_open = not (wanted := _telling(shown)) or wanted[-1].strip() == ANY_LINES
     return "" if ends_open or not rest else f"printed and not shown: {rest[0].strip()!r}"
 
 
@@ -321,10 +323,14 @@ def numbers_differ(shown: str, printed: str) -> bool:
     """Whether a number of one line is not that of the other: beyond the last digit shown, 1 %, or its interval."""
     pairs = list(zip(NUMBER.findall(shown), NUMBER.findall(printed), strict=True))
     if INTERVAL.search(shown):
-        values = [[_number(each) for each in side] for side in zip(*pairs, strict=True)]
-        ends = [(side[-2], side[-1]) for side in values]
-        return ends[0][0] > ends[1][1] or ends[1][0] > ends[0][1]
+        return any(_are_apart(*ends) for ends in zip(INTERVAL.findall(shown), INTERVAL.findall(printed), strict=True))
     return not all(_is_near(one, other) for one, other in pairs)
+
+
+def _are_apart(shown: str, printed: str) -> bool:
+    """Whether two intervals, "(8.1 to 10.1)" each, have no number in common."""
+    (low, high), (other_low, other_high) = ([_number(each) for each in NUMBER.findall(text)[:2]] for text in (shown, printed))
+    return low > other_high or other_low > high
 
 
 def _is_near(shown: str, printed: str) -> bool:
@@ -341,9 +347,7 @@ def _number(text: str) -> float:
 
 
 def refreshed(command: Command, printed: list[str]) -> tuple[list[str], list[str]]:
-    """(lines to show, complaints): the shown lines with the numbers of today.
-
-    In the place of "??? PATTERN" the printed lines that have it stand."""
+    """(lines to show, complaints): the shown lines with the numbers of today; for "??? PATTERN" the printed lines that have it."""
     if command.shown and command.shown[0].startswith(UNKNOWN):
         return _chosen([line for line in printed if line.strip()], command.shown[0].removeprefix(UNKNOWN).strip()), []
     lines, complaints, at = [], [], 0

@@ -4,7 +4,7 @@
 and the pictures of today into the pages. Names of pages, or parts of them, run those alone.
 """
 
-import shutil
+import re
 import sys
 import tempfile
 from collections.abc import Callable
@@ -42,11 +42,11 @@ def faults(page: Path, folder: Path) -> list[str]:
     run = PageRun(page, folder)
     found = [f"$ {each.command.text}\n{text}" for each in run.outcomes() if (text := difference(each.command.shown, each.printed))]
     found += run.missing
-    for target, made in run.pictures.items():
+    for target in run.pictures:
         if not (page.parent / target).is_file():
             found.append(f"{target} is not in the tree")
-        if made.stat().st_size > LARGEST_PICTURE:
-            found.append(f"{target} has {made.stat().st_size} bytes")
+        elif (page.parent / target).stat().st_size > LARGEST_PICTURE:
+            found.append(f"{target} has more than {LARGEST_PICTURE} bytes")
     return found
 
 
@@ -60,8 +60,13 @@ def refresh(page: Path, folder: Path) -> list[str]:
     page.write_text(text, encoding="utf-8")
     for target, made in run.pictures.items():
         (page.parent / target).parent.mkdir(exist_ok=True)
-        shutil.copyfile(made, page.parent / target)
+        (page.parent / target).write_bytes(compact(made.read_bytes()))
     return complaints + run.missing
+
+
+def compact(picture: bytes) -> bytes:
+    """An SVG with coordinates of two decimals, a hundredth of a pixel."""
+    return re.sub(rb"(\d\.\d\d)\d+", rb"\1", picture)
 
 
 def notebooks(docs: Path = DOCS) -> list[Path]:
