@@ -204,6 +204,7 @@ def sweep(
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="write the report with its figures")] = True,
 ) -> None:
     """Compute many cases of a spec; the same command again, or with the folder of the study, goes on where it stopped."""
+    from drivewright.cli import long_work
     from drivewright.report.study import write_answers
     from drivewright.studies.answers import analyse_study
     from drivewright.studies.study_reading import SPEC, is_study
@@ -226,7 +227,7 @@ def sweep(
             every_analysis=all_ or None,
             values=_names(values) or None,
         )
-    with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
+    with long_work.counted(spec.name, loaded.mechanism, "cases", workers, on) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-study"
         study = compute(loaded, out=folder, workers=workers, on=on, confirmed=yes, progress=step, retry=retry)
         for notice in study.notices:
@@ -276,11 +277,13 @@ def optimise(
     on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
 ) -> None:
     """Optimise the unknowns of the spec's [optimise] table, exit 4 when nothing feasible was found; the same command again goes on."""
+    from drivewright.cli import long_work
     from drivewright.report.optimised import write_optimised
     from drivewright.studies.optimisation import optimise as search
 
     loaded = _load(spec, set_, units)
-    with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
+    task = long_work.search_text(loaded.optimise) if loaded.optimise else ""
+    with long_work.counted(spec.name, loaded.mechanism, "evaluations", workers, on, task) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-optimised"
         outcome = search(loaded, out=folder, workers=workers, on=on, progress=step)
         folder = write_optimised(outcome, outcome.folder or folder)
