@@ -5,7 +5,9 @@ compared         specs run for a comparison, and what the terminal says of it
 doctor           what is installed, what each extra adds, the kernel cache, a self-test
 gallery          the worked examples: listed, copied, run
 interruption     how the command line ends early
+long_work        how far a command with many cases or evaluations is
 plugin_commands  commands of mechanisms, from plug-ins too
+records          what commands print with --json
 reproduced       reproduced papers: listed, and written with progress
 show             what the command line prints: results to stdout, everything else to stderr
 """

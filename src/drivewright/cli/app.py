@@ -47,6 +47,7 @@ RETRY_HELP = (
     "--vary and [study] the study's own plan counts; or give the folder of the study in place of the spec"
 )
 METHOD_HELP = "latin-hypercube, sobol, random, corners, one-at-a-time, tolerance, sobol-indices"
+JsonOption = Annotated[bool, typer.Option("--json", help="print JSON to stdout in place of tables; numbers in SI")]
 StrictOption = Annotated[bool, typer.Option("--strict", help="exit 3 when a design check fails")]
 
 
@@ -152,10 +153,12 @@ def compare(
     only: OnlyOption = "",
     units: UnitsOption = None,
     labels: Annotated[str, typer.Option("--labels", help="name of each design, comma separated; the titles unless given")] = "",
+    as_json: JsonOption = False,
 ) -> None:
     """Run designs of one kind and write one page of them."""
     from drivewright import runner
     from drivewright.cli import compared
+    from drivewright.cli.records import print_json
     from drivewright.report.comparison import check_count, check_kinds
     from drivewright.report.comparison import compare as side_by_side
     from drivewright.report.comparison_page import refuse_foreign, write_comparison
@@ -173,7 +176,10 @@ def compare(
         with show.located(folder):
             write_comparison(comparison, [seen for _, seen in designs], folder, compute)
     show.note(f"wrote {folder}/")
-    compared.show_comparison(comparison, bool(set_))
+    if as_json:
+        print_json(comparison.record())
+    else:
+        compared.show_comparison(comparison, bool(set_))
     show.finish_run(comparison.results, _names(only))
 
 
@@ -222,8 +228,10 @@ def sweep(
     yes: Annotated[bool, typer.Option("--yes", help="also a very large number of cases")] = False,
     retry: Annotated[str | None, typer.Option("--retry", help=RETRY_HELP)] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="write the report with its figures")] = True,
+    as_json: JsonOption = False,
 ) -> None:
     """Compute many cases of a spec; the same command again, or with the folder of the study, goes on where it stopped."""
+    from drivewright.cli import long_work, records
     from drivewright.report.study import write_answers
     from drivewright.studies.answers import analyse_study
     from drivewright.studies.study_reading import SPEC, is_study
@@ -246,7 +254,7 @@ def sweep(
             every_analysis=all_ or None,
             values=_names(values) or None,
         )
-    with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
+    with long_work.counted(spec.name, loaded.mechanism, "cases", workers, on) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-study"
         study = compute(loaded, out=folder, workers=workers, on=on, confirmed=yes, progress=step, retry=retry)
         for notice in study.notices:
@@ -257,7 +265,10 @@ def sweep(
         summary = analyse_study(study, rerun=rerun_cases(study)) if figures else None
         if summary:
             show.note(f"wrote {write_answers(study, summary, study.folder or folder)}")
-    show.study(study, summary)
+    if as_json:
+        records.print_json(records.study_record(study, summary))
+    else:
+        show.study(study, summary)
     if not study.answered:
         raise typer.Exit(4)
 
@@ -294,18 +305,24 @@ def optimise(
     units: UnitsOption = None,
     workers: Annotated[int | None, typer.Option("--workers", help="processes on this machine; default: one per core")] = None,
     on: Annotated[str | None, typer.Option("--on", help="local:N or tcp://HOST:PORT (Dask), or serial")] = None,
+    as_json: JsonOption = False,
 ) -> None:
     """Optimise the unknowns of the spec's [optimise] table, exit 4 when nothing feasible was found; the same command again goes on."""
+    from drivewright.cli import long_work, records
     from drivewright.report.optimised import write_optimised
     from drivewright.studies.optimisation import optimise as search
 
     loaded = _load(spec, set_, units)
-    with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
+    task = long_work.search_text(loaded.optimise) if loaded.optimise else ""
+    with long_work.counted(spec.name, loaded.mechanism, "evaluations", workers, on, task) as step, show.located(spec):
         folder = out or Path("out") / f"{spec.stem}-optimised"
         outcome = search(loaded, out=folder, workers=workers, on=on, progress=step)
         folder = write_optimised(outcome, outcome.folder or folder)
     show.note(f"wrote {folder}/ (best.toml, history.parquet, best/)")
-    show.optimised(outcome)
+    if as_json:
+        records.print_json(records.search_record(outcome))
+    else:
+        show.optimised(outcome)
     if outcome.interrupted:
         raise KeyboardInterrupt
     if not outcome.feasible:
@@ -313,15 +330,19 @@ def optimise(
 
 
 @app.command()
-def verify(spec: SpecFile, set_: SetOption = None) -> None:
+def verify(spec: SpecFile, set_: SetOption = None, as_json: JsonOption = False) -> None:
     """Compute the case again on an independent route and print the differences; exit 1 where they are too large, 2 where an extra is
     missing."""
+    from drivewright.cli import records
     from drivewright.studies.verification import verify as compare
 
     with show.located(spec):
         loaded = _load(spec, set_)
         comparison = compare(loaded)
-    show.comparison(comparison, loaded.units)
+    if as_json:
+        records.print_json(records.verification_record(comparison))
+    else:
+        show.comparison(comparison, loaded.units)
     if not all(row.ok for row in comparison):
         raise typer.Exit(1)
     if any(row.extra for row in comparison):
@@ -329,19 +350,24 @@ def verify(spec: SpecFile, set_: SetOption = None) -> None:
 
 
 @app.command()
-def validate(name: Annotated[str | None, typer.Argument(help="a source; default all")] = None) -> None:
+def validate(name: Annotated[str | None, typer.Argument(help="a source; default all")] = None, as_json: JsonOption = False) -> None:
     """Published numbers beside ours, with a verdict each; exit 1 when a pinned verdict changes."""
     from drivewright import validation
+    from drivewright.cli import records
 
     sources = validation.sources(name)
     with show.progress("validate") as step:
         rows = validation.rows_of(sources, step)
     changed, verdicts = 0, Counter()
     for source in sources:
-        show.source(source, rows[source.name])
+        if not as_json:
+            show.source(source, rows[source.name])
         changed += sum(row.verdict != row.pinned for row in rows[source.name])
         verdicts.update(row.verdict for row in rows[source.name])
-    print(", ".join(f"{count} {verdict}" for verdict, count in sorted(verdicts.items())))
+    if as_json:
+        records.print_json(records.validation_record(sources, rows))
+    else:
+        print(", ".join(f"{count} {verdict}" for verdict, count in sorted(verdicts.items())))
     if changed:
         show.note(f"{changed} verdict(s) differ from the pinned ones")
         raise typer.Exit(1)
@@ -392,6 +418,7 @@ def examples(
         bool, typer.Option("--gallery", help="write a page of all examples, with a picture of each, and print its path")
     ] = False,
     out: Annotated[Path, typer.Option("--out", help="folder of the runs, and of the page in gallery/")] = Path("out"),
+    as_json: Annotated[bool, typer.Option("--json", help="print the list as JSON to stdout")] = False,
 ) -> None:
     """List, copy or run the worked examples and studies, or show them on a page."""
     from drivewright.cli import gallery
@@ -411,7 +438,7 @@ def examples(
     elif name:
         show.note("wrote " + ", ".join(str(path) for path in gallery.copy((known | studies)[name], Path("."))))
     else:
-        gallery.listing()
+        gallery.listing(as_json)
 
 
 @app.command()
@@ -423,11 +450,11 @@ def schema(kind: Annotated[str, typer.Argument(help="kind of drive")]) -> None:
 
 
 @app.command()
-def doctor(warm: Annotated[bool, typer.Option("--warm", help="compile every kernel now")] = False) -> None:
+def doctor(warm: Annotated[bool, typer.Option("--warm", help="compile every kernel now")] = False, as_json: JsonOption = False) -> None:
     """What is installed, what each extra adds, the state of the cache, a self-test."""
     from drivewright.cli import doctor as doctor_report
 
-    if not doctor_report.report(warm):
+    if not doctor_report.report(warm, as_json):
         raise typer.Exit(1)
 
 

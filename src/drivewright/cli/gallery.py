@@ -8,14 +8,18 @@ from typing import Any
 from drivewright import registry, runner
 from drivewright._jit.compilation import seconds_of_a_first_run
 from drivewright.cli import show
+from drivewright.cli.records import print_json
 from drivewright.errors import InputError
 from drivewright.report.worked_examples import examples, studies
 from drivewright.result import Result
 from drivewright.spec import load, read_document
 
 
-def listing() -> None:
+def listing(as_json: bool = False) -> None:
     """Print name, kind and title of each."""
+    if as_json:
+        print_json(_records())
+        return
     for title, known in (
         ("worked examples (drivewright examples NAME copies one, --run NAME runs it)", examples()),
         ("worked studies (the same; a copy is run by drivewright sweep)", studies()),
@@ -32,6 +36,16 @@ def show_gallery(out: Path, other: str | None) -> None:
     if other is not None:
         raise InputError("--gallery shows every example; leave the name and --run out")
     print(write_gallery(out / "gallery" / "index.html"))
+
+
+def _records() -> list[dict[str, Any]]:
+    """Name, kind, title and path of every example and study."""
+    known = [(path, False) for path in examples().values()] + [(path, True) for path in studies().values()]
+    tables = [(path, is_study, read_document(path)) for path, is_study in known]
+    return [
+        {"name": path.stem, "mechanism": each.get("mechanism", ""), "title": each.get("title", ""), "study": is_study, "path": str(path)}
+        for path, is_study, each in tables
+    ]
 
 
 def copy(path: Path, folder: Path) -> list[Path]:

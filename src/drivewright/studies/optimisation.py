@@ -140,7 +140,8 @@ def optimise(
     `out` is the folder that keeps every evaluation: the same search given again goes on where it was, or answers from there.  None keeps
     them in memory.  `workers` processes (None: one per core, where the search is long enough), or `on` another place, see
     `execution.executors`; neither changes a bit.  What the mechanism evaluates in compiled code is done here.
-    `progress(done, total, what)` is called as generations end.  Ctrl-C, also from `progress`, gives the best so far, `interrupted`.
+    `progress(done, total, what)` counts the evaluations, of those that all generations could ask for.  Ctrl-C, also from `progress`, gives
+    the best so far, `interrupted`.
     SolverError where no design can be computed.
     """
     problem = prepare(spec)
@@ -166,6 +167,7 @@ def _search(problem, method, evaluator):
     """Search to the end; whether it was interrupted."""
     try:
         with closing(evaluator):
+            evaluator.begin()
             METHODS[method](problem, problem.search, evaluator)
     except KeyboardInterrupt:
         return True

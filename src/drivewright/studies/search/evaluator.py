@@ -17,7 +17,7 @@ from drivewright.execution.evaluation import case_task, evaluate, failed_rows
 from drivewright.execution.executors import InProcessExecutor, make_executors
 from drivewright.studies.search import history
 from drivewright.studies.search.problem import Problem
-from drivewright.studies.search.searching import population_of
+from drivewright.studies.search.searching import most_evaluations, population_of
 from drivewright.studies.store import Store, joined
 
 Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what became of them)
@@ -46,6 +46,7 @@ class Evaluator:
         self.designs = []  # of each generation those that it brought
         self._answers = {}  # design (bytes) -> values, in the order of their numbers
         self._found = _kept(problem, kept)  # number -> (design, values) not asked for yet
+        self._kept_count, self._most = len(self._found), most_evaluations(problem.search)
         self._journal = history.Journal(kept)
         self._compute = compiled(problem) or Runs(problem, workers, on)
 
@@ -77,9 +78,17 @@ class Evaluator:
                 for batch in each:
                     self._keep(batch, generation, designs[batch.first - first :][: len(batch.statuses)])
                     done += len(batch.statuses)
-                    self.progress(min(generation, self.generations), self.generations, f"{done} designs")
+                    self._tell(done)
         self.designs.append(designs)
-        self.progress(min(generation + 1, self.generations), self.generations, f"{done} designs")
+        self._tell(done)
+
+    def begin(self) -> None:
+        """Tell how many designs are known before the search begins."""
+        self._tell(0)
+
+    def _tell(self, done):
+        """How many designs are evaluated, of those that all generations could ask for."""
+        self.progress(max(done, self._kept_count), self._most, f"generation {len(self.designs) + 1}")
 
     def _keep(self, batch, generation, designs):
         values = history.usable(batch.values, batch.statuses)

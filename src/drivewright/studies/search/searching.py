@@ -36,6 +36,19 @@ def population_of(search: Optimise) -> int:
     return search.population or max(16, 8 * len(search.unknowns))
 
 
+def _members(search: Optimise) -> int:
+    """Designs per generation of differential evolution: a multiple of the unknowns, raised to the power of two that Sobol's points want."""
+    least = max(5, max(1, -(-population_of(search) // len(search.unknowns))) * len(search.unknowns))
+    return 1 << (least - 1).bit_length()
+
+
+def most_evaluations(search: Optimise) -> int:
+    """How many designs a search asks for, if it goes through all of its generations."""
+    if method_of(search) == "nsga2":
+        return population_of(search) * search.generations
+    return _members(search) * (search.generations + 1)  # the first population is none of the generations
+
+
 def differential_evolution(problem: Problem, search: Optimise, evaluator: Evaluation) -> None:
     """A whole generation per call, Lampinen's rule for the constraints."""
     from scipy.optimize import NonlinearConstraint, differential_evolution

@@ -1,0 +1,134 @@
+"""How far a study or a search is: what is said before it begins, the pace, and lines where there is no terminal."""
+
+import math
+import time
+import tomllib
+
+import numpy as np
+import pytest
+from places import EXAMPLES
+
+from drivewright.cli import long_work, main
+from drivewright.cli.long_work import Pace, duration, place_text, rate_text, words
+from drivewright.spec import from_document
+from drivewright.studies.search.problem import prepare
+from drivewright.studies.search.searching import METHODS, method_of, most_evaluations
+
+pytestmark = pytest.mark.interface
+
+CAM = (EXAMPLES / "disc_cam.toml").read_text()
+SEARCH = """
+[optimise]
+population = {population}
+generations = 3
+unknowns = [
+  {{ key = "follower.prime_radius", lower = "30 mm", upper = "80 mm" }},
+  {{ key = "follower.roller_radius", lower = "5 mm", upper = "10 mm" }},
+  {{ key = "load.mass", lower = "0.1 kg", upper = "0.2 kg" }},
+]
+objectives = [{{ value = "profile.perimeter" }}]
+"""
+
+
+def paced(*counts, total=41, workers=2, elsewhere=lambda: 0.0):
+    """A pace after counts (time, done)."""
+    times = iter([now for now, _ in counts])
+    pace = Pace(elsewhere, lambda: next(times))
+    pace.workers = workers
+    for _, done in counts:
+        pace.count(done, total)
+    return pace
+
+
+def test_the_first_one_is_shared_by_the_workers_where_the_rest_is_long():
+    assert paced((0, 0)).left is None
+    assert paced((0, 0), (1.0, 1)).left == pytest.approx(40 / 2)
+    assert paced((0, 0), (1.0, 1), total=3).left == pytest.approx(2.0), "too little for a second process"
+
+
+def test_later_ones_tell_the_pace_without_the_first():
+    pace = paced((0, 0), (5.0, 1), (7.0, 9))
+    assert pace.rate == pytest.approx(4.0) and pace.left == pytest.approx(32 / 4)
+    assert words(pace, "cases", "2 not complete") == "9 of 41 cases, 4/s, about 8 s left, 2 not complete"
+
+
+def test_only_the_last_half_minute_counts():
+    pace = paced((0, 0), (1, 1), *((n, 10 * n) for n in range(2, 20)), *((n, 200 + n) for n in range(100, 140)), total=1000)
+    assert pace.rate == pytest.approx(1.0, rel=0.05)
+
+
+def test_compiling_is_no_pace():
+    spent = iter([0.0, 8.0])
+    assert paced((0, 0), (10.0, 1), elsewhere=lambda: next(spent)).rate == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.2, "1 s"), (25.4, "25 s"), (59.8, "1 min"), (200, "3 min 20 s"), (7800, "2 h 10 min"), (7200, "2 h"), (3599.9, "1 h")],
+)
+def test_durations_as_people_say_them(seconds, text):
+    assert duration(seconds) == text
+
+
+def test_rates_and_places():
+    assert [rate_text(rate) for rate in (3.21, 1234.5, 0.07)] == ["3.2/s", "1234/s", "14 s each"]
+    assert [place_text(1, None), place_text(4, None), place_text(1, "serial"), place_text(1, "tcp://a:1")] == [
+        "in one process",
+        "with 4 workers",
+        "in one process",
+        "on tcp://a:1",
+    ]
+
+
+@pytest.mark.parametrize("population", [8, 21, 40])
+def test_as_many_evaluations_as_announced(population):
+    """Counted while a search goes through all of its generations, whose designs never agree."""
+    problem = prepare(from_document(tomllib.loads(CAM + SEARCH.format(population=population))))
+    asked = []
+
+    class Noise:
+        def __call__(self, points):
+            asked.append(len(points))
+            return self.values(points)
+
+        def values(self, points):
+            return {name: np.array([math.sin(1e6 * sum(point)) for point in points]) for name in problem.names}
+
+    METHODS[method_of(problem.search)](problem, problem.search, Noise())
+    assert sum(asked) == most_evaluations(problem.search)
+
+
+@pytest.fixture
+def quickly(monkeypatch):
+    """A line as soon as there is something to say, and every time taken as long."""
+    monkeypatch.setattr(long_work, "EACH", 0.01)
+    monkeypatch.setattr(long_work, "WORTH_WORDS", 0.0)
+
+
+def test_without_a_terminal_lines_say_how_far_it_is(quickly, capsys):
+    with long_work.counted("a.toml", "toy", "cases", 1, None) as step:
+        for done in (3, 4):
+            step(done, 9, "")
+            time.sleep(0.05)
+        step(9, 9, "")
+    said = capsys.readouterr().err.splitlines()
+    assert said[0] == "a.toml: 9 cases, 3 of them done before"
+    assert any(line.startswith("a.toml: judged by the first, the rest takes about") and line.endswith("in one process") for line in said)
+    assert any(line.startswith("a.toml: 4 of 9 cases, ") and "left" in line for line in said)
+
+
+def test_a_sweep_says_how_many_cases_there_are(tmp_path, capsys):
+    (tmp_path / "cam.toml").write_text(CAM)
+    arguments = ["sweep", str(tmp_path / "cam.toml"), "--vary", "follower.prime_radius=40 mm,41 mm", "--out", str(tmp_path / "S")]
+    for kept in ("", ", 2 of them done before"):
+        with pytest.raises(SystemExit):
+            main([*arguments, "--no-figures", "--on", "serial"])
+        said = capsys.readouterr().err
+        assert ("cam.toml: 2 cases\n" in said) == (not kept)
+
+
+def test_a_search_says_how_many_evaluations_there_are(tmp_path, capsys):
+    (tmp_path / "cam.toml").write_text(CAM + SEARCH.format(population=8))
+    with pytest.raises(SystemExit):
+        main(["optimise", str(tmp_path / "cam.toml"), "--out", str(tmp_path / "O"), "--on", "serial"])
+    assert "cam.toml: up to 64 evaluations in 3 generations by differential evolution" in capsys.readouterr().err
