@@ -1,5 +1,6 @@
 """The pictures that stand for a design: its scene, still and moving, or a plot of its run; 480 x 300 pixels, on white."""
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -44,7 +45,7 @@ class Thumbnail(NamedTuple):
 
 
 def thumbnail_of(scene: Scene, settings: Mapping[str, Any] | None = None) -> Thumbnail:
-    """The pictures of a scene; `settings` as in gallery.toml: phase, part, frame, seconds."""
+    """The pictures of a scene; `settings` as in worked_examples.toml: phase, part, frame, seconds."""
     given = dict(settings or {})
     view = view_of(scene, SIZE[0] / SIZE[1], given.get("frame"), given.get("part", (0.0, 0.0, 1.0, 1.0)))
     still = _still(scene, view, given.get("phase"))
@@ -71,14 +72,14 @@ def thumbnail_of_plot(figure: "Figure") -> Thumbnail:
 
 
 def make_thumbnail(path: Path, settings: Mapping[str, Any] | None = None) -> Thumbnail:
-    """The pictures of a spec file, computed now; `settings` as in gallery.toml."""
+    """The pictures of a spec file, computed now; `settings` as in worked_examples.toml."""
     spec, given = load(path), dict(settings or {})
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
     if "plot" in given:
         result = runner.run(spec, model=model)
         return thumbnail_of_plot(draw_panels(panels(result, find_plot(result, given["plot"]))[:1]))
     if mechanism.scene is None:
-        raise ValueError(f"{path.name}: its kind has no scene; name a plot of its run in gallery.toml")
+        raise ValueError(f"{path.name}: its kind has no scene; name a plot of its run in worked_examples.toml")
     return thumbnail_of(mechanism.scene(model), given)
 
 
@@ -114,5 +115,4 @@ def remake_presets(kind: str, progress: Callable[[str], None] = print) -> list[s
 def _note_digest(place: Path, known: Mapping[str, Path], name: str) -> None:
     """Write down what the picture of `name` in a folder was made from; forget what is not known any more."""
     made = {**made_from(place), name: digest(known[name])}
-    lines = [f'{each} = "{made[each]}"' for each in sorted(made) if each in known]
-    write_text(place / MADE, "\n".join(["# Digest of the spec that each picture was made from.", *lines, ""]))
+    write_text(place / MADE, json.dumps({each: made[each] for each in sorted(made) if each in known}, indent=1) + "\n")

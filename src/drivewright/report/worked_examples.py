@@ -1,8 +1,8 @@
 """The worked examples that come with the package: their specs, what each answers, and the pictures that stand for them.
 
-They are packed into the wheel; in a checkout they lie beside the sources.  `gallery/` among them holds `gallery.toml` (questions of each
-example, how its picture is drawn), the pictures NAME.webp and NAME.moving.webp, and `made.toml`: the digest of the spec each was made from.
-Presets have such pictures in `presets/pictures` of their kind.
+They are packed into the wheel; in a checkout they lie beside the sources.  `worked_examples.toml` has the questions of each and how its
+picture is drawn; `gallery/` among the examples holds the pictures NAME.webp and NAME.moving.webp, and `made.json`: the digest of the spec
+each was made from.  Presets have such pictures in `presets/pictures` of their kind.
 """
 
 import hashlib
@@ -17,7 +17,8 @@ from drivewright.spec import load, read_document
 
 PACKED = Path(__file__).parent.parent / "examples"
 CHECKOUT = Path(__file__).parents[3] / "examples"
-GALLERY, CARDS, MADE = "gallery", "gallery.toml", "made.toml"
+SETTINGS = Path(__file__).with_suffix(".toml")
+GALLERY, MADE = "gallery", "made.json"
 PICTURES = "pictures"  # folder in that of the presets of a kind
 
 
@@ -95,13 +96,13 @@ def question_words() -> dict[str, str]:
 
 
 def picture_settings(name: str) -> dict[str, Any]:
-    """What gallery.toml has of an example; {} where it does not name it."""
+    """What worked_examples.toml has of an example; {} where it does not name it."""
     return dict(_settings()["examples"].get(name, {}))
 
 
 @cache
 def _settings() -> dict[str, Any]:
-    return tomllib.loads((folder() / GALLERY / CARDS).read_text(encoding="utf-8"))
+    return tomllib.loads(SETTINGS.read_text(encoding="utf-8"))
 
 
 def digest(path: Path) -> str:
@@ -129,4 +130,4 @@ def outdated_presets(kind: str) -> list[str]:
 def made_from(place: Path) -> dict[str, str]:
     """Name -> digest of the spec that the pictures in a folder were made from."""
     file = place / MADE
-    return tomllib.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
+    return json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
