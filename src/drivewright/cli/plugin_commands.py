@@ -17,7 +17,7 @@ from drivewright.registry import Command
 if TYPE_CHECKING:
     from pydantic.fields import FieldInfo
 
-SHARED_KEYS = ("format", "mechanism", "optimise")  # keys of every spec that are no options
+SHARED_KEYS = ("format", "mechanism", "optimise", "report")  # keys of every spec that are no options
 PLACEHOLDER = "is_placeholder"  # attribute of a command that is only listed
 RUN_FOLDER_OPTIONS = (  # options of every command that writes a run folder: name, annotation, default
     ("out", Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the file>")], None),

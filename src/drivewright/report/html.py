@@ -77,7 +77,7 @@ def packed_views(result: Result[Any], seen: Views, language: str = "en", scene: 
 def player_data(result: Result[Any], seen: Views, language: str = "en") -> str | None:
     """The player's and the plots' data as JSON that cannot end a script element; None without a scene."""
     packed = packed_views(result, seen, language)
-    return packed and data_text(packed)
+    return data_text(packed) if packed else None
 
 
 def data_text(packed: Mapping[str, Any]) -> str:
