@@ -51,7 +51,7 @@ def plain(value: float, low: float | None = None, high: float | None = None) -> 
 
 
 def _exact(value: float) -> str:
-    rounded = f"{value:.{EXACT}g}"
+    rounded = f"{value + 0.0:.{EXACT}g}"  # + 0.0: never "-0"
     return to_place(value, 1) if 1e5 <= abs(float(rounded)) < 1e6 else rounded
 
 

@@ -292,7 +292,7 @@ class Dimension:
         if not isinstance(value, str) and (value != value or abs(value) == math.inf):
             raise UnitError(f"{brief(value)} is not finite")
         if not isinstance(value, str):
-            raise UnitError(f'a bare number; {self.described} wants its unit, e.g. "{brief(value)} {self.display_unit}"')
+            raise UnitError(f'unit missing: {self.described}, e.g. "{brief(value)} {self.display_unit}"')
         return _read(self, value)
 
     def factor(self, unit: str) -> float:
@@ -407,7 +407,7 @@ def _read(dimension: Dimension, text: str) -> float:
     """SI float of a text: the cases of a study say the same again and again."""
     number, unit = split(text)
     if not unit:
-        raise UnitError(f'a bare number; {dimension.described} wants its unit, e.g. "{text.strip()} {dimension.display_unit}"')
+        raise UnitError(f'unit missing: {dimension.described}, e.g. "{text.strip()} {dimension.display_unit}"')
     return _rounded(dimension._exact_si(number, unit, text), text)
 
 

@@ -111,7 +111,7 @@ def test_unknown_names_come_with_the_nearest():
     [
         ("rollers = 13", "rollers = 30", r"bearings\.NJ-my-205\.roller\.roller_diameter: 30 rollers of 7\.5 mm overlap"),
         ("rollers = 13\n", "", r"bearings\.NJ-my-205\.roller\.rollers: is missing"),
-        ('"8 mm"', "8", r"bearings\.NJ-my-205\.roller\.roller_length: a bare number"),
+        ('"8 mm"', "8", r"bearings\.NJ-my-205\.roller\.roller_length: unit missing"),
         ("rollers = 13", "roller = 13", r"bearings\.NJ-my-205\.roller\.roller: unknown key \(did you mean 'rollers'\?\)"),
         ('"39 mm"', '"60 mm"', r"roller\.pitch_diameter: must lie between bore and outer diameter, got 60 mm against 25 and 52 mm"),
         ('"rollers", ', "", r"bearings\.NJ-my-205\.sources: no source names rollers; each number needs one source"),

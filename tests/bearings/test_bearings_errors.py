@@ -46,7 +46,7 @@ def test_impossible_bearings(changes, message):
 
 
 def test_a_bare_number_is_no_diameter():
-    with pytest.raises(SpecError, match="ball_diameter: a bare number; a length wants its unit"):
+    with pytest.raises(SpecError, match="ball_diameter: unit missing: a length"):
         BallBearing(**{**GIVEN, "ball_diameter": 11.5})
 
 

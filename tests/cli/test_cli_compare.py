@@ -72,7 +72,7 @@ def test_of_several_designs_those_that_are_identical_are_named(drivewright, fold
 @pytest.mark.parametrize(
     ("rise", "message"),
     [
-        ("500", 'programme.0.rise: a bare number; a length wants its unit, e.g. "500 mm"'),
+        ("500", 'programme.0.rise: unit missing: a length, e.g. "500 mm"'),
         ("500 mm", "programme: the lift ends 480 mm above its start, and a closed cycle must end where it starts: "),
         ('"-5 mm"', "the lift ends 25 mm below its start"),
         ("5 km", "its rises are 5000000 mm, -20 mm; with -5000000 mm in segment 2 it closes."),

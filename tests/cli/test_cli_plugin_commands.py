@@ -115,7 +115,7 @@ def test_json_strict_and_out(drivewright, scales):
     ("arguments", "wanted"),
     [
         (["nope.txt"], "nope.txt: there is no file"),
-        (["thing.txt", "--largest-size", "3"], 'thing.txt: --largest-size: a bare number; a length wants its unit, e.g. "3 mm"'),
+        (["thing.txt", "--largest-size", "3"], 'thing.txt: --largest-size: unit missing: a length, e.g. "3 mm"'),
         (["thing.txt", "--largest-size", "3 N"], "thing.txt: --largest-size: wants a length, got '3 N' (force)"),
         (["thing.txt", "--largest-size", "-3 mm"], "thing.txt: --largest-size: must be greater than 0 mm"),
         (["thing.txt", "--times", "much"], "thing.txt: --times: "),

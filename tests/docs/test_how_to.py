@@ -13,13 +13,13 @@ from builders import tutorials  # noqa: E402
 
 pytestmark = pytest.mark.interface
 PAGES = [page for page in tutorials.pages() if page.parent.name == "how-to"]
-QUICK = frozenset({"resume-study", "tables-in-excel", "units-and-language", "verify-a-result", "export-for-machining"})
+SLOW = frozenset({"sweep-in-python", "response-map"})
 EVERY_PAGE = [page for folder in tutorials.FOLDERS for page in sorted((tutorials.DOCS / folder).glob("*.md"))]
 IMPORTS = {"sweep-in-python": "pandas"}
 
 
 def parameters():
-    return [pytest.param(page, id=page.stem, marks=[] if page.stem in QUICK else [pytest.mark.slow]) for page in PAGES]
+    return [pytest.param(page, id=page.stem, marks=[pytest.mark.slow] if page.stem in SLOW else []) for page in PAGES]
 
 
 @pytest.mark.parametrize("page", parameters())

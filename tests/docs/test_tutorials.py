@@ -12,7 +12,7 @@ from builders import tutorials  # noqa: E402
 from builders.page_commands import Command, File, Picture, difference, page_steps  # noqa: E402
 
 pytestmark = pytest.mark.interface
-QUICK = frozenset({"01-first-cam", "05-chain", "09-plug-in"})  # the others are slow tests: all of them take minutes
+QUICK = frozenset({"01-first-cam", "09-plug-in"})  # the others are slow tests: all of them take minutes
 NEEDS = {"10-cluster": "needs_cluster"}
 PAGES = [page for page in tutorials.pages() if page.parent.name == "tutorials"]
 

@@ -123,7 +123,7 @@ def test_a_spec_is_frozen_and_can_be_a_key(folder):
 
 
 def test_a_table_built_in_python_complains_like_a_file():
-    with pytest.raises(SpecError, match='^length: a bare number; a length wants its unit, e.g. "1.2 mm"$') as caught:
+    with pytest.raises(SpecError, match='^length: unit missing: a length, e.g. "1.2 mm"$') as caught:
         ToySpec(length=1.2)
     assert caught.value.key == "length" and caught.value.file is None
     with pytest.raises(SpecError, match="^joints.0.clearance: wants a length, got '1 kg' .mass"):
@@ -222,7 +222,7 @@ BASE = 'mechanism = "toy"\nlength = "40 mm"\n'
         ("tilt = '2 rad'", "tilt", "must be at most 1 rad, got 2 rad"),
         ("tilt = '-90 deg'", "tilt", "must be at least -1 rad, got -90 deg"),
         ("tilt = '30 mm'", "tilt", "wants an angle, got '30 mm' (length)"),
-        ("tilt = 30", "tilt", 'a bare number; an angle wants its unit, e.g. "30 deg"'),
+        ("tilt = 30", "tilt", 'unit missing: an angle, e.g. "30 deg"'),
         ("tilt = nan", "tilt", "nan is not finite"),
         ("tilt = 1979-05-27", "tilt", "wants an angle, got 1979-05-27"),
         ("tilt = {a = 1}", "tilt", "wants an angle, got {'a': 1}"),
@@ -288,7 +288,7 @@ def test_all_complaints_come_at_once_unknown_keys_first(folder):
     message, key = complaint(folder, 'mechanism = "toy"\nlenght = "40 mm"\ntilt = 3\nratio = "x"')
     assert key == "lenght" and message.splitlines()[1:] == [
         '  length: is missing (length); e.g. "40 mm"',
-        '  tilt: a bare number; an angle wants its unit, e.g. "3 deg"',
+        '  tilt: unit missing: an angle, e.g. "3 deg"',
         "  ratio: must be a number, got 'x'",
     ]
     message, _ = complaint(folder, BASE + "\n".join(f"x{n} = 1" for n in range(20)))
@@ -322,6 +322,6 @@ def test_a_list_whose_only_entry_is_wrong_is_not_too_short_besides(tmp_path):
     document = {"mechanism": "cam", "follower": {"roller_radius": "8 mm", "prime_radius": "40 mm"}}
     with pytest.raises(SpecError) as wrong:
         from_document({**document, "programme": [{"angle": 180, "law": "dwell"}]}, CamSpec, folder=tmp_path)
-    assert str(wrong.value) == 'programme.0.angle: a bare number; an angle wants its unit, e.g. "180 deg"'
+    assert str(wrong.value) == 'programme.0.angle: unit missing: an angle, e.g. "180 deg"'
     with pytest.raises(SpecError, match="^programme: must have at least 1 entries, got 0$"):
         from_document({**document, "programme": []}, CamSpec, folder=tmp_path)

@@ -271,7 +271,7 @@ def test_where_no_design_can_be_computed_the_reason_is_told(tmp_path, capsys):
             {"unknowns": [{"key": "follower.prime_radus", "lower": "30 mm", "upper": "80 mm"}]},
             "optimise.unknowns.0.key: this spec has no key 'follower.prime_radus'",
         ),
-        ({"unknowns": [{"key": "follower.prime_radius", "lower": 30.0, "upper": "80 mm"}]}, "optimise.unknowns.0.lower: a bare number"),
+        ({"unknowns": [{"key": "follower.prime_radius", "lower": 30.0, "upper": "80 mm"}]}, "optimise.unknowns.0.lower: unit missing"),
         ({"unknowns": [{"key": "follower.prime_radius", "lower": "90 mm", "upper": "80 mm"}]}, "is not below upper bound"),
         ({"objectives": [{"value": "max_presure_angle"}]}, "did you mean 'max_pressure_angle'"),
         ({"unknowns": [{"key": "follower.motion", "lower": 1, "upper": 2}]}, "optimise.unknowns.0.key: follower.motion takes"),

@@ -58,9 +58,9 @@ def refused(vary, message, spec=SPEC, kind=SpecError, **settings):
 
 
 def test_nothing_that_varies():
-    with pytest.raises(SpecError, match=r"^study.vary: nothing varies, so there is nothing to study; give --vary KEY=FROM:TO:STEPS"):
+    with pytest.raises(SpecError, match=r"^study.vary: choose at least one parameter to vary: --vary KEY=FROM:TO:STEPS"):
         make_plan(SPEC)
-    refused({}, "nothing varies", samples=4)
+    refused({}, "at least one parameter to vary", samples=4)
 
 
 @pytest.mark.parametrize(
@@ -103,7 +103,7 @@ def test_an_empty_list_has_no_elements():
 @pytest.mark.parametrize(
     ("key", "values", "words"),
     [
-        ("size", ["1 mm", 2], 'values.1: a bare number; a length wants its unit, e.g. "2 mm"'),
+        ("size", ["1 mm", 2], 'values.1: unit missing: a length, e.g. "2 mm"'),
         ("size", ["1 N"], "values.0: wants a length, got '1 N' (force)"),
         ("ratio", ["x"], "values.0: wants a number, got 'x'"),
         ("ratio", [True], "wants a number, got true"),
@@ -121,7 +121,7 @@ def test_levels_that_are_none(key, values, words):
 @pytest.mark.parametrize(
     ("key", "what", "words"),
     [
-        ("size", linspace(1, "2 mm", 3), "study.vary.0.lower: a bare number; a length wants its unit"),
+        ("size", linspace(1, "2 mm", 3), "study.vary.0.lower: unit missing: a length"),
         ("size", linspace("1 mm", "2 deg", 3), "study.vary.0.upper: wants a length, got '2 deg' (angle)"),
         ("size", {"lower": "1 mm", "steps": 3}, "study.vary.0.upper: a range of steps needs lower and upper; upper is missing"),
         ("size", {"upper": "1 mm", "steps": 3}, "study.vary.0.lower: a range of steps needs lower and upper; lower is missing"),
@@ -166,10 +166,10 @@ def test_ranges_that_are_none(key, what, words):
         ("size", {"distribution": "triangular", "lower": "11 mm", "upper": "12 mm"}, "give a mode there"),
         ("offset", tolerance("1 mm"), "study.vary.0: offset has no value in this spec to vary about; give mean, or lower and upper"),
         ("offset", {"sigma": "1 mm"}, "offset has no value in this spec to vary about"),
-        ("size", normal(1, "1 mm"), "study.vary.0.mean: a bare number"),
+        ("size", normal(1, "1 mm"), "study.vary.0.mean: unit missing"),
         ("size", normal("1 mm", "1 deg"), "study.vary.0.sigma: wants a length"),
         ("size", triangular("1 mm", "2 kg", "3 mm"), "study.vary.0.mode: wants a length"),
-        ("size", tolerance(1), "study.vary.0.tolerance: a bare number"),
+        ("size", tolerance(1), "study.vary.0.tolerance: unit missing"),
         (
             "count",
             uniform(1, 9),
@@ -707,8 +707,8 @@ def test_a_very_long_reason_is_cut(monkeypatch):
             ["--vary", "joint.rolling_radus=1 mm:2 mm:3"],
             "study.vary.0.key: this spec has no key 'joint.rolling_radus' (did you mean 'joint.rolling_radius'?)",
         ),
-        (["--vary", "joint.rolling_radius=1:2:3"], 'study.vary.0.lower: a bare number; a length wants its unit, e.g. "1 mm"'),
-        ([], "study.vary: nothing varies"),
+        (["--vary", "joint.rolling_radius=1:2:3"], 'study.vary.0.lower: unit missing: a length, e.g. "1 mm"'),
+        ([], "study.vary: choose at least one parameter to vary"),
         (["--vary", "joint.rolling_radius"], "--vary wants KEY=FROM:TO:STEPS"),
         (["--vary", "links=80,82", "--sample", "5"], "--sample 5: nothing has a distribution"),
         (["--vary", "links=80,82", "--only", "mesh"], "no analysis is called 'mesh' (did you mean 'meshing'?)"),

@@ -227,7 +227,7 @@ def test_no_remark_where_the_spec_agrees(text):
         ({"offset": linked("2 * flag")}, "flag takes true or false; a relation is between numbers"),
         ({"offset": linked("0 * size")}, "study.vary.0.link: the factor must be a number other than 0, got 0"),
         ({"offset": linked("1e999 * size")}, "the factor must be a number other than 0, got inf"),
-        ({"offset": linked("size + 3")}, "study.vary.0.link: a bare number"),
+        ({"offset": linked("size + 3")}, "study.vary.0.link: unit missing"),
         ({"offset": linked("size + 3 N")}, "study.vary.0.link: wants a length, got '3 N' (force)"),
         ({"ratio": linked("ratio + 3"), "size": ["1 mm"]}, "ratio cannot follow itself; name another key"),
         ({"parts.0.width": linked("2 * parts.left.width")}, "parts.0.width cannot follow itself"),

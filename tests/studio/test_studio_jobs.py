@@ -184,7 +184,7 @@ def test_rows_of_a_study_are_those_of_a_sweep():
 
 
 def test_what_a_design_without_a_study_is_told_is_a_study(tmp_path):
-    with pytest.raises(SpecError, match="nothing varies, so there is nothing to study; write what does") as caught:
+    with pytest.raises(SpecError, match="choose at least one parameter to vary and write it") as caught:
         asked("study", design("disc_cam"))
     example = caught.value.message.partition("example:\n")[2]
     again = Design(tomllib.loads((EXAMPLES / "disc_cam.toml").read_text() + "\n" + example), EXAMPLES)

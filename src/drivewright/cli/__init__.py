@@ -3,6 +3,7 @@
 app              the commands; they know no kind of drive by name
 compared         specs run for a comparison, and what the terminal says of it
 doctor           what is installed, what each extra adds, the kernel cache, a self-test
+editors          a folder set up for editors that know TOML schemas
 gallery          the worked examples: listed, copied, run
 interruption     how the command line ends early
 long_work        how far a command with many cases or evaluations is

@@ -85,10 +85,13 @@ def new(
     preset: Annotated[str | None, typer.Option(help="start from this preset")] = None,
 ) -> None:
     """Write a commented spec with every key, its unit, default and limits."""
+    from drivewright.cli import editors
     from drivewright.spec import template
 
     path = file or Path(f"{kind}.toml")
     text = template(kind, preset)
+    if editors.is_installed(path.parent, kind):
+        text = f"{editors.directive(kind)}\n{text}"
     show.refuse_existing(path)
     show.write_text(path, text)
     show.copy_data_files(kind, preset, path)
@@ -442,11 +445,26 @@ def examples(
 
 
 @app.command()
-def schema(kind: Annotated[str, typer.Argument(help="kind of drive")]) -> None:
-    """The JSON schema of a kind's spec files."""
+def schema(
+    kind: Annotated[str | None, typer.Argument(help="kind of drive; with --install every kind unless given")] = None,
+    install: Annotated[bool, typer.Option("--install", help="set a folder up for editors instead: schemas and associations")] = False,
+    out: Annotated[Path, typer.Option("--out", help="folder that --install sets up")] = Path("."),
+) -> None:
+    """The JSON schema of a kind's spec files; --install makes editors check and complete the specs of a folder, exit 1 where a file
+    of yours is left alone."""
+    from drivewright.cli import editors
     from drivewright.spec import schema as json_schema
 
-    print(json.dumps(json_schema(kind), indent=1))
+    if not install:
+        if kind is None:
+            raise InputError(f"name a kind of drive ({', '.join(registry.kinds())}), or --install")
+        print(json.dumps(json_schema(kind), indent=1))
+        return
+    kinds = [registry.mechanism(kind).kind] if kind else list(registry.kinds())
+    with show.located(out):
+        in_place = editors.install(out, kinds)
+    if not in_place:
+        raise typer.Exit(1)
 
 
 @app.command()

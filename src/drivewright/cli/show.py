@@ -224,11 +224,15 @@ def _remarks_of(run: "Result[Any]", everything: bool) -> "Iterator[str]":
     shown = findings if everything else [finding for finding in findings if finding not in optional]
     most = len(shown) if everything or run.outcome != "complete" else MOST_REMARKS  # a partial result needs every reason
     yield from shown[:most]
-    folded = [f"{len(shown) - most} more notes"] if len(shown) > most else []
+    folded = [_counted(len(shown) - most, "more note", "more notes")] if len(shown) > most else []
     if optional:
-        folded.append(f"{len(optional)} analyses not run (on request only, or without their input)")
+        folded.append(f"{_counted(len(optional), 'analysis', 'analyses')} not run (on request only, or without their input)")
     if folded and not everything:
         yield f"{', '.join(folded)}: see the report, or drivewright run -v"
+
+
+def _counted(count: int, one: str, many: str) -> str:
+    return f"{count} {one if count == 1 else many}"
 
 
 def _coloured_note(text: str, state: str) -> None:

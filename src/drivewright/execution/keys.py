@@ -105,7 +105,10 @@ def _element_steps(spec: Spec, key: str) -> int:
 
 KINDS = {float: "number", int: "integer", bool: "flag", str: "text"}
 # Keys that cannot vary, and what they say.
-FIXED = dict.fromkeys(("format", "mechanism", "study", "optimise"), "what the study is of") | {"units": "what results are shown in"}
+FIXED = dict.fromkeys(("format", "mechanism", "study", "optimise"), "what the study is of") | {
+    "units": "what results are shown in",
+    "report": "how the report looks",
+}
 
 
 def _missing_element(spec: Spec, key: str) -> str:

@@ -62,11 +62,11 @@ def _refuse_unknown(formats: Sequence[str]) -> None:
 def _refuse_bad_geometry(result: Result[Any]) -> None:
     if failed := _failures(result):
         raise GeometryCheckFailed(
-            f"this design fails a geometry check and is not exported: {'; '.join(failed)}. Mend the design, or export it with --anyway"
+            f"this design fails a geometry check and is not exported: {'; '.join(failed)}. Fix the design, or export it with --anyway"
         )
     if missing := dict.fromkeys(result.failures.values()):
         raise GeometryCheckFailed(
-            f"this design is not checked in full and not exported: {'; '.join(missing)}. Mend the design, or export it with --anyway"
+            f"this design is not checked in full and not exported: {'; '.join(missing)}. Fix the design, or export it with --anyway"
         )
 
 

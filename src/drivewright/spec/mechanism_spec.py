@@ -25,7 +25,7 @@ class MechanismSpec(Spec):
         mechanism: Any  # a text, which each kind narrows to its own name
     else:
         mechanism: Text = Field(description="kind of drive")
-    title: Text = Field("", description="a name for people")
+    title: Text = Field("", description="title shown in reports")
     units: System = Field("mm", description="units shown in reports: mm (mm, N, MPa), si (m, N, Pa) or inch (in, lbf, ksi)")
     optimise: Optimise | None = Field(None, description="unknowns, requirements and objectives for `drivewright optimise`")
     study: Study | None = Field(None, description="what varies from case to case for `drivewright sweep`")

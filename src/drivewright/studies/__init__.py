@@ -5,7 +5,7 @@
 What varies is said with `linspace`, `geomspace`, `uniform`, `normal`,
 `triangular`, `tolerance` and `linked`.
 
-adjustable        the dimensions of a design that may be changed to mend it
+adjustable        the dimensions of a design that may be changed to make it pass
 advising          what to change in a design so that a check which fails passes
 answers           what a study says: `analyse_study(study)` gives a `Result` and its plots
 ledger            the ledger of a study: which parts there are, each with size and checksum

@@ -121,8 +121,7 @@ def make_plan(spec: MechanismSpec) -> Plan:
     study = spec.study
     if study is None or not (study.vary or study.points):
         raise SpecError(
-            "nothing varies, so there is nothing to study; give --vary KEY=FROM:TO:STEPS, KEY=V1,V2 or KEY=normal(MEAN, SIGMA), "
-            "or a [study] table",
+            "choose at least one parameter to vary: --vary KEY=FROM:TO:STEPS, KEY=V1,V2 or KEY=normal(MEAN, SIGMA), or a [study] table",
             "study.vary",
         )
     _refuse_many(study)

@@ -44,7 +44,7 @@ def without(table, *names):
         ({**ROLLER, "prime_radius": "0 mm"}, ("follower.prime_radius", "greater than 0 mm")),
         ({**ROLLER, "prime_radius": "nan mm"}, ("follower.prime_radius", "not finite")),
         ({**ROLLER, "prime_radius": "40 deg"}, ("follower.prime_radius", "wants a length", "angle")),
-        ({**ROLLER, "prime_radius": 40}, ("follower.prime_radius", "bare number", "40 mm")),
+        ({**ROLLER, "prime_radius": 40}, ("follower.prime_radius", "unit missing", "40 mm")),
         ({**ROLLER, "prime_radus": "40 mm"}, ("follower.prime_radus", "did you mean 'prime_radius'")),
         ({**ROLLER, "face": "rolller"}, ("follower.face", "'roller'")),
         ({**ROLLER, "offset": "-40 mm"}, ("offset", "40 mm", "prime_radius")),

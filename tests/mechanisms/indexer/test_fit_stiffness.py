@@ -184,7 +184,7 @@ def test_a_stiffness_carries_its_interval_of_95_percent():
 @pytest.mark.parametrize(
     ("options", "wanted"),
     [
-        (["--rated-torque", "1000"], '--rated-torque: a bare number; a torque wants its unit, e.g. "1000 N m"'),
+        (["--rated-torque", "1000"], '--rated-torque: unit missing: a torque, e.g. "1000 N m"'),
         (["--rated-torque", "1000 N m/rad"], "--rated-torque: wants a torque, got '1000 N m/rad' (rotational stiffness); write N m"),
         (["--rated-torque", "0 N m"], "--rated-torque: must be greater than 0"),
         (["--support-uncertainty", "1 N m/rad"], "--support-uncertainty: needs support_stiffness, whose uncertainty it is"),

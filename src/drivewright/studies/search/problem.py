@@ -108,7 +108,7 @@ def at_worst(values: Mapping[str, Floats], name: str, sense: str) -> Floats:
 def prepare(spec: MechanismSpec) -> Problem:
     """The `Problem` of a spec; each complaint names the key of the [optimise] table."""
     if spec.optimise is None:
-        raise SpecError("is missing; it says what may change, what is required and what is wanted (see `drivewright new`)", "optimise")
+        raise SpecError("is missing: choose the parameters to vary, an objective and the requirements (see `drivewright new`)", "optimise")
     search, base = spec.optimise, _with_settings(spec)
     givers, known, sizes = _known(base)
     kinds = [_kind(base, search.unknowns, number) for number in range(len(search.unknowns))]

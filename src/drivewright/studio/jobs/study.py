@@ -94,7 +94,7 @@ def _remedy(design):
         ("KEY", '"FROM"', '"TO"'),
     )
     return (
-        "nothing varies, so there is nothing to study; write what does into the text of the design, for example:\n"
+        "choose at least one parameter to vary and write it into the text of the design, for example:\n"
         f'[study]\nsamples = 200\n\n[[study.vary]]\nkey = "{key}"\nlower = {low}\nupper = {high}'
     )
 
