@@ -1,21 +1,31 @@
-"""Drawings of what the main keys of each kind measure: in the folder of the kind, for the studio, and in docs/img/dimensions."""
+"""Drawings of what the main keys of each kind measure, in the folder of the kind (for the studio) and in docs/img; and their page."""
 
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from builders.markdown import write_page
 from drivewright import registry
 from drivewright.report.dimension_drawings import write_drawings
 
+FOLDER = "img/dimensions"
+PAGE = "dimensions.md"
+
 
 def build(docs: Path, progress: Callable[[str], None]) -> None:
-    """Write the drawings of every kind."""
-    folder = docs / "img" / "dimensions"
-    folder.mkdir(parents=True, exist_ok=True)
+    """Write the drawings of every kind, and docs/dimensions.md with all of them."""
+    (docs / FOLDER).mkdir(parents=True, exist_ok=True)
     for kind in registry.kinds():
         for path in write_drawings(kind, progress):
-            shutil.copyfile(path, folder / path.name)
+            shutil.copyfile(path, docs / FOLDER / path.name)
+    write_page(docs / PAGE, page())
 
 
-if __name__ == "__main__":
-    build(Path(__file__).parents[1], print)
+def page() -> Iterator[str]:
+    """Lines of the page: a section for each kind, with its drawings."""
+    yield from ("# What the keys measure", "", "Drawn from the presets of each kind, to scale; a test compares every length with its key.")
+    for kind in registry.kinds():
+        if sheets := registry.mechanism(kind).dimensions:
+            yield from ("", f"## {kind}", "", f"All keys: [spec of `{kind}`](reference/spec-{kind}.md).")
+        for sheet in sheets:
+            yield from ("", f"![{sheet.title}]({FOLDER}/{sheet.name}.svg)")

@@ -44,6 +44,13 @@ def test_every_entry_of_the_navigation_is_a_page():
     assert lost == [] and all((DOCS / folder).is_dir() for folder in FOLDERS)
 
 
+def test_every_page_that_is_made_has_its_builder():
+    builders = "".join(path.read_text(encoding="utf-8") for path in (DOCS / "builders").glob("*.py"))
+    made = [entry for entry in ENTRIES if "/" not in entry and is_generated(DOCS / entry)]
+    assert {"index.md", "dimensions.md", "gallery.md"} <= set(made)
+    assert [entry for entry in made if f'"{entry}"' not in builders] == []
+
+
 def test_every_decision_is_in_their_list():
     records = {path.name for path in (DOCS / "decisions").glob("0*.md")}
     assert records == set(re.findall(r"\]\((0\d+[\w.-]+\.md)\)", (DOCS / "decisions" / "index.md").read_text(encoding="utf-8")))

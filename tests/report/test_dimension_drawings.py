@@ -39,7 +39,7 @@ def test_each_length_is_that_of_its_key(kind, sheet):
 @EVERY
 def test_the_drawing_that_is_kept_names_all_keys(kind, sheet):
     path = drawing_files(kind).get(sheet.name)
-    again = "python docs/builders/dimensions.py draws them again"
+    again = "python docs/generate.py dimensions draws them again"
     assert path is not None, again
     text = path.read_text()
     assert [each.key for each in measured(kind, sheet).dimensions if each.key not in text] == [], again
