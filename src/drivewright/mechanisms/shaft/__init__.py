@@ -57,7 +57,6 @@ ANALYSES = (
 )
 
 HEADLINE = (
-    "stations.*.deflection",
     "stations.*.displacement",
     "gears.*.deflection",
     "gears.*.slope",
@@ -81,8 +80,9 @@ HEADLINE = (
     "bearings.*.basic_life.time",
     "bearings.*.reference_life.time",
     "bearings.*.modified_life.time",
-    "bearings.*.reaction",
     "solid.deviation",
+    "stations.*.deflection",
+    "bearings.*.reaction",
 )
 
 SOURCES = (
