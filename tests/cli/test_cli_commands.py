@@ -1,6 +1,7 @@
 """The command line: exit codes, what goes to stdout and what to stderr, and nothing written over on failure."""
 
 import json
+import os
 import subprocess
 import sys
 import time
@@ -338,3 +339,23 @@ def test_a_reader_that_goes_away_is_no_traceback(tmp_path):
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path) as running:
         running.stdout.close()
         assert "Traceback" not in running.stderr.read()
+
+
+@pytest.mark.parametrize("encoding", ["ascii", "cp1252"])
+def test_a_pipe_that_does_not_have_every_letter_ends_no_command(encoding, tmp_path):
+    """As on Windows, where pipes have the letters of the country."""
+    spec = Path(__file__).parents[2] / "examples" / "disc_cam.toml"
+    command = [
+        sys.executable,
+        "-m",
+        "drivewright",
+        "run",
+        str(spec),
+        "--set",
+        "title=Nocken 凸轮",
+        "--no-figures",
+        "--out",
+        str(tmp_path / "R"),
+    ]
+    done = subprocess.run(command, capture_output=True, env={**os.environ, "PYTHONIOENCODING": encoding}, timeout=300)
+    assert done.returncode == 0 and b"Nocken ??" in done.stdout, done.stderr

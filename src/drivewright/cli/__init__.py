@@ -13,7 +13,9 @@ reproduced       reproduced papers: listed, and written with progress
 show             what the command line prints: results to stdout, everything else to stderr
 """
 
+import _thread
 import errno
+import io
 import os
 import signal
 import sys
@@ -36,6 +38,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; exits with 0 done, 1 failed check, 2 bad input, 3 strict, 4 solver gave up, 130 interrupted, 128 and its number
     after another signal that ends a process."""
     collect_rarely()
+    _never_fail_to_print()
     threading.excepthook = _end_of_a_thread
     _ended.clear()
     _starved.clear()
@@ -44,6 +47,13 @@ def main(arguments: list[str] | None = None) -> NoReturn:
             _run(arguments, received)
         finally:
             _ended.set()
+
+
+def _never_fail_to_print() -> None:
+    """A letter that the encoding of a pipe does not have, as on Windows, is printed as a question mark."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper) and stream.errors == "strict":
+            stream.reconfigure(errors="replace")
 
 
 def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
@@ -123,7 +133,10 @@ def _end_of_a_thread(end: threading.ExceptHookArgs) -> None:
         threading.__excepthook__(end)
     elif not _ended.wait(GRACE):
         _starved.set()
-        os.kill(os.getpid(), signal.SIGINT)
+        if os.name == "nt":  # where os.kill ends the process at once
+            _thread.interrupt_main()
+        else:
+            os.kill(os.getpid(), signal.SIGINT)  # also wakes what waits in the main thread
 
 
 def _complain(error: DrivewrightError) -> int:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 def print_json(record: object) -> None:
     """A record on stdout."""
-    json.dump(plain(record), sys.stdout, indent=1, ensure_ascii=False)
+    json.dump(plain(record), sys.stdout, indent=1)
     print()
 
 
