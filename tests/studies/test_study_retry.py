@@ -268,7 +268,7 @@ def test_a_retry_needs_no_plan_of_its_own(tmp_path, monkeypatch, capsys):
     assert command(tmp_path / "toy.toml", "--out", folder, "--retry", "failed") == 0
     said = capsys.readouterr()
     assert "1 of 1 case that had failed: computed once more, 1 complete now" in said.err and "4 complete" in said.out
-    assert command(tmp_path / "toy.toml", "--out", folder) == 2 and "nothing varies" in capsys.readouterr().err
+    assert command(tmp_path / "toy.toml", "--out", folder) == 2 and "choose at least one parameter to vary" in capsys.readouterr().err
     assert command(tmp_path / "toy.toml", "--set", "size=7 mm", "--out", folder, "--retry", "failed") == 2
     assert "holds another study; size:" in capsys.readouterr().err
     assert dw.sweep(Toy(), out=folder, retry="failed", on="serial").plan.keys == ("size",)
