@@ -46,14 +46,17 @@ def stripped(notebook: dict[str, Any]) -> dict[str, Any]:
 
 
 def printed(cell: dict[str, Any]) -> list[str]:
-    """The lines of text that a cell gives; of a picture none, for its text names an object in memory."""
+    """The lines of text that a cell gives on stdout and as its value; of a picture none, for its text names an object in memory."""
     lines: list[str] = []
+    stream = ""  # arrives in pieces, which may end within a line
     for output in cell.get("outputs", ()):
         if output["output_type"] == "stream":
-            lines += _text(output["text"]).splitlines()
-        elif not PICTURES.keys() & output.get("data", {}).keys():
+            stream += _text(output["text"]) if output["name"] == "stdout" else ""
+            continue
+        lines, stream = lines + stream.splitlines(), ""
+        if not PICTURES.keys() & output.get("data", {}).keys():
             lines += _text(output.get("data", {}).get(PLAIN, "")).splitlines()
-    return lines
+    return lines + stream.splitlines()
 
 
 def pictures(cell: dict[str, Any]) -> list[tuple[str, bytes]]:
