@@ -9,7 +9,7 @@ import drivewright as dw
 from drivewright import cams, curves, motion
 from drivewright.cams import spring_surge
 
-from .theory_figures_1 import (
+from .theory_figures import (
     BLUE,
     GREEN,
     GREY,

@@ -17,7 +17,7 @@ from drivewright.contact.normal import KelvinVoigt
 from drivewright.contact.time_step import mean_force
 from drivewright.solids.contact.complementarity import solve_complementarity
 
-from .theory_figures_1 import (
+from .theory_figures import (
     BLUE,
     GREEN,
     GREY,

@@ -8,7 +8,7 @@ import numpy as np
 from drivewright.gears import EllipticGearPair, NonCircularPair, Rack, cut_gear
 from drivewright.numerics.jets import cos
 
-from .theory_figures_1 import (
+from .theory_figures import (
     BLUE,
     GREEN,
     GREY,

@@ -12,7 +12,7 @@ from drivewright.indexing.drive_torque import TableLoad, drive_torque
 from drivewright.indexing.drivetrain import Drivetrain, PowerLawBearing
 from drivewright.indexing.torsion_test.regression import fit_line
 
-from .theory_figures_1 import (
+from .theory_figures import (
     BLUE,
     GREEN,
     GREY,

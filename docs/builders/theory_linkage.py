@@ -14,7 +14,7 @@ from drivewright.multibody.analyses.simulation_model import simulate_ideal
 from drivewright.multibody.observe import PIN_FIELDS
 from drivewright.oracles.linkage.four_bar_closed_form import COUPLER_TURN, ROCKER_TURN, FourBar, ideal_motion
 
-from .theory_figures_1 import (
+from .theory_figures import (
     BLUE,
     GREEN,
     GREY,

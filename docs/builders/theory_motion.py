@@ -7,7 +7,7 @@ import numpy as np
 
 from drivewright import motion
 
-from .theory_figures_1 import BLUE, GREEN, GREY, INK, ORANGE, RED, TURN, VIOLET, arrow, axes, label, write
+from .theory_figures import BLUE, GREEN, GREY, INK, ORANGE, RED, TURN, VIOLET, arrow, axes, label, write
 
 LAWS = {
     "cycloidal": BLUE,

@@ -9,7 +9,7 @@ import drivewright as dw
 from drivewright.mechanisms.seedling_pusher.dynamics import simulate
 from drivewright.oracles.seedling_pusher.rolled_motion import rolled_pair
 
-from .theory_figures_1 import (
+from .theory_figures import (
     BLUE,
     GREEN,
     GREY,

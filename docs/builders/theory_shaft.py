@@ -19,7 +19,7 @@ from drivewright.shafts.sections import cylinder_compliances
 from drivewright.shafts.vibration import modes
 from drivewright.shafts.whirl import campbell, damped_critical_speeds
 
-from .theory_figures_1 import (
+from .theory_figures import (
     BLUE,
     GREEN,
     GREY,

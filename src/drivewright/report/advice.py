@@ -9,11 +9,10 @@ from drivewright.labels import key_in_words, usual_unit
 from drivewright.report.words import Words, words_of
 from drivewright.result import Check, Result
 from drivewright.units import System
-from drivewright.view.text import number, shown_scale, with_unit
+from drivewright.view.text import SIGNS, number, shown_scale, with_unit
 
 MOST_TURNED = 3  # other checks that are named
 MOST_FAILED = 2  # checks of which the first lines of a report speak
-SIGNS = {"<=": "≤", ">=": "≥"}
 
 
 def failed_texts(result: Result[Any], words: Words | None = None) -> list[str]:

@@ -35,12 +35,11 @@ from drivewright.view.axis_names import common_phrase
 from drivewright.view.merged_scenes import merged_scene
 from drivewright.view.overlays import apart, common_plots, is_apart, overlay
 from drivewright.view.palette import SERIES
-from drivewright.view.text import ends_shown, number, numbers, quantity, sentence, shown_scale, unit_text, with_unit
+from drivewright.view.text import SIGNS, ends_shown, number, numbers, quantity, sentence, shown_scale, unit_text, with_unit
 
 PAGE, RECORD = "index.html", "compare.json"
 OURS = {PAGE, RECORD, "figures"}  # what a comparison writes, and the next one replaces
 MOST_KEYS = 200  # keys of the specs that differ and are on the page
-SIGNS = {"<=": "≤", ">=": "≥"}
 
 
 class Shown(NamedTuple):

@@ -13,7 +13,7 @@ from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
 from drivewright.execution.helper import Map
 from drivewright.labels import label_of, usual_unit
-from drivewright.report.advice import SIGNS, advice_texts, failed_texts
+from drivewright.report.advice import advice_texts, failed_texts
 from drivewright.report.computed import how_computed
 from drivewright.report.form import ReportForm
 from drivewright.report.letterhead import read_letterhead
@@ -28,7 +28,7 @@ from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbna
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.style import new_figure
-from drivewright.view.text import ends_shown, interval_hint, number, numbers, sentence, shown_scale, unit_text, with_unit
+from drivewright.view.text import SIGNS, ends_shown, interval_hint, number, numbers, sentence, shown_scale, unit_text, with_unit
 
 MOST_HEADLINES = 8  # values that are shown first
 GHOSTS = tuple(n / 5 for n in range(5))

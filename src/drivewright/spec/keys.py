@@ -1,5 +1,6 @@
 """Dotted keys of raw tables: set, or taken out, in place."""
 
+from collections.abc import Iterator
 from typing import Any
 
 from drivewright.errors import SpecError, brief, nearest
@@ -37,6 +38,16 @@ def remove_key(tables: dict[str, Any], key: str) -> dict[str, Any]:
     else:
         raise SpecError(f"is not there, so it cannot be removed; for an empty text write --set {key}='\"\"'", key=key)
     return tables
+
+
+def leaves(tables: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, Any]]:
+    """(dotted key, raw value) of everything in raw tables that is no table; elements of lists by number."""
+    for step, value in enumerate(tables) if isinstance(tables, list) else tables.items():
+        here = (*path, str(step))
+        if isinstance(value, (dict, list)):
+            yield from leaves(value, here)
+        else:
+            yield ".".join(here), value
 
 
 def key_by_name(spec: Any, key: str) -> str:

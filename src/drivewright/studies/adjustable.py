@@ -1,15 +1,15 @@
 """The dimensions of a design that may be changed to mend it: the unknowns of its [optimise] table, or what its kind calls adjustable."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fnmatch import fnmatchcase
 from typing import Any, NamedTuple
 
 from drivewright import registry
 from drivewright.errors import SpecError
-from drivewright.execution.keys import FIXED, KeyKind, key_kind
+from drivewright.execution.keys import KeyKind, key_kind
 from drivewright.spec import MechanismSpec, document, value_at
-from drivewright.spec.keys import key_by_name
+from drivewright.spec.keys import key_by_name, leaves
 from drivewright.studies.nominal import supplied_values
 
 STEP = 0.02  # of a dimension, for its sensitivity: large against rounding, small against what is advised
@@ -49,7 +49,8 @@ def dimensions(spec: MechanismSpec) -> tuple[Dimension, ...]:
     if spec.optimise is not None:
         found = [_unknown(spec, each.key, each.lower, each.upper) for each in spec.optimise.unknowns]
     else:
-        found = [_adjustable(spec, key, factor) for key, factor in _adjustable_keys(spec)]
+        supplied = supplied_values(spec)
+        found = [_adjustable(spec, key, factor, supplied) for key, factor in _adjustable_keys(spec, supplied)]
     return tuple(each for each in found if each is not None and each.low < each.high)
 
 
@@ -61,34 +62,25 @@ def _unknown(spec: MechanismSpec, key: str, lower: Any, upper: Any) -> Dimension
     return Dimension(key, kind, value, min(low, value), max(high, value))
 
 
-def _adjustable(spec: MechanismSpec, key: str, factor: float) -> Dimension | None:
-    """A dimension that may be so many times larger or smaller, within the limits of its key; None where the key has no such number."""
+def _adjustable(spec: MechanismSpec, key: str, factor: float, supplied: Mapping[str, float]) -> Dimension | None:
+    """A dimension that may be so many times larger or smaller; None where the key has no such number."""
     try:
         kind = key_kind(spec, key)
     except SpecError:  # a file, or a list that is one value
         return None
     value = value_at(spec, key)
-    value = supplied_values(spec).get(key) if value is None else value
+    value = supplied.get(key) if value is None else value
     if kind.name not in ("quantity", "number") or not isinstance(value, float) or not value or not math.isfinite(value):
         return None
     low, high = sorted((value / factor, value * factor))
     return Dimension(key, kind, value, low, high)
 
 
-def _adjustable_keys(spec: MechanismSpec) -> Iterator[tuple[str, float]]:
-    """(key, factor) of what the kind calls adjustable and the spec, or a catalogue, has."""
-    given = [key_by_name(spec, key) for key in _leaves(document(spec))]
-    for key in dict.fromkeys((*given, *supplied_values(spec))):
-        factor = next((each for pattern, each in registry.mechanism(spec.mechanism).adjustable.items() if fnmatchcase(key, pattern)), 0.0)
-        if factor and key.split(".")[0] not in FIXED:
+def _adjustable_keys(spec: MechanismSpec, supplied: Mapping[str, float]) -> Iterator[tuple[str, float]]:
+    """(key, greatest factor) of what the kind calls adjustable and the spec, or a catalogue, has."""
+    adjustable = registry.mechanism(spec.mechanism).adjustable
+    given = [key_by_name(spec, key) for key, _ in leaves(document(spec))]
+    for key in dict.fromkeys((*given, *supplied)):
+        factor = next((each for pattern, each in adjustable.items() if fnmatchcase(key, pattern)), None)
+        if factor is not None:
             yield key, factor
-
-
-def _leaves(tables: Any, path: tuple[str, ...] = ()) -> Iterator[str]:
-    """Dotted keys of all that is no table; elements of lists by number."""
-    for step, value in enumerate(tables) if isinstance(tables, list) else tables.items():
-        here = (*path, str(step))
-        if isinstance(value, (dict, list)):
-            yield from _leaves(value, here)
-        else:
-            yield ".".join(here)

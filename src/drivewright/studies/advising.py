@@ -75,6 +75,7 @@ class _Designs:
         self.analyses = tuple(result.provenance["analyses"])
         self._owner, self._seconds = self._analyses_of_checks()
         self._evaluations: dict[tuple[str, ...], Callable[[Floats], Mapping[str, float]]] = {}
+        self._run_all = self._by_runs(self.analyses)
 
     def _analyses_of_checks(self) -> tuple[dict[str, str], dict[str, float]]:
         """({check: the analysis that gives it}, {analysis: seconds that it takes})."""
@@ -111,7 +112,7 @@ class _Designs:
     def run(self, design: Floats) -> dict[str, float]:
         """{check: margin} of all checks by a run."""
         self._look_at_the_clock()
-        found = self._by_runs(self.analyses)(design)
+        found = self._run_all(design)
         return {name: found.get(f"{CHECK}{name}", math.nan) for name in self.checks}
 
     def _compiled(self, names: Sequence[str]) -> Callable[[Floats], Mapping[str, float]] | None:

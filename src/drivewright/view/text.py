@@ -10,6 +10,7 @@ from drivewright.units import BY_UNIT, Scale, System, display, scale
 
 SUPERSCRIPT = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 UNSPOKEN = {"J": "energy"}  # what results have and nobody writes into a spec
+SIGNS = {"<=": "≤", ">=": "≥"}  # of the limit of a check
 THIN, SOLID = "\u202f", "\u00a0"
 
 

@@ -1,24 +1,15 @@
 """The keys of a design as jobs see them: which have values, how a value is written, what a person calls them."""
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from typing import Any
 
 from drivewright.errors import SpecError
 from drivewright.execution.keys import FIXED, KeyKind, key_kind
 from drivewright.spec import MechanismSpec, value_at
+from drivewright.spec.keys import leaves
 from drivewright.studio.design import Design, Tables
 from drivewright.view.text import display_unit
-
-
-def leaves(tables: Any, path: tuple[str, ...] = ()) -> Iterator[tuple[str, Any]]:
-    """(dotted key, raw value) of everything in raw tables that is no table; elements of lists by number."""
-    for step, value in enumerate(tables) if isinstance(tables, list) else tables.items():
-        here = (*path, str(step))
-        if isinstance(value, (dict, list)):
-            yield from leaves(value, here)
-        else:
-            yield ".".join(here), value
 
 
 def numeric(design: Design, spec: MechanismSpec) -> dict[str, tuple[KeyKind, float]]:

@@ -14,9 +14,9 @@ from drivewright.report.export import export as write_export
 from drivewright.report.folder import file_name, write_run_folder
 from drivewright.report.html import write_report
 from drivewright.spec import set_key, value_at
+from drivewright.spec.keys import leaves
 from drivewright.spec.serialisation import data_file_places, toml_text
 from drivewright.studio.design import Design
-from drivewright.studio.jobs.design_keys import leaves
 from drivewright.studio.jobs.progress import Progress
 
 Files: TypeAlias = dict[str, list[dict[str, Any]]]  # {"files": [{"name", "data"}]}

@@ -9,7 +9,7 @@ import numpy as np
 
 from drivewright.errors import SpecError
 from drivewright.execution.outputs import CHECK
-from drivewright.report.content import SIGNS, Views, pictures, summary
+from drivewright.report.content import Views, pictures, summary
 from drivewright.studies.optimisation import run_search
 from drivewright.studies.search import history
 from drivewright.studies.search.problem import prepare
@@ -19,7 +19,7 @@ from drivewright.studio.jobs.design_keys import input_text, is_locked, label, pl
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.progress import Progress
 from drivewright.studio.jobs.study import Live, evenly_spaced_rows
-from drivewright.view.text import display_unit, quantity, sentence, uncertain
+from drivewright.view.text import SIGNS, display_unit, quantity, sentence, uncertain
 
 MOST_FRONT = 500  # designs of a front that a page is sent
 
