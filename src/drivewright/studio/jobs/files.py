@@ -16,8 +16,8 @@ from drivewright.report.html import write_report
 from drivewright.spec import set_key, value_at
 from drivewright.spec.keys import leaves
 from drivewright.spec.serialisation import data_file_places, toml_text
-from drivewright.studio.design import Design
 from drivewright.studies.advising import advise
+from drivewright.studio.design import Design
 from drivewright.studio.jobs.progress import Progress
 
 Files: TypeAlias = dict[str, list[dict[str, Any]]]  # {"files": [{"name", "data"}]}
