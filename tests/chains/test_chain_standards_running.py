@@ -150,4 +150,4 @@ def test_forces_of_the_strands_of_a_running_drive():
     assert (forces.tight - forces.slack) * 38 * 0.0127 / (2 * np.pi) == pytest.approx(12.0, rel=1e-12)
     assert forces.speed == pytest.approx(150.0 * 19 * 0.0127 / (2 * np.pi), rel=1e-12)
     assert forces.tension - forces.tight == pytest.approx(0.7 * forces.speed**2, rel=1e-12)
-    assert s.strand_slope(0.0127, 19, 38, 20) == 1.0  # too short to reach around both
+    assert s.strand_angle_cosine(0.0127, 19, 38, 20) == 1.0  # too short to reach around both

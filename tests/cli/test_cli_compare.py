@@ -55,6 +55,13 @@ def test_labels_and_changes_go_to_every_design(drivewright, folder):
     assert all(left == right for left, right in record["values"].values())
 
 
+def test_a_spec_is_compared_with_what_set_makes_of_it(drivewright, folder):
+    code, out, err = drivewright("compare", "a.toml", "--set", "follower.prime_radius=46 mm", "--json")
+    both = drivewright("compare", "a.toml", "b.toml", "--json", "--labels", "a,changed", "--out", "both")[1]
+    assert code == 0 and json.loads(out)["labels"] == ["a", "changed"]
+    assert json.loads(out)["values"] == json.loads(both)["values"]
+
+
 def test_of_two_designs_the_terminal_has_the_difference_and_says_when_they_are_identical(drivewright, folder):
     _, out, err = drivewright("compare", "a.toml", "b.toml", "--out", "page")
     row = next(line for line in out.splitlines() if "max_pressure_angle" in line)

@@ -143,7 +143,7 @@ def test_page_and_terminal_name_the_inputs(tmp_path, capsys):
     table = next(each for each in content["tables"] if each["name"] == "extremes.area")
     assert [list(row) for row in table["printed"]][0][0] == "size"
     page = (tmp_path / "S" / "report.html").read_text()
-    assert "Inputs of the least area" in page
+    assert "Size squared: inputs of the least" in page
 
 
 def test_an_answer_of_nothing_has_no_extremes():

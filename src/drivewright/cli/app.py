@@ -162,7 +162,10 @@ def run(
 
 @app.command()
 def compare(
-    specs: Annotated[list[Path], typer.Argument(help="spec files of one kind, two or more; the others are compared with the first")],
+    specs: Annotated[
+        list[Path],
+        typer.Argument(help="spec files of one kind; the others are compared with the first; one alone with what --set makes of it"),
+    ],
     out: Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the first spec>-compared")] = None,
     set_: SetOption = None,
     only: OnlyOption = "",
@@ -178,9 +181,12 @@ def compare(
     from drivewright.report.comparison import compare as side_by_side
     from drivewright.report.comparison_page import refuse_foreign, write_comparison
 
+    with_itself = len(specs) == 1 and bool(set_)
+    specs = [*specs, *specs] if with_itself else specs
     check_count(len(specs))
-    loaded = [_load(path, set_, units) for path in specs]
+    loaded = [_load(path, set_ if n or not with_itself else None, units) for n, path in enumerate(specs)]
     check_kinds([spec.mechanism for spec in loaded])
+    labels = labels or (f"{specs[0].stem},changed" if with_itself else "")
     names, kind = compared.labels_of(specs, loaded, labels), loaded[0].mechanism
     folder = out or Path("out") / f"{specs[0].stem}-compared"
     refuse_foreign(folder)
@@ -194,7 +200,7 @@ def compare(
     if as_json:
         print_json(comparison.record())
     else:
-        compared.show_comparison(comparison, bool(set_))
+        compared.show_comparison(comparison, bool(set_) and not with_itself)
     show.finish_run(comparison.results, _names(only))
 
 

@@ -74,10 +74,12 @@ class Gear:
             return ""
         worst = max(self.undercut, key=lambda cut: cut.lost)
         least = worst.straight / np.sin(self.family.rack.pressure_angle) ** 2
+        hollow = worst.pitch_radius < 0
         return (
             f"{len(self.undercut)} of {2 * self.teeth} flanks are undercut, worst in space {worst.space}: {worst.lost * 1e3:.3g} mm of "
-            f"{worst.straight * 1e3:.3g} mm straight cutter depth lost, pitch curve radius {worst.pitch_radius * 1e3:.4g} mm there, "
-            f"{least * 1e3:.4g} mm needed. Take more teeth, a larger pressure angle or less dedendum."
+            f"{worst.straight * 1e3:.3g} mm straight cutter depth lost, pitch curve radius {abs(worst.pitch_radius) * 1e3:.4g} mm "
+            f"{'there, and hollow: a rack needs a convex one of' if hollow else 'there,'} {least * 1e3:.4g} mm"
+            f"{'. Take less variation of the ratio' if hollow else ' needed. Take more teeth, a larger pressure angle or less dedendum'}."
         )
 
 

@@ -22,9 +22,9 @@ class Sampled(NamedTuple):
     low: float = np.nan
     high: float = np.nan
 
-    def named(self, unit: str, meaning: str) -> Value:
+    def named(self, unit: str, meaning: str, label: str = "") -> Value:
         """As a `Value` of a result."""
-        return Value(self.value, unit, meaning, self.low, self.high, "sample").plain()
+        return Value(self.value, unit, meaning, self.low, self.high, "sample", label=label).plain()
 
 
 def mean_of(mean: float, sigma: float, n: int) -> Sampled:

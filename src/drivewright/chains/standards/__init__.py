@@ -32,8 +32,8 @@ from drivewright.chains.standards.layout import (
     min_centre_distance,
     pitch_diameter,
     strand_angle,
+    strand_angle_cosine,
     strand_length,
-    strand_slope,
     usual_centre_distances,
     wrap_angles,
 )
@@ -113,7 +113,7 @@ __all__ = [
     "strand_frequency",
     "strand_length",
     "strand_pulls",
-    "strand_slope",
+    "strand_angle_cosine",
     "strand_tension",
     "suitable_chains",
     "taut_loop",

@@ -32,8 +32,11 @@ def strand_angle(pitch: float, teeth1: int, teeth2: int, distance: Numbers) -> N
     return np.arcsin((radius2 - radius1) / distance)
 
 
-def strand_slope(pitch: float, teeth1: int, teeth2: int, links: float) -> float:
-    """cos g [-] of the taut chain by pitch circles; 1, strands along the line of centres, where the chain does not reach around them."""
+def strand_angle_cosine(pitch: float, teeth1: int, teeth2: int, links: float) -> float:
+    """cos g [-] of the strands' angle to the line of centres, of the taut chain by pitch circles.
+
+    1, strands along the line of centres, where the chain does not reach around the circles.
+    """
     try:
         distance = centre_distance(pitch, teeth1, teeth2, links)
     except InputError:

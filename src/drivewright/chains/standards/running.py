@@ -10,7 +10,7 @@ import numpy as np
 
 from drivewright._typing import Numbers
 from drivewright.chains.standards.given import above_zero, from_zero, whole, whole_teeth
-from drivewright.chains.standards.layout import pitch_diameter, strand_slope
+from drivewright.chains.standards.layout import pitch_diameter, strand_angle_cosine
 from drivewright.errors import InputError
 
 # Effective mass of the meeting joint over a link's: the seated link's own share, and that of the endless straight strand behind it.
@@ -59,13 +59,13 @@ def strand_tension(power: Numbers, speed: Numbers, mass_per_length: Numbers, sla
     return power / speed + centrifugal_tension(mass_per_length, speed) + slack_tension
 
 
-def strand_pulls(preload: float, torque: float, pitch: float, teeth: int, slope: float) -> tuple[float, float]:
+def strand_pulls(preload: float, torque: float, pitch: float, teeth: int, cosine: float) -> tuple[float, float]:
     """Forces of the tight and of the slack strand without the centrifugal one, F/(2 cos g) +- pi T/(z p)  [N].
 
-    preload F [N]: between the sprockets; torque T [N m]: on the one with z teeth; slope: cosine of the strands' angle g to the centres.
+    preload F [N]: between the sprockets; torque T [N m]: on the one with z teeth; cosine: that of the strands' angle g to the centres.
     """
     pull = torque * 2 * np.pi / (teeth * pitch)
-    along = preload / slope
+    along = preload / cosine
     return 0.5 * (along + pull), 0.5 * (along - pull)
 
 
@@ -92,7 +92,7 @@ def strand_forces(
     driven one overcomes.
     """
     velocity = chain_speed(pitch, teeth[0], speed)
-    tight, slack = strand_pulls(preload, torque, pitch, teeth[1], strand_slope(pitch, *teeth, links))
+    tight, slack = strand_pulls(preload, torque, pitch, teeth[1], strand_angle_cosine(pitch, *teeth, links))
     return StrandForces(velocity, float(centrifugal_tension(mass_per_length, velocity)), tight, slack)
 
 

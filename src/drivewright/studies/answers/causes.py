@@ -8,7 +8,7 @@ from drivewright._typing import Floats
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies import sensitivity
 from drivewright.studies.answers.maps import Response
-from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, table_of_rows, together
+from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, about, table_of_rows, together
 from drivewright.studies.answers.within import variances
 from drivewright.studies.statistics import Sampled, varies
 
@@ -119,10 +119,10 @@ def _linear(arranged):
 
 def _linear_values(arranged, totals):
     for _, name, unit, _, sigma, least, greatest in totals:
-        what = arranged.study.meaning(name) or name
-        yield f"linear.sigma.{name}", Value(sigma, unit, f"{what}: standard deviation by root sum of squares")
-        yield f"linear.least.{name}", Value(least, unit, f"{what}: worst case of linear theory, least")
-        yield f"linear.greatest.{name}", Value(greatest, unit, f"{what}: worst case of linear theory, greatest")
+        study = arranged.study
+        yield f"linear.sigma.{name}", Value(sigma, unit, **about(study, name, "standard deviation by root sum of squares"))
+        yield f"linear.least.{name}", Value(least, unit, **about(study, name, "worst case of linear theory, least"))
+        yield f"linear.greatest.{name}", Value(greatest, unit, **about(study, name, "worst case of linear theory, greatest"))
 
 
 # -- shares --------------------------------------------------------------------------------------------------------------------
@@ -190,9 +190,7 @@ def _contributions(arranged):
     table = table_of_rows("contributions", "Contributions to the variance", CONTRIBUTIONS, rows, arranged)
     plots = _ranked(arranged, sample.keys or _keys(arranged), wide) if arranged.combinations == 1 else Part()
     values = {
-        f"determination.{name}": fit.named(
-            "-", f"{arranged.study.meaning(name) or name}: share of the variance that a linear fit explains, R2"
-        )
+        f"determination.{name}": fit.named("-", **about(arranged.study, name, "share of the variance that a linear fit explains, R²"))
         for name, fit in fits.items()
         if arranged.combinations == 1 and np.isfinite(fit.value)
     }
@@ -214,7 +212,7 @@ def _ranked(arranged, keys, wide):
         if shares := wide.get((name, 0)):
             table = Table(
                 f"contributions.{name}",
-                f"Contributions to the variance of {name}",
+                f"{arranged.study.label(name)}: contributions to its variance",
                 (
                     Column("key", "", "key that varies", np.array(keys)),
                     *(
@@ -225,7 +223,9 @@ def _ranked(arranged, keys, wide):
                 ),
             )
             tables.append(table)
-            plots.append(Plot(table.name, f"Shares in the variance of {name}", table.name, "key", tuple(shares), style="ranked"))
+            plots.append(
+                Plot(table.name, f"{arranged.study.label(name)}: shares in its variance", table.name, "key", tuple(shares), style="ranked")
+            )
     return Part(tables=tuple(tables), plots=tuple(plots))
 
 
@@ -245,7 +245,7 @@ def responses(arranged: Arranged) -> Iterator[Response]:
             if np.any(np.isfinite(part))
         )
         if columns:
-            yield Response(f"shares.{name}", f"Shares in the variance of {name}", columns)
+            yield Response(f"shares.{name}", f"{arranged.study.label(name)}: shares in its variance", columns)
 
 
 # -- Sobol indices -------------------------------------------------------------------------------------------------------------
@@ -296,7 +296,7 @@ def _index_plot(arranged, name, rows):
     table = Table(f"indices.{name}", f"Sobol indices of {name}", tuple(columns))
     plot = Plot(
         table.name,
-        f"Shares in the variance of {name}",
+        f"{arranged.study.label(name)}: shares in its variance",
         table.name,
         "key",
         ("first_order", "total"),

@@ -10,7 +10,7 @@ from drivewright.execution.case_table import CASE
 from drivewright.result import Column, Table, Value
 from drivewright.studies.answers.all_cases import moments_of, row_of
 from drivewright.studies.answers.causes import theories
-from drivewright.studies.answers.parts import Arranged, Part, join_names, plain, together
+from drivewright.studies.answers.parts import Arranged, Part, about, join_names, plain, together
 from drivewright.studies.plan import Plan
 from drivewright.studies.study import Study
 from drivewright.studies.variables import Variable
@@ -107,10 +107,10 @@ def _of_value(arranged, name, ends):
     inputs = plan.at(np.array([end.case for end in ends]))
     units = key_units(plan)
     columns = [_column(end, [inputs[key][place] for key in units], units.values(), system) for place, end in enumerate(ENDS)]
-    told = [f"{quantity(end.number, study.unit(name), system=system)} in case {end.case}" for end in ends]
+    told = [f"{quantity(end.number, study.unit(name), system=system, label=study.label(name))} in case {end.case}" for end in ends]
     return Table(
         f"extremes.{name}",
-        f"Inputs of the least {name} ({told[0]}) and the greatest ({told[1]})",
+        f"{study.label(name)}: inputs of the least ({told[0]}) and of the greatest ({told[1]})",
         (
             Column("key", "", "key that varies", np.array(list(units))),
             Column("unit", "", "unit of the row's numbers", np.array(list(units.values()))),
@@ -179,8 +179,8 @@ def linear_corners(arranged: Arranged, rerun: Rerun | None = None) -> Part:
 
 def _corner_values(study, corners, computed):
     for corner, number in zip(corners, computed, strict=True):
-        what = f"{study.meaning(corner.name) or corner.name}: computed at the {corner.end} corner of linear theory"
-        yield f"linear.{corner.end}.{corner.name}.computed", Value(float(number), study.unit(corner.name), what)
+        told = about(study, corner.name, f"computed at the {corner.end} corner of linear theory")
+        yield f"linear.{corner.end}.{corner.name}.computed", Value(float(number), study.unit(corner.name), **told)
 
 
 def _corners(arranged):

@@ -110,7 +110,7 @@ def _front_part(study, goals, columns, sets, remarks):
     )
     if not len(members):
         remarks = (*remarks, "no case passes every check and requirement, so the Pareto front is empty")
-    title = " and ".join(f"{name} ({goal})" for name, goal in goals.items())
+    title = " and ".join(f"{study.label(name)} ({goal})" for name, goal in goals.items())
     tables = (
         Table("pareto", f"Cases by {title}", _columns(study, goals, there, sets)),
         *([Table("front", f"Pareto front of {title}", _columns(study, goals, members, sets))] if len(members) else []),

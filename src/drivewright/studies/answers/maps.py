@@ -10,7 +10,7 @@ from drivewright.execution.case_table import CASE
 from drivewright.execution.outputs import CHECK
 from drivewright.result import HIGH, LOW, Column, Plot, Table, Value
 from drivewright.studies.answers.cases import STATUSES, status_codes
-from drivewright.studies.answers.parts import Arranged, Part, level_text, table_of_rows, together
+from drivewright.studies.answers.parts import Arranged, Part, about, level_text, table_of_rows, together
 from drivewright.studies.statistics import finite
 
 MOST_PANELS = 4  # combinations of further keys that get plots of their own
@@ -163,20 +163,18 @@ def _range_of_all(everything, name):
 
 def _range_values(arranged, rows):
     for _, name, unit, _, least, _, greatest, _, least_low, least_high, greatest_low, greatest_high in rows:
-        what = arranged.study.meaning(name) or name
-        yield f"least.{name}", Value(least, unit, f"{what}: least over the grid", least_low, least_high, "of the case").plain()
-        yield (
-            f"greatest.{name}",
-            Value(greatest, unit, f"{what}: greatest over the grid", greatest_low, greatest_high, "of the case").plain(),
-        )
+        for end, value, low, high in (("least", least, least_low, least_high), ("greatest", greatest, greatest_low, greatest_high)):
+            told = about(arranged.study, name, f"{end} over the grid")
+            yield f"{end}.{name}", Value(value, unit, **told, low=low, high=high, interval="of the case").plain()
 
 
 def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s of a grid without random keys: the shown values, the worst margin, the number of failing checks, the status."""
     for name in arranged.plotted:
-        column = Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[:, 0])
+        study, data = arranged.study, arranged.of(name)[:, 0]
+        column = Column(name, study.unit(name), study.meaning(name) or name, data, study.label(name))
         bounds = arranged.bounds(name)
-        yield Response(name, name, (column,), ends=column.bounds(*(end[:, 0] for end in bounds)) if bounds else ())
+        yield Response(name, study.label(name), (column,), ends=column.bounds(*(end[:, 0] for end in bounds)) if bounds else ())
     yield from _of_checks(arranged)
     if np.any(status_codes(arranged.study)):
         meaning = "status: " + ", ".join(f"{code} {name}" for code, name in enumerate(STATUSES))

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,18 @@ class Part:
     tables: tuple[Table, ...] = ()
     plots: tuple[Plot, ...] = ()
     findings: tuple[str, ...] = ()
+
+
+class About(TypedDict):
+    """Meaning and label of a value."""
+
+    meaning: str
+    label: str
+
+
+def about(study: Study, name: str, what: str) -> About:
+    """Meaning and label of a statistic of a column, `what` says which: "Maximum torque, mean of the sample"."""
+    return About(meaning=f"{study.meaning(name) or name}: {what}", label=f"{study.label(name)}, {what}")
 
 
 def together(parts: Iterable[Part]) -> Part:
@@ -174,9 +186,8 @@ def estimate_values(
 ) -> Iterator[tuple[str, Value]]:
     """(name, `Value`) of rows (combination, value, unit, estimates): `estimates` {prefix: (attribute with a `Sampled`, what it is)}."""
     for _, name, unit, estimate in rows:
-        meaning = arranged.study.meaning(name) or name
         for prefix, (attribute, what) in estimates.items():
-            yield f"{prefix}.{name}", getattr(estimate, attribute).named(unit, f"{meaning}: {what}")
+            yield f"{prefix}.{name}", getattr(estimate, attribute).named(unit, **about(arranged.study, name, what))
 
 
 def table_of_rows(

@@ -7,7 +7,7 @@ import numpy as np
 from drivewright.execution.outputs import CHECK
 from drivewright.result import Column, Plot, Table, Value
 from drivewright.studies.answers.maps import Response
-from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, estimate_values, table_of_rows, together
+from drivewright.studies.answers.parts import BOUNDS, Arranged, Part, about, estimate_values, table_of_rows, together
 from drivewright.studies.answers.within import within_cases
 from drivewright.studies.statistics import PERCENTS, Sampled, capability, finite
 
@@ -82,8 +82,9 @@ def _sure(number, name, unit, statistics):
 
 def _histograms(arranged):
     """The raw samples of the shown values; the margin of a check with its limit, 0."""
+    study = arranged.study
     columns = [
-        Column(name, arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.of(name)[0, arranged.sample])
+        Column(name, study.unit(name), study.meaning(name) or name, arranged.of(name)[0, arranged.sample], study.label(name))
         for name in arranged.plotted
     ]
     columns = [column for column in columns if len(finite(column.data)) > 1]
@@ -93,7 +94,7 @@ def _histograms(arranged):
     plots = [
         Plot(
             f"histogram.{c.name}",
-            f"Distribution of {c.name}",
+            f"{c.label}: distribution",
             "sample",
             c.name,
             (c.name,),
@@ -145,7 +146,7 @@ def _yield_values(row):
 def responses(arranged: Arranged) -> Iterator[Response]:
     """`Response`s over the grid: mean and mean -+ sigma of each shown value, its sigma, and the yield, with their intervals."""
     for name in arranged.plotted:
-        unit, what = arranged.study.unit(name), arranged.study.meaning(name) or name
+        unit, what, label = arranged.study.unit(name), arranged.study.meaning(name) or name, arranged.study.label(name)
         summaries = arranged.summaries(name)
         (mean, *mean_ends), (sigma, *sigma_ends) = (np.array([getattr(each, part) for each in summaries]).T for part in ("mean", "sigma"))
         lines = (
@@ -153,10 +154,10 @@ def responses(arranged: Arranged) -> Iterator[Response]:
             (f"lower.{name}", "mean less one standard deviation", mean - sigma),
             (f"upper.{name}", "mean and one standard deviation", mean + sigma),
         )
-        columns = tuple(Column(c, unit, f"{what}, {words}", y) for c, words, y in lines)
-        yield Response(name, f"{name}: mean and standard deviation", columns, ends=columns[0].bounds(*mean_ends))
-        alone = Column(f"sigma.{name}", unit, f"{what}, standard deviation", sigma)
-        yield Response(alone.name, f"{name}: standard deviation", (alone,), ends=alone.bounds(*sigma_ends))
+        columns = tuple(Column(c, unit, f"{what}, {words}", y, f"{label}, {words}") for c, words, y in lines)
+        yield Response(name, f"{label}: mean and standard deviation", columns, ends=columns[0].bounds(*mean_ends))
+        alone = Column(f"sigma.{name}", unit, f"{what}, standard deviation", sigma, f"{label}, standard deviation")
+        yield Response(alone.name, f"{label}: standard deviation", (alone,), ends=alone.bounds(*sigma_ends))
     if arranged.study.check_names:
         shares, *ends = np.array([each.share for each in arranged.tallies()]).T
         column = Column("yield", "-", "share of the cases that pass every check", shares)
@@ -191,6 +192,5 @@ def _ends(case):
 
 def _worst_values(arranged, rows):
     for _, name, unit, least, greatest, _ in rows:
-        what = arranged.study.meaning(name) or name
-        yield f"worst_case.least.{name}", Value(least, unit, f"{what}: least at the corners")
-        yield f"worst_case.greatest.{name}", Value(greatest, unit, f"{what}: greatest at the corners")
+        for end, value in (("least", least), ("greatest", greatest)):
+            yield f"worst_case.{end}.{name}", Value(value, unit, **about(arranged.study, name, f"{end} at the corners"))
