@@ -203,6 +203,21 @@ class Frame:
     axes: tuple[str, str] = ("x", "y")
 
 
+class Handle(NamedTuple):
+    """A place on the drawing that a hand can move, and the key of the spec that follows it.
+
+    `point` (x, y) [m] stands in the frame of `body`, in the machine frame where that is "".  Without `direction` the key is a point
+    (x, y) in the same frame, and both of its components follow; with it the key is one number, and the handle moves by
+    `direction` [m per SI unit of the key].  `label` names it beside the pointer: "A of crank".
+    """
+
+    key: str
+    point: Point
+    direction: Point | None = None
+    body: str = ""
+    label: str = ""
+
+
 @dataclass(frozen=True)
 class Scene:
     """One cycle of a mechanism.  `cycle` (frames,) is the driving quantity; first and last frame close the cycle."""
@@ -216,6 +231,7 @@ class Scene:
     traces: tuple[Trace, ...] = ()
     table: str = ""  # name of the result's table that shares this cycle, for the linked cursor
     marks: tuple[tuple[float, str], ...] = ()  # (cycle value, label)
+    handles: tuple[Handle, ...] = ()  # what a hand can move
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,22 @@ def floats(array: ArrayLike) -> str:
     return base64.b64encode(np.ascontiguousarray(array, "<f4").tobytes()).decode()
 
 
+def pack_handles(scene: Scene) -> list[dict[str, Any]]:
+    """The handles of a scene for a page that changes the design; `body` is the number of the body that carries one, -1 of the frame."""
+    order = {body.name: number for number, body in enumerate(scene.bodies)}
+    return [
+        {
+            "key": handle.key,
+            "body": order[handle.body] if handle.body else -1,
+            "point": [float(part) for part in handle.point],
+            "label": handle.label,
+            **({"direction": [float(part) for part in handle.direction]} if handle.direction else {}),
+        }
+        for handle in scene.handles
+        if not handle.body or handle.body in order
+    ]
+
+
 def pack_scene(scene: Scene, system: System = "mm") -> dict[str, Any]:
     """Plain dictionary of a scene for `createPlayer`; `length` is (factor, unit) of its scale bar, absent where it is metric.
 

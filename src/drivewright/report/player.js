@@ -5,17 +5,18 @@
 //
 // Lengths arrive in metres, angles in radians, y up.  Colours are the custom properties --blue, --ink ... of the host's style.
 
-import { createClock, element, fitCanvas, fixed, watchTheme, watchVisible } from "./clock.js";
+import { createClock, element, fitCanvas, fixed, locate, watchTheme, watchVisible } from "./clock.js";
 import { MOST, TEXT, button, exaggerator, icon, magnifiedBy, pace, press, scrubber, segments, sinceMark, speedBox, times } from "./controls.js";
 import { createPainter, createView, steer } from "./drawing.js";
-import { boxOf, unpack } from "./scene.js";
+import { STILL, boxOf, poseAt, poseOf, seenFrom, unpack } from "./scene.js";
 
 export { createClock, element, fitCanvas, fixed, floats, nice, watchTheme } from "./clock.js";
 
 /**
  * A player inside `host`.  Options: clock (shared with plots; it outlives the player), autoplay, duration [s per cycle at speed 1],
- * text (English text -> text shown), picked (called with the name of a body that is clicked).
- * Returns {clock, view, frame, load(scene), compare(scene | null), fit(), redraw(), setFrame(name), setGhosts(on), setTraces(on),
+ * text (English text -> text shown), picked (called with the name of a body that is clicked), drawn (called after each drawing),
+ * held (whether a hand holds something, so that the view stays).
+ * Returns {clock, view, stage, frame, poseOf(body number, phase), load(scene), compare(scene | null), fit(), redraw(), setFrame(name), setGhosts(on), setTraces(on),
  * setExaggeration(scale), highlight(names), destroy()}.
  * What has been drawn can be read from the host: data-phase, data-frame, and data-gen where the scene has a `gen`.
  */
@@ -45,6 +46,7 @@ export function createPlayer(host, packed, options = {}) {
     state.pending = 0;
     if (!state.scene || view.width < 2) return;
     state.painter.paint(surface.context, view, state.observer, clock, theme.colours, switches, state.reference);
+    options.drawn?.();
     host.dataset.phase = clock.phase.toFixed(4);
     if (state.scene.gen !== undefined) host.dataset.gen = state.scene.gen;
   }
@@ -94,7 +96,7 @@ export function createPlayer(host, packed, options = {}) {
     observe(before);
     state.controls.speed.follow(state.scene.period);
     magnify();
-    if (first || state.observer.name !== (before ?? state.observer.name)) fit(); else keepInSight();
+    if (first || state.observer.name !== (before ?? state.observer.name)) fit(); else if (!options.held?.()) keepInSight();
     show();
     if (state.visible) draw();  // at once: a person waits for it
   }
@@ -191,8 +193,14 @@ export function createPlayer(host, packed, options = {}) {
 
   host.addEventListener("keydown", keys);
   canvas.addEventListener("dblclick", fit);
+  /** Pose [x, y, angle] of a body by its number at a phase, -1 for the machine frame, as the observer sees it. */
+  function bodyPose(number, phase) {
+    const [low, part] = locate(state.scene.u, phase), eye = poseAt(state.observer.motion, low, part);
+    return seenFrom(number < 0 ? STILL : poseOf(state.scene.bodies[number], low, part, switches.scale), eye);
+  }
+
   const player = {
-    clock, view, load, compare, fit, redraw, setFrame, setGhosts, setTraces, setExaggeration,
+    clock, view, stage, poseOf: bodyPose, load, compare, fit, redraw, setFrame, setGhosts, setTraces, setExaggeration,
     highlight(list) { switches.lit = new Set(list); redraw(); },
     get frame() { return state.observer.name; },
     destroy() { unsubscribe(); unwatch(); theme.stop(); surface.stop(); clock.see(player, false); host.removeEventListener("keydown", keys); host.replaceChildren(); },

@@ -115,6 +115,8 @@ class Document:
         if change == "undo" and self._past:
             self._future.append(self.design)
             self._past.pop()
+        elif change == "revert" and self._past and after.design is not self.design and after._gesture is None:
+            self._past.pop()
         elif change == "redo" and self._future:
             self._past.append(self.design)
             self._future.pop()
@@ -163,6 +165,19 @@ class Document:
         tables = deepcopy(self.design.tables)
         enter_text(tables, spec_class(self.design), key, tidied(text) if gesture else text)
         return self._accept(self.design.with_tables(tables), (key, gesture) if gesture else None)
+
+    def drag(self, changes: Mapping[str, str], gesture: str) -> None:
+        """Keys that a handle moves, {key: typed text}; the steps of one drag are one undo step."""
+        tables, model = deepcopy(self.design.tables), spec_class(self.design)
+        keys = [form_key(tables, key) for key in changes]
+        for key, text in zip(keys, changes.values(), strict=True):
+            enter_text(tables, model, key, tidied(text))
+        self._accept(self.design.with_tables(tables), (" ".join(keys), gesture))
+
+    def revert(self, gesture: str) -> None:
+        """Take back all steps of the drag that is under way, as if it had not begun."""
+        if self._past and self._gesture is not None and self._gesture[1] == gesture:
+            self.design, self._gesture = self._past.pop(), None
 
     def load(self, changes: Mapping[str, str]) -> None:
         """Several keys, {key: typed text}, as one step; locked ones stay."""

@@ -46,9 +46,9 @@ class Inbox:
 
 
 def _same_drag(before: Mapping[str, Any], after: Mapping[str, Any]) -> bool:
-    """Whether two messages are steps of one drag of a slider."""
+    """Whether two messages are steps of one drag of a slider or of a handle."""
     same = ("what", "key", "gesture")
-    return before["what"] == "set" and bool(before.get("gesture")) and all(before.get(name) == after.get(name) for name in same)
+    return before["what"] in ("set", "drag") and bool(before.get("gesture")) and all(before.get(name) == after.get(name) for name in same)
 
 
 def _size(message: Mapping[str, Any]) -> int:

@@ -146,6 +146,15 @@ class Session:
         """A value as typed, or as a slider gives it."""
         await self._edit("set", _key(key), key=_key(key), text=str(text), gesture=str(gesture))
 
+    async def drag(self, changes: Mapping[str, str], gesture: str) -> None:
+        """What a handle moves, as it moves."""
+        texts = {_key(key): str(text) for key, text in changes.items()}
+        await self._edit("drag", *texts, changes=texts, gesture=str(gesture))
+
+    async def revert(self, gesture: str) -> None:
+        """A drag is taken back before it has ended."""
+        await self._edit("revert", ALL, gesture=str(gesture))
+
     async def unset(self, key: str) -> None:
         """Back to the default, or out."""
         await self._edit("unset", _key(key), key=_key(key))
@@ -327,7 +336,7 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set unset add drop put take undo redo lock text load preset fresh example open share reference pin job export save analyse"
+    "hello again set drag revert unset add drop put take undo redo lock text load preset fresh example open share reference pin job export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 

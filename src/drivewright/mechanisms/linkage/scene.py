@@ -1,17 +1,33 @@
 """A linkage as a moving picture: which points the bar or plate of a body spans."""
 
+from collections.abc import Iterator
+from dataclasses import replace
+
 from drivewright._typing import Floats
+from drivewright.labels import in_words
 from drivewright.mechanisms.linkage.build import LinkageModel
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.mechanisms.linkage.tables import CENTROID, GROUND, place, points_of
 from drivewright.multibody.analyses.animation import animate
 from drivewright.multibody.drawing import distinct_points
-from drivewright.scene import Scene
+from drivewright.scene import Handle, Scene
 
 
 def scene(model: LinkageModel) -> Scene:
     """One turn of the drive, or the run of a free mechanism."""
-    return animate(model, {name: nodes(model.spec, name) for name in (GROUND, *model.spec.bodies)})
+    drawn = animate(model, {name: nodes(model.spec, name) for name in (GROUND, *model.spec.bodies)})
+    return replace(drawn, handles=tuple(_handles(model.spec)))
+
+
+def _handles(spec: LinkageSpec) -> Iterator[Handle]:
+    """The points of the frame and of the bodies; a body's origin where a joint holds it is none: the other points say where it is."""
+    joined = {text for joint in spec.joints for text in joint.connects}
+    for name, x, y in ((name, *point) for name, point in spec.ground.points.items()):
+        yield Handle(f"ground.points.{name}", (x, y), label=f"{name} of the frame")
+    for body, given in spec.bodies.items():
+        for name, point in given.points.items():
+            if any(point) or f"{body}.{name}" not in joined:
+                yield Handle(f"bodies.{body}.points.{name}", (point[0], point[1]), body=body, label=f"{name} of {in_words(body)}")
 
 
 def nodes(spec: LinkageSpec, name: str) -> Floats:

@@ -1,6 +1,7 @@
 // The centre: the moving mechanism, its solids, its figures, and the designs of a study, one at a time.
 
 import { createFigures } from "./figures.js";
+import { createHandles } from "./handles.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
@@ -12,8 +13,10 @@ const LATE = 4000;  // ms
 const FIRST = "the first drawing after installation compiles for up to a minute";
 
 /** The player, and what there is to say where nothing can be drawn.  `reword()` writes its words anew, and leaves the view as it is. */
-function createMotion(host, {store, t, clock, createPlayer}) {
+function createMotion(host, tools) {
+  const {store, t, clock, createPlayer} = tools;
   const stage = element("div", {class: "vw-player"}), note = element("div", {class: "vw-note", role: "status", hidden: ""});
+  const handles = createHandles(() => player, tools);
   let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
   host.append(stage, note);
   const picked = name => store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
@@ -23,9 +26,11 @@ function createMotion(host, {store, t, clock, createPlayer}) {
     shown = scene;
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked});
+      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => player && handles.draw(), held: handles.held});
+      player.stage.append(handles.layer);
       player.highlight(store.state.lit);
     }
+    handles.load(scene.scene);
     if (compared) player.compare(compared);
   }
   function remark(scene) {
@@ -52,7 +57,7 @@ function createMotion(host, {store, t, clock, createPlayer}) {
   return {
     open() {}, close() {},
     reword() { if (player) load(shown); remark(store.state.scene); },
-    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); player?.destroy(); },
+    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); player?.destroy(); },
   };
 }
 

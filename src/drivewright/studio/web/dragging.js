@@ -1,0 +1,204 @@
+// One handle under a hand: pointer, arrow keys, typed numbers; grid and other points attract it; Esc takes everything back.
+
+import { element, nice } from "./player.js";
+import { quantityOf } from "./numbers.js";
+import { createGesture } from "./slider.js";
+import { onGrid, snapped } from "./snapping.js";
+
+const SHAKE = 3, FINE = 6;  // px of a hand that presses without moving; px of a step of the grid, at least
+
+/**
+ * The drag of a handle.  `place(handle, point)` is the pixel of a point in the frame of its body, `frame(handle)` the pose of that frame,
+ * `others(handle)` the other handles with their pixels, `numbers(handle)` the numbers of its keys.
+ */
+export function createDrag({layer, guides, bubble, place, frame, others, numbers, view, say, t, clock}) {
+  let hold = null, box = null, pending = 0;
+
+  function attach(button, handleOf) {
+    button.addEventListener("pointerdown", event => { if (event.button === 0) press(event, button, handleOf); });
+    button.addEventListener("keydown", event => keys(event, button, handleOf));
+    button.addEventListener("dblclick", event => event.stopPropagation());
+  }
+
+  // ---- pointer
+  function press(event, button, handleOf) {
+    event.preventDefault(); event.stopPropagation();
+    if (clock.playing) { clock.set(0); clock.pause(); }
+    const handle = handleOf(), start = numbers(handle);
+    if (!start) return;
+    button.focus({preventScroll: true});
+    button.setPointerCapture(event.pointerId);
+    const at = pixel(event), own = place(handle, handle.point);
+    hold = {button, handleOf, start, grip: [at[0] - own[0], at[1] - own[1]], at, travelled: 0, gesture: createGesture(handle.key).current(), now: start.map(n => n.value)};
+    button.classList.add("is-held");
+    for (const [name, act] of Object.entries(WHILE_HELD)) button.addEventListener(name, act);
+    show();
+  }
+  function move(event) {
+    if (!hold) return;
+    const at = pixel(event);
+    hold.travelled = Math.max(hold.travelled, Math.hypot(at[0] - hold.at[0], at[1] - hold.at[1]));
+    if (hold.travelled < SHAKE) return;
+    Object.assign(hold, {last: at, free: event.altKey});
+    if (!pending) pending = requestAnimationFrame(follow);  // once a frame, however many moves the mouse tells
+  }
+  function follow() {
+    pending = 0;
+    if (!hold?.last) return;
+    const wanted = [hold.last[0] - hold.grip[0], hold.last[1] - hold.grip[1]], handle = hold.handleOf();
+    const values = handle.direction ? along(handle, wanted) : freely(handle, wanted);
+    send(values);
+  }
+  function release() {
+    if (!hold) return;
+    if (pending) { cancelAnimationFrame(pending); follow(); }
+    const {button, handleOf, travelled} = hold;
+    end();
+    if (travelled < SHAKE) type(button, handleOf);
+  }
+  function end() {
+    if (!hold) return;
+    const {button} = hold;
+    hold = null;
+    cancelAnimationFrame(pending); pending = 0;
+    for (const [name, act] of Object.entries(WHILE_HELD)) button.removeEventListener(name, act);
+    button.classList.remove("is-held");
+    guides.replaceChildren();
+    bubble.hidden = true;
+  }
+  const WHILE_HELD = {pointermove: move, pointerup: release, pointercancel: release, lostpointercapture: release};
+  const pixel = event => { const area = layer.getBoundingClientRect(); return [event.clientX - area.left, event.clientY - area.top]; };
+
+  /** A point in the frame of the handle's body [m] that is seen at a pixel. */
+  function inFrame(handle, [x, y]) {
+    const seen = view(), [px, py, angle] = frame(handle), c = Math.cos(angle), s = Math.sin(angle);
+    const [mx, my] = seen.middle(), dx = (x - seen.width / 2) / seen.scale + mx - px, dy = (seen.height / 2 - y) / seen.scale + my - py;
+    return [c * dx + s * dy, c * dy - s * dx];
+  }
+  const gridOf = ({factor}) => hold?.free ? 0 : nice(FINE * 2.5 / view().scale / factor) / 2;
+
+  /** Both components of a point. */
+  function freely(handle, wanted) {
+    const near = others(handle), partners = near.filter(({body}) => body === handle.body).map(({at}) => at);
+    const fixed = near.filter(({body, at, direction}) => !direction && body !== handle.body && !coincides(at, handle)).map(({at}) => at);
+    const found = hold.free ? {at: wanted, guides: [], words: ""} : snapped(wanted, {fixed, partners, lengths: lengthsOf(near)});
+    mark(found);
+    const exact = inFrame(handle, found.at), snaps = found.words !== "";
+    return hold.start.map((number, n) => {
+      const value = exact[n] / number.factor, step = gridOf(number);
+      return kept(snaps ? tidy(value, step) : onGrid(value, step), number);
+    });
+  }
+  const coincides = (at, handle) => { const own = place(handle, handle.point); return Math.hypot(at[0] - own[0], at[1] - own[1]) < 1; };
+
+  /** One number: how far the hand went along the handle's direction. */
+  function along(handle, wanted) {
+    const [number] = hold.start, to = inFrame(handle, wanted), [dx, dy] = handle.direction, size = dx * dx + dy * dy;
+    const ahead = ((to[0] - handle.point[0]) * dx + (to[1] - handle.point[1]) * dy) / size;
+    mark({guides: [], words: ""});
+    return [kept(onGrid((current(handle)[0] ?? number.value) + ahead / number.factor, gridOf(number)), number)];
+  }
+  /** The numbers that the scene on the screen was drawn with. */
+  const current = handle => numbers(handle)?.map(({value}) => value) || hold.now;
+
+  // ---- what is told
+  function send(values) {
+    if (values.every((value, n) => value === hold.now[n]) || !values.every(Number.isFinite)) { show(); return; }
+    hold.now = values;
+    say({what: "drag", changes: texts(hold.start, values), gesture: hold.gesture});
+    show();
+  }
+  const texts = (start, values) => Object.fromEntries(start.map(({key, unit}, n) => [key, unit ? `${values[n]} ${unit}` : String(values[n])]));
+  function show() {
+    if (!hold) return;
+    const handle = hold.handleOf(), [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "];
+    const words = hold.words ? ` · ${t(hold.words)}` : "";
+    bubble.hidden = false;
+    bubble.textContent = `${t(handle.label || handle.key)}  ${hold.now.map((value, n) => `${names[n]}${value} ${hold.start[n].unit}`).join("  ")}${words}`;
+    const wide = bubble.offsetWidth, left = x + 16 + wide > layer.clientWidth ? x - 16 - wide : x + 16;
+    bubble.style.transform = `translate(${Math.max(4, left)}px, ${Math.max(4, y - 34)}px)`;
+  }
+  function mark({guides: lines, words}) {
+    hold.words = words;
+    guides.replaceChildren(...lines.map(([[x1, y1], [x2, y2]]) => {
+      const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
+      Object.entries({x1, y1, x2, y2}).forEach(([name, value]) => line.setAttribute(name, value));
+      return line;
+    }));
+  }
+  function takeBack() { const {gesture} = hold; end(); say({what: "revert", gesture}); }
+
+  // ---- keys and typing
+  function keys(event, button, handleOf) {
+    const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+    if (event.key === "Escape" && hold) { event.preventDefault(); event.stopPropagation(); takeBack(); return; }
+    if (event.key === "Enter" || /^[-\d.]$/.test(event.key) && !event.ctrlKey && !event.metaKey) {
+      event.preventDefault(); event.stopPropagation();
+      const drag = hold;
+      end();
+      type(button, handleOf, event.key === "Enter" ? null : event.key, drag?.gesture);
+    } else if (step) {
+      event.preventDefault(); event.stopPropagation();
+      nudge(handleOf(), step, event.shiftKey ? 10 : 1);
+    }
+  }
+  const nudges = createGesture("nudge");
+  function nudge(handle, [x, y], times) {
+    const start = numbers(handle);
+    if (!start) return;
+    if (clock.playing) { clock.set(0); clock.pause(); }
+    const moves = handle.direction ? [x + y] : [x, y], values = start.map((number, n) => {
+      const step = gridOf(number);
+      return moves[n] ? onGrid(number.value + moves[n] * times * step, step) : number.value;
+    });
+    say({what: "drag", changes: texts(start, values), gesture: nudges.next()});
+  }
+  /** A box beside the handle for its numbers: "40 mm" or "40, 12 mm". */
+  function type(button, handleOf, first = null, gesture = "") {
+    const handle = handleOf(), start = numbers(handle);
+    if (!start) return;
+    box?.remove();
+    const own = element("input", {type: "text", class: "hd-box", "data-testid": `handle-box-${handle.key}`, autocomplete: "off",
+      "aria-label": t(handle.label || handle.key)});
+    box = own;
+    own.value = first ?? `${start.map(({value}) => value).join(", ")} ${start[0].unit}`;
+    const [x, y] = place(handle, handle.point);
+    own.style.transform = `translate(${Math.min(x + 14, layer.clientWidth - 150)}px, ${Math.max(4, y - 38)}px)`;
+    layer.append(own);
+    own.focus();
+    if (first === null) own.select();
+    let done = false;
+    const finish = take => {
+      if (done) return;
+      done = true;
+      const parts = own.value.split(",").map(part => quantityOf(part)), unit = parts.at(-1)?.[1];
+      if (take && parts.length === start.length && parts.every(Boolean)) {
+        const changes = Object.fromEntries(start.map(({key, unit: usual}, n) => [key, `${parts[n][0]} ${parts[n][1] || unit || usual}`.trim()]));
+        say({what: "drag", changes, gesture: gesture || createGesture(handle.key).current()});
+      }
+      own.remove();
+      if (box === own) box = null;
+      button.focus({preventScroll: true});
+    };
+    own.addEventListener("keydown", event => {
+      event.stopPropagation();
+      if (event.key === "Enter" || event.key === "Escape") { event.preventDefault(); finish(event.key === "Enter"); }
+    });
+    own.addEventListener("blur", () => finish(true));
+  }
+
+  return {attach, held: () => hold !== null, draw: show, destroy() { end(); box?.remove(); }};
+}
+
+/** Lengths in pixels between neighbouring handles of every body. */
+function lengthsOf(handles) {
+  const bodies = new Map();
+  for (const {body, at} of handles) bodies.set(body, [...bodies.get(body) || [], at]);
+  return [...bodies.values()].flatMap(points => points.slice(1).map(([x, y], n) => Math.hypot(x - points[n][0], y - points[n][1])));
+}
+
+/** A number within the limits of its field. */
+const kept = (value, {low, high}) => Math.min(Math.max(value, low ?? -Infinity), high ?? Infinity);
+
+/** A number without rounding, as short as the grid's hundredth allows. */
+const tidy = (value, step) => onGrid(value, step ? step / 100 : 0);
