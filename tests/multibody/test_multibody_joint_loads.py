@@ -1,0 +1,151 @@
+"""What joints with friction transmit, against the equations of all bodies; and how radii turn sliding into rotation."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+from test_multibody_reactions import CASES, solved
+
+from drivewright.multibody.assembly import assemble
+from drivewright.multibody.forces.joint_friction import JointFriction
+from drivewright.multibody.model import (
+    GROUND,
+    AppliedTorque,
+    Body,
+    JointDrive,
+    LoadCurve,
+    Marker,
+    MultibodyModel,
+    PinSlot,
+    Prismatic,
+    Revolute,
+    Rolling,
+    line,
+)
+from drivewright.multibody.record import record
+from drivewright.multibody.simulate import Settings, simulate
+
+pytestmark = pytest.mark.analytical
+
+G = 9.81
+DOWN = (0.0, -G)
+ARM, GUIDE = 0.012, 0.05
+FRICTIONS = {
+    Revolute: JointFriction(0.1, 0.15, arm=ARM),
+    Prismatic: JointFriction(0.1, 0.15, guide=GUIDE),
+    PinSlot: JointFriction(0.1, 0.15),
+    Rolling: JointFriction(1.0, 1.0, arm=ARM),
+}
+# No clearance, no bushing, and no constraint twice: the forces of every joint have one solution.
+IDEAL = [
+    name for name in CASES if name not in ("massless link", "bushing", "free body", "rolling on an arm", "rolling in a ring on an arm")
+]
+
+
+def rubbing(model):
+    """A model whose pins, slides, slots and wheels all have friction."""
+    joints = tuple(dataclasses.replace(each, friction=FRICTIONS[type(each)]) if type(each) in FRICTIONS else each for each in model.joints)
+    return dataclasses.replace(model, joints=joints)
+
+
+def axes_of(bodies, observed, n):
+    """{body: (place of its origin (2,), axes (2, 2))} at the state n."""
+    found = {GROUND: (np.zeros(2), np.eye(2))}
+    for number, body in enumerate(bodies, 1):
+        x, y, angle = (observed.body(number, field)[n] for field in ("x", "y", "angle"))
+        axes = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        found[body.name] = np.array([x, y]) - axes @ body.centroid, axes
+    return found
+
+
+def place_of(marker, axes):
+    """A marker's place in the world."""
+    origin, turned = axes[marker.body]
+    return origin + turned @ [marker.x, marker.y]
+
+
+def load_of(joint, force, moment, axes):
+    """Friction at the coefficient 1 of a joint from its force [N] and moment [N m]."""
+    if isinstance(joint, Revolute):
+        return ARM * np.hypot(*force)
+    along = axes[joint.second.body][1] @ (np.array(joint.axis) / np.hypot(*joint.axis))
+    if isinstance(joint, Rolling) and joint.track_radius:
+        across = place_of(joint.first, axes) - place_of(joint.second, axes)
+        return ARM * abs(force @ across) / np.hypot(*across)
+    across = abs(along[0] * force[1] - along[1] * force[0])
+    if isinstance(joint, Rolling):
+        return ARM * across
+    return max(across, 2 * abs(moment) / GUIDE) if isinstance(joint, Prismatic) else across
+
+
+@pytest.mark.parametrize("name", IDEAL)
+def test_what_a_joint_transmits_is_what_the_equations_of_all_bodies_need(name):
+    """Forces in a tree with loops, from multipliers and partial velocities, against Newton's and Euler's equations of every body."""
+    model = rubbing(CASES[name])
+    assembly, observed, found = solved(model)
+    assert np.max(found.residual) < 2e-11
+    rub = [joint for joint in model.joints if getattr(joint, "friction", None)]
+    assert observed.frictions.shape[1] == len(rub) > 0
+    for n in range(len(observed.t)):
+        axes = axes_of(model.bodies, observed, n)
+        for number, joint in enumerate(rub):
+            reaction = found.joints[joint.name]
+            wanted = load_of(joint, reaction.force[n], reaction.moment[n], axes)
+            assert observed.friction(number, "load")[n] == pytest.approx(wanted, rel=1e-8), (joint.name, n)
+
+
+def free(joint, speed, **body):
+    """A wheel or a rotor of 3 kg in one joint that rubs, turning freely."""
+    return MultibodyModel((Body("wheel", 3.0, 0.02, angular_velocity=-speed, **body),), (joint,), gravity=DOWN)
+
+
+def course(model, duration):
+    run = simulate(assemble(model), duration, Settings(per_step=2))
+    assert run.outcome == "complete", run.advice
+    return record(run, {"wheel": Marker("wheel")})
+
+
+def test_a_pin_slides_by_its_radius_times_the_rate():
+    """J alpha = m g R (mu + (mu_s - mu) exp(-(R w/v_s)^2) + c R w), from 4 v_s down to below v_s."""
+    mu, static, slow, viscous, radius = 0.1, 0.3, 0.02, 0.5, 0.05
+    pin = JointFriction(mu, static, slow, viscous, arm=radius)
+    found = course(free(Revolute("pin", Marker("wheel"), Marker(GROUND), friction=pin), 1.6), 0.13)
+    slip = radius * np.abs(found.point("wheel", "w"))
+    assert slip[0] > 3.9 * slow and 0.1 * slow < slip[-1] < slow
+    wanted = 3.0 * G * radius * (mu + (static - mu) * np.exp(-((slip / slow) ** 2)) + viscous * slip) / 0.02
+    np.testing.assert_allclose(found.point("wheel", "alpha"), wanted, rtol=1e-9)
+
+
+def test_a_wheel_slides_by_its_rolling_speed():
+    """(J + m R^2) alpha = e m g (1 + c v), v = R w."""
+    arm, viscous, radius, speed = 2e-3, 0.4, 0.1, 1.5
+    resistance = JointFriction(1.0, 1.0, viscous=viscous, arm=arm)
+    joint = Rolling("track", Marker("wheel"), Marker(GROUND, 0.0, -radius), radius, friction=resistance)
+    found = course(free(joint, speed / radius, velocity=(speed, 0.0)), 0.5)
+    wanted = arm * 3.0 * G * (1 + viscous * found.point("wheel", "vx")) / (0.02 + 3.0 * radius**2)
+    np.testing.assert_allclose(found.point("wheel", "alpha"), wanted, rtol=1e-9)
+
+
+@pytest.mark.parametrize("radius", [0.05, 0.2])
+def test_a_pin_that_holds_gives_way_by_its_presliding_displacement_over_its_radius(radius):
+    """Under a torque M that grows slowly it turns by M/(mu_s m g R) d/R."""
+    static, give, rate = 0.3, 1e-5, 0.5
+    pin = JointFriction(static, static, presliding=give, arm=radius)
+    model = free(Revolute("pin", Marker("wheel"), Marker(GROUND), friction=pin), 0.0)
+    found = course(dataclasses.replace(model, forces=(AppliedTorque("ramp", "wheel", LoadCurve(line(0.0, rate))),)), 0.5)
+    wanted = rate * found.t[-1] / (static * 3.0 * G * radius) * give / radius
+    assert found.point("wheel", "angle")[-1] == pytest.approx(wanted, rel=0.02)
+
+
+@pytest.mark.parametrize(("speed", "share"), [(0.0, 0.0), (2e-4, 1.0), (-2e-4, -1.0), (5e-6, 0.5)])
+def test_a_driven_joint_slides_from_a_thousandth_of_stribecks_speed_on(speed, share):
+    """A drive takes mu_s m g the way that it goes, at v_s/50 as well; nothing at rest."""
+    slide = JointFriction(0.3, 0.3, stribeck_speed=0.01)
+    block = MultibodyModel(
+        (Body("wheel", 3.0, 0.1),),
+        (Prismatic("guide", Marker("wheel"), Marker(GROUND), friction=slide),),
+        drives=(JointDrive("guide", line(0.0, speed)),),
+        gravity=DOWN,
+    )
+    found = record(simulate(assemble(block), 0.01), {})
+    np.testing.assert_allclose(found.drives[:, 0], share * 0.3 * 3.0 * G, rtol=1e-9, atol=1e-12)
