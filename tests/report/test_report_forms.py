@@ -13,7 +13,7 @@ from drivewright.errors import InputError, UnknownName
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.form import ReportForm, report_form
 from drivewright.report.html import write_report
-from drivewright.report.letterhead import LARGEST_LOGO, read_letterhead
+from drivewright.report.letterhead import LARGEST_LOGO, LARGEST_TEMPLATE, read_letterhead
 from drivewright.report.numbering import BEARS_NAME, DRAWS_LIMIT, UNRELATED, failed_first, numbered_figures, relation, seen_in, with_figures
 from drivewright.report.pdf import HALF_WIDTH, figure_rows, write_pdf
 from drivewright.result import Check, Plot
@@ -200,8 +200,11 @@ def test_a_png_is_known_by_its_content(tmp_path):
         (b"GIF89a", "neither an SVG .* nor a PNG file"),
         (b"<html><svg/></html>", "neither an SVG"),
         (b'<!DOCTYPE svg [<!ENTITY a "aaaa">]><svg>&a;</svg>', "neither an SVG"),
+        (b'<!-- --><!DOCTYPE svg [<!ENTITY a "aaaa">]><!-- --><svg>&a;</svg>', "neither an SVG"),
         (b"<svg>" + b" " * LARGEST_LOGO, "more than 500 kB"),
         (png(100_000, 100_000), "100000 × 100000 pixels"),
+        (png(2000, 2001), "2000 × 2001 pixels"),
+        (png(0, 10), "0 × 10 pixels"),
         (b"\x89PNG\r\n\x1a\n", "0 × 0 pixels"),
     ],
 )
@@ -212,6 +215,40 @@ def test_what_is_no_logo_is_refused_before_anything_is_written(tmp_path, data, w
     with pytest.raises(InputError, match=f"report.logo: logo.svg .*{wanted}"):
         write_run_folder(branded(tmp_path, "logo.svg"), tmp_path / "run", figures=False, seen=Views())
     assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"<svg>" + b" " * (LARGEST_LOGO - 5),
+        b"\xef\xbb\xbf<svg/>",
+        b'<?xml version="1.0"?>\n<!-- drawn\nby hand -->\n<!DOCTYPE svg>\n<svg xmlns="x"/>',
+    ],
+    ids=["largest", "byte order mark", "prolog"],
+)
+def test_an_svg_may_have_a_prolog_and_the_size_that_is_allowed(tmp_path, data):
+    (tmp_path / "logo.svg").write_bytes(data)
+    head = read_letterhead(branded(tmp_path, "logo.svg").spec)
+    assert (head.suffix, head.logo) == (".svg", data) and head.logo_source.startswith("data:image/svg+xml;base64,")
+
+
+def test_a_png_of_the_most_pixels_is_an_image_of_its_own_type(tmp_path):
+    (tmp_path / "logo.png").write_bytes(png(2000, 2000))
+    head = read_letterhead(branded(tmp_path, "logo.png").spec)
+    assert head.content()["logo"].startswith("data:image/png;base64,iVBOR")
+    assert read_letterhead(branded(tmp_path).spec).logo_source == "", "no logo, no image"
+
+
+@pytest.mark.parametrize(
+    ("data", "wanted"),
+    [(b" " * (LARGEST_TEMPLATE + 1), "house.css has more than 200 kB"), ("Größe".encode("latin-1"), "house.css is not text in UTF-8")],
+)
+def test_a_template_that_is_no_text_of_some_size_is_named(tmp_path, data, wanted):
+    (tmp_path / "house.css").write_bytes(data)
+    with pytest.raises(InputError, match=f"report.templates: {wanted}"):
+        read_letterhead(branded(tmp_path, templates=("house.css",)).spec)
+    (tmp_path / "house.css").write_bytes(b" " * LARGEST_TEMPLATE)
+    assert read_letterhead(branded(tmp_path, templates=("house.css",)).spec).templates == {"house.css": " " * LARGEST_TEMPLATE}
 
 
 def test_templates_replace_ours_by_name(tmp_path):
