@@ -14,7 +14,18 @@ from drivewright.report.content import Views, content, pictures
 from drivewright.report.form import ReportForm, report_form
 from drivewright.report.html import write_report
 from drivewright.report.letterhead import LARGEST_LOGO, LARGEST_TEMPLATE, read_letterhead
-from drivewright.report.numbering import BEARS_NAME, DRAWS_LIMIT, UNRELATED, failed_first, numbered_figures, relation, seen_in, with_figures
+from drivewright.report.numbering import (
+    BEARS_NAME,
+    DRAWS_LIMIT,
+    UNRELATED,
+    NumberedFigure,
+    failed_first,
+    in_order,
+    numbered_figures,
+    relation,
+    seen_in,
+    with_figures,
+)
 from drivewright.report.pdf import HALF_WIDTH, figure_rows, write_pdf
 from drivewright.result import Check, Plot
 
@@ -95,6 +106,31 @@ def test_plots_of_failed_checks_come_first_and_all_others_keep_their_order():
     plots = (plot("one", "x"), plot("two", "bad"), plot("three", "good"), plot("four", "y", limits=(("bad", "limit"),)), plot("five", "z"))
     result = replace(four_bar_result(), checks=(check("good", True), check("bad", False)))
     assert [each.name for each in failed_first(result, Views(plots=plots)).plots] == ["four", "two", "one", "three", "five"]
+
+
+def test_a_plot_of_one_of_two_failed_checks_comes_first():
+    plots = (plot("one", "x"), plot("two", "bad"), plot("three", "worse", limits=(("bad", "limit"),)))
+    result = replace(four_bar_result(), checks=(check("worse", False), check("bad", False)))
+    assert [each.name for each in failed_first(result, Views(plots=plots)).plots] == ["three", "two", "one"]
+
+
+def test_pictures_stand_in_the_order_of_their_numbers_and_further_ones_follow():
+    figures = (NumberedFigure(1, "scene-top"), NumberedFigure(2, "plot-a"), NumberedFigure(3, "plot-b"))
+    drawn = [picture(name, 300) for name in ("plot-b", "extra", "scene-top", "plot-a", "more")]
+    assert [(number, each.name) for number, each in in_order(drawn, figures)] == [
+        (1, "scene-top"),
+        (2, "plot-a"),
+        (3, "plot-b"),
+        (4, "extra"),
+        (5, "more"),
+    ]
+
+
+def test_a_short_report_without_a_scene_shows_the_first_drawing():
+    result = four_bar_result()
+    still = seen_in(SHORT, result, SEEN._replace(scene=None))
+    assert SEEN.drawings and still.scene is None and still.drawings == SEEN.drawings[:1]
+    assert seen_in(SHORT, result, SEEN).drawings == ()
 
 
 def test_a_failed_check_names_the_figure_that_shows_it(tmp_path):
