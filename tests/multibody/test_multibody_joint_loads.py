@@ -32,10 +32,10 @@ pytestmark = pytest.mark.analytical
 G = 9.81
 DOWN = (0.0, -G)
 ARM, GUIDE = 0.012, 0.05
-FRICTIONS = {
+FRICTIONS = {  # what slides has no lever arm: whichever is given does not count
     Revolute: JointFriction(0.1, 0.15, arm=ARM),
-    Prismatic: JointFriction(0.1, 0.15, guide=GUIDE),
-    PinSlot: JointFriction(0.1, 0.15),
+    Prismatic: JointFriction(0.1, 0.15, arm=0.5, guide=GUIDE),
+    PinSlot: JointFriction(0.1, 0.15, arm=0.5),
     Rolling: JointFriction(1.0, 1.0, arm=ARM),
 }
 
