@@ -176,3 +176,24 @@ def test_a_driven_joint_slides_from_a_thousandth_of_stribecks_speed_on(speed, sh
     )
     found = record(simulate(assemble(block), 0.01), {})
     np.testing.assert_allclose(found.drives[:, 0], share * 0.3 * 3.0 * G, rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("sliding", [-1.0, 0.0, 1.0])
+def test_the_force_of_friction_in_every_state_of_a_joint(sliding):
+    """-m g mu_s (u + tau v/d) - m g c v where it sticks; -+ m g (mu(v) + c |v|) where it slides its way, -+ m g mu_s the other way."""
+    mu, static, slow, viscous, give, deflection, relaxation = 0.1, 0.3, 0.02, 0.4, 1e-5, 0.35, 2e-4
+    slide = JointFriction(mu, static, slow, viscous, give)
+    guide = Prismatic("guide", Marker("block"), Marker(GROUND), friction=slide)
+    system = assemble(MultibodyModel((Body("block", 3.0, 0.1),), (guide,), gravity=DOWN)).system
+    (table,) = system.frictions.table
+    v = np.array([-0.03, -1e-4, 0.0, 1e-4, 0.03])
+    y = np.zeros((len(v), 5))
+    y[:, 1], y[:, table["sliding"]], y[:, table["deflection"]], y[:, table["relaxation"]] = v, sliding, deflection, relaxation
+    observed = observe(system, np.zeros(len(v)), y)
+    moving = mu + (static - mu) * np.exp(-((v / slow) ** 2)) + viscous * np.abs(v)
+    wanted = (
+        sliding * np.where(sliding * v >= 0, moving, static) if sliding else static * (deflection + relaxation * v / give) + viscous * v
+    )
+    np.testing.assert_allclose(observed.friction(0, "rate"), v, atol=1e-15)
+    np.testing.assert_allclose(observed.friction(0, "force"), -3.0 * G * wanted, rtol=1e-12)
+    np.testing.assert_allclose(observed.friction(0, "share"), np.abs(wanted) / static, rtol=1e-12)
