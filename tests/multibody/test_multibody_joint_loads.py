@@ -197,3 +197,17 @@ def test_the_force_of_friction_in_every_state_of_a_joint(sliding):
     np.testing.assert_allclose(observed.friction(0, "rate"), v, atol=1e-15)
     np.testing.assert_allclose(observed.friction(0, "force"), -3.0 * G * wanted, rtol=1e-12)
     np.testing.assert_allclose(observed.friction(0, "share"), np.abs(wanted) / static, rtol=1e-12)
+
+
+def test_a_block_that_stops_springs_back_with_critical_damping():
+    """d (1 + w s) exp(-w s) are left of its presliding displacement s after the stop, w^2 = mu_s g/d, and it never goes forward again."""
+    mu, give, speed = 0.2, 1e-4, 0.05
+    guide = Prismatic("guide", Marker("wheel"), Marker(GROUND), friction=JointFriction(mu, mu, presliding=give))
+    found = course(MultibodyModel((Body("wheel", 3.0, 0.1, velocity=(speed, 0.0)),), (guide,), gravity=DOWN), 0.1)
+    frequency, stop = np.sqrt(mu * G / give), speed / (mu * G)
+    after = found.t > stop + 1e-6
+    since = frequency * (found.t[after] - stop)
+    assert since[-1] > 8 and after.sum() > 10
+    left = found.point("wheel", "x")[after] - (speed**2 / (2 * mu * G) - give)
+    np.testing.assert_allclose(left, give * (1 + since) * np.exp(-since), atol=2e-3 * give)
+    assert np.max(found.point("wheel", "vx")[after]) < 1e-6
