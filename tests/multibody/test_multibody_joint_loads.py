@@ -119,6 +119,11 @@ def test_what_a_joint_transmits_is_what_the_equations_of_all_bodies_need(name):
             reaction = found.joints[joint.name]
             wanted = load_of(joint, reaction.force[n], reaction.moment[n], axes)
             assert observed.friction(number, "load")[n] == pytest.approx(wanted, rel=1e-8), (joint.name, n)
+            transmitted = [observed.friction(number, field)[n] for field in ("normal", "tangential")]
+            if isinstance(joint, Revolute):
+                assert transmitted == pytest.approx(reaction.force[n].tolist(), rel=1e-8, abs=1e-9 * wanted / ARM), (joint.name, n)
+            if isinstance(joint, Prismatic):
+                assert transmitted[1] == pytest.approx(2 * reaction.moment[n] / GUIDE, rel=1e-8, abs=1e-9 * wanted), (joint.name, n)
 
 
 def free(joint, speed, **more):
