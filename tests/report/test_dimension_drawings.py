@@ -1,6 +1,8 @@
 """Drawings of what the keys measure: each length drawn is the key's value, and each name can be read."""
 
 import math
+import shutil
+from dataclasses import replace
 from itertools import combinations
 
 import pytest
@@ -9,7 +11,7 @@ from places import ROOT
 
 from drivewright import registry
 from drivewright.dimensions import Angle, DimensionSheet, Length
-from drivewright.report.dimension_drawings import dimension_figure, drawing_files, measured
+from drivewright.report.dimension_drawings import dimension_figure, drawing_files, measured, write_drawings
 from drivewright.spec.fields import dimension_at, value_at
 from drivewright.view.dimensions import spread
 from drivewright.view.style import styled
@@ -92,3 +94,14 @@ def test_rows_are_apart_and_within_their_column():
     assert spread([0.0, 0.1, 5.0], 1.0, 0.0, 10.0) == [0.5, 1.5, 5.0]
     assert spread([9.9, 9.9], 1.0, 0.0, 10.0) == [8.5, 9.5]
     assert spread([], 1.0, 0.0, 1.0) == []
+
+
+def test_drawings_are_written_into_the_folder_of_the_kind_and_written_again(tmp_path, monkeypatch):
+    own = registry.mechanism("linkage")
+    shutil.copytree(own.folder / "presets", tmp_path / "presets")
+    monkeypatch.setattr(registry, "mechanism", lambda kind: replace(own, folder=tmp_path))
+    assert drawing_files("linkage") == {}, "a package that brings a kind may leave its drawings out"
+    told, path = [], tmp_path / "drawings" / "linkage.svg"
+    assert [write_drawings("linkage", told.append) for _ in range(2)] == [[path], [path]]
+    assert drawing_files("linkage") == {"linkage": path} and path.read_text().count("<svg") == 1
+    assert told == ["dimensions: linkage"] * 2

@@ -13,8 +13,19 @@ from drivewright.errors import InputError, UnknownName
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.form import ReportForm, report_form
 from drivewright.report.html import write_report
-from drivewright.report.letterhead import LARGEST_LOGO, read_letterhead
-from drivewright.report.numbering import BEARS_NAME, DRAWS_LIMIT, UNRELATED, failed_first, numbered_figures, relation, seen_in, with_figures
+from drivewright.report.letterhead import LARGEST_LOGO, LARGEST_TEMPLATE, read_letterhead
+from drivewright.report.numbering import (
+    BEARS_NAME,
+    DRAWS_LIMIT,
+    UNRELATED,
+    NumberedFigure,
+    failed_first,
+    in_order,
+    numbered_figures,
+    relation,
+    seen_in,
+    with_figures,
+)
 from drivewright.report.pdf import HALF_WIDTH, figure_rows, write_pdf
 from drivewright.result import Check, Plot
 
@@ -95,6 +106,31 @@ def test_plots_of_failed_checks_come_first_and_all_others_keep_their_order():
     plots = (plot("one", "x"), plot("two", "bad"), plot("three", "good"), plot("four", "y", limits=(("bad", "limit"),)), plot("five", "z"))
     result = replace(four_bar_result(), checks=(check("good", True), check("bad", False)))
     assert [each.name for each in failed_first(result, Views(plots=plots)).plots] == ["four", "two", "one", "three", "five"]
+
+
+def test_a_plot_of_one_of_two_failed_checks_comes_first():
+    plots = (plot("one", "x"), plot("two", "bad"), plot("three", "worse", limits=(("bad", "limit"),)))
+    result = replace(four_bar_result(), checks=(check("worse", False), check("bad", False)))
+    assert [each.name for each in failed_first(result, Views(plots=plots)).plots] == ["three", "two", "one"]
+
+
+def test_pictures_stand_in_the_order_of_their_numbers_and_further_ones_follow():
+    figures = (NumberedFigure(1, "scene-top"), NumberedFigure(2, "plot-a"), NumberedFigure(3, "plot-b"))
+    drawn = [picture(name, 300) for name in ("plot-b", "extra", "scene-top", "plot-a", "more")]
+    assert [(number, each.name) for number, each in in_order(drawn, figures)] == [
+        (1, "scene-top"),
+        (2, "plot-a"),
+        (3, "plot-b"),
+        (4, "extra"),
+        (5, "more"),
+    ]
+
+
+def test_a_short_report_without_a_scene_shows_the_first_drawing():
+    result = four_bar_result()
+    still = seen_in(SHORT, result, SEEN._replace(scene=None))
+    assert SEEN.drawings and still.scene is None and still.drawings == SEEN.drawings[:1]
+    assert seen_in(SHORT, result, SEEN).drawings == ()
 
 
 def test_a_failed_check_names_the_figure_that_shows_it(tmp_path):
@@ -200,8 +236,11 @@ def test_a_png_is_known_by_its_content(tmp_path):
         (b"GIF89a", "neither an SVG .* nor a PNG file"),
         (b"<html><svg/></html>", "neither an SVG"),
         (b'<!DOCTYPE svg [<!ENTITY a "aaaa">]><svg>&a;</svg>', "neither an SVG"),
+        (b'<!-- --><!DOCTYPE svg [<!ENTITY a "aaaa">]><!-- --><svg>&a;</svg>', "neither an SVG"),
         (b"<svg>" + b" " * LARGEST_LOGO, "more than 500 kB"),
         (png(100_000, 100_000), "100000 × 100000 pixels"),
+        (png(2000, 2001), "2000 × 2001 pixels"),
+        (png(0, 10), "0 × 10 pixels"),
         (b"\x89PNG\r\n\x1a\n", "0 × 0 pixels"),
     ],
 )
@@ -212,6 +251,40 @@ def test_what_is_no_logo_is_refused_before_anything_is_written(tmp_path, data, w
     with pytest.raises(InputError, match=f"report.logo: logo.svg .*{wanted}"):
         write_run_folder(branded(tmp_path, "logo.svg"), tmp_path / "run", figures=False, seen=Views())
     assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"<svg>" + b" " * (LARGEST_LOGO - 5),
+        b"\xef\xbb\xbf<svg/>",
+        b'<?xml version="1.0"?>\n<!-- drawn\nby hand -->\n<!DOCTYPE svg>\n<svg xmlns="x"/>',
+    ],
+    ids=["largest", "byte order mark", "prolog"],
+)
+def test_an_svg_may_have_a_prolog_and_the_size_that_is_allowed(tmp_path, data):
+    (tmp_path / "logo.svg").write_bytes(data)
+    head = read_letterhead(branded(tmp_path, "logo.svg").spec)
+    assert (head.suffix, head.logo) == (".svg", data) and head.logo_source.startswith("data:image/svg+xml;base64,")
+
+
+def test_a_png_of_the_most_pixels_is_an_image_of_its_own_type(tmp_path):
+    (tmp_path / "logo.png").write_bytes(png(2000, 2000))
+    head = read_letterhead(branded(tmp_path, "logo.png").spec)
+    assert head.content()["logo"].startswith("data:image/png;base64,iVBOR")
+    assert read_letterhead(branded(tmp_path).spec).logo_source == "", "no logo, no image"
+
+
+@pytest.mark.parametrize(
+    ("data", "wanted"),
+    [(b" " * (LARGEST_TEMPLATE + 1), "house.css has more than 200 kB"), ("Größe".encode("latin-1"), "house.css is not text in UTF-8")],
+)
+def test_a_template_that_is_no_text_of_some_size_is_named(tmp_path, data, wanted):
+    (tmp_path / "house.css").write_bytes(data)
+    with pytest.raises(InputError, match=f"report.templates: {wanted}"):
+        read_letterhead(branded(tmp_path, templates=("house.css",)).spec)
+    (tmp_path / "house.css").write_bytes(b" " * LARGEST_TEMPLATE)
+    assert read_letterhead(branded(tmp_path, templates=("house.css",)).spec).templates == {"house.css": " " * LARGEST_TEMPLATE}
 
 
 def test_templates_replace_ours_by_name(tmp_path):
