@@ -13,7 +13,7 @@ from drivewright.report.study import reasons, varied, verdict
 from drivewright.result import Plot, Result
 from drivewright.view import cards
 from drivewright.view.panels import drawable
-from drivewright.view.text import number, shown_scale, with_unit
+from drivewright.view.text import labelled_scale, number, with_unit
 
 WIDE, NARROW = 560, 320  # pixels of a plot, of a scene
 DATA_COLOURS = ("map", "mesh")  # styles of plots whose colours are data
@@ -98,9 +98,9 @@ def _numbers(study: StudyRecord, answers: AnswersRecord) -> str:
     for name in list(dict.fromkeys(plotted or ends))[:MOST_ROWS]:
         about = study.schema.field(name).metadata or {}
         unit, label = (about.get(key, b"").decode() for key in (b"unit", b"label"))
-        shown = shown_scale(unit, system=system, size=max(map(abs, ends[name])))
-        texts = [with_unit(number(shown.of(end)), shown.unit) for end in ends[name]]
-        rows.append((label_of(about.get(b"meaning", b"").decode(), label), *texts, name))
+        label = label_of(about.get(b"meaning", b"").decode(), label)
+        shown = labelled_scale(label, unit, system, max(map(abs, ends[name])))
+        rows.append((label, *(with_unit(number(shown.of(end)), shown.unit) for end in ends[name]), name))
     known = [name for name in ("yield",) if name in answers.result.values]
     yields = cards.table(map(_value_row, headline(answers.result, known)), kinds="tnc")
     return f"<div>{yields}{cards.table(rows, ('Value', 'Least', 'Greatest', 'Column'), 'tnnc')}</div>"

@@ -5,7 +5,7 @@ import os
 import platform
 import time
 import traceback
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -43,7 +43,9 @@ def run(
     only = (only,) if isinstance(only, str) and only else tuple(only)
     selected = select_analyses(mechanism.analyses, only, everything)
     model = mechanism.build(spec) if model is None else model
-    answers = run_analyses(spec, model, selected, progress)
+    began: dict[str, float] = {}
+    answers = run_analyses(spec, model, selected, _timed(began, progress))
+    ended = time.perf_counter()
     left_out = {name: "".join(answer.findings[-1:]) for name, answer in answers.items() if answer.outcome == "left out"}
     unanswered = [left_out[name] for name in dict.fromkeys((*only, *_given_tables(spec, left_out))) if left_out.get(name)]
     warnings = tuple(dict.fromkeys([*(warning for answer in answers.values() for warning in answer.warnings), *unanswered]))
@@ -57,7 +59,23 @@ def run(
     ]
     answers = {name: _with_stop_times(answer) for name, answer in answers.items()}
     result = _result(spec, mechanism, answers, findings, time.perf_counter() - started)
-    return replace(result, warnings=warnings, left_out=left_out)
+    return replace(result, warnings=warnings, left_out=left_out, timings=_durations(began, ended))
+
+
+def _timed(began: dict[str, float], progress: Progress | None) -> Progress:
+    """The progress callback that also writes into `began` when each analysis began."""
+
+    def begin(done: int, total: int, name: str) -> None:
+        began[name] = time.perf_counter()
+        if progress:
+            progress(done, total, name)
+
+    return begin
+
+
+def _durations(began: Mapping[str, float], ended: float) -> dict[str, float]:
+    """{analysis: seconds} of analyses that ran one after another."""
+    return {name: end - start for (name, start), end in zip(began.items(), [*list(began.values())[1:], ended], strict=True)}
 
 
 def _given_tables(spec: SpecLike, names: Iterable[str]) -> Iterator[str]:
@@ -255,6 +273,7 @@ def _result(spec: SpecT, mechanism: Mechanism[Any, Any], answers: Answers, findi
         tables={t.name: t for a in answers.values() for t in a.tables},
         fields={each.name: each for a in answers.values() for each in a.fields},
         checks=tuple(c for a in answers.values() for c in a.checks),
+        check_analyses={c.name: name for name, a in answers.items() for c in a.checks},
         findings=tuple(findings),
         outcome="partial" if any(a.outcome == "partial" for a in answers.values()) else "complete",
         failures=_failures(answers),

@@ -2,6 +2,7 @@
 
 import math
 import pickle
+import time
 from pathlib import Path
 
 import numpy as np
@@ -97,6 +98,23 @@ def test_only_does_exactly_those_named_and_what_they_need(kind, only, everything
     result = runner.run(SPEC, only=only, everything=everything)
     assert log == names
     assert not [f for f in result.findings if "on request" in f] or (not only and not everything)
+
+
+def test_a_result_knows_the_analysis_of_each_check_and_how_long_each_took(kind):
+    def slow(spec, done):
+        time.sleep(0.05)
+        return Answer(checks=(Check("late", 1.0, 2.0, "<=", "-", "late"),))
+
+    kind(
+        Analysis("fast", lambda spec, done: Answer(checks=(Check("early", 1.0, 2.0, "<=", "-", "early"),)), "a"),
+        Analysis("slow", slow, "b"),
+        Analysis("last", lambda spec, done: Answer(), "c"),
+    )
+    result = runner.run(SPEC)
+    assert result.check_analyses == {"early": "fast", "late": "slow"}
+    assert list(result.timings) == ["fast", "slow", "last"]
+    assert max(result.timings, key=result.timings.get) == "slow" and result.timings["slow"] >= 0.05
+    assert sum(result.timings.values()) <= result.provenance["seconds"] + 1e-3
 
 
 def test_one_analysis_may_be_named_without_a_list(kind):

@@ -144,6 +144,18 @@ def test_a_result_keeps_its_advice(monkeypatch):
     assert (record["changes"][0]["before"], record["changes"][0]["after"]) == (0.01, 0.008)
 
 
+@pytest.mark.needs_pdf
+def test_an_exported_report_says_what_to_change(monkeypatch, tmp_path):
+    from drivewright.report import export, pdf
+
+    given = []
+    monkeypatch.setattr(pdf, "write_pdf", lambda result, path, form: given.append(result))
+    spec = toy(monkeypatch, lambda spec: (at_most("small", spec.size, 0.008),), {"size": 2.0}, size="10 mm").spec
+    export.export(spec, ("pdf",), tmp_path)
+    export.export(spec, ("pdf",), tmp_path, advise=dw.advise)
+    assert [[advice.check for advice in result.advice] for result in given] == [[], ["small"]]
+
+
 # -- real drives ---------------------------------------------------------------------------------------------------------------
 
 

@@ -130,7 +130,7 @@ def test_ranked_bars_have_a_row_for_each_label_of_any_design(plots):
     (panel,) = overlay([shares(["a", "b"], [0.1, 0.2]), shares(["c", "a"], [0.9, 0.3])], ["A", "B"], "p").panels
     assert list(panel.x.data) == ["c", "a", "b"]
     by_name = {series.label: dict(zip(panel.x.data, series.data, strict=True)) for series in panel.series}
-    assert by_name["B"]["c"] == 0.9 and np.isnan(by_name["A"]["c"]) and by_name["A"]["b"] == 0.2
+    assert by_name["B"]["c"] == 90.0 and np.isnan(by_name["A"]["c"]) and by_name["A"]["b"] == 20.0  # percent
     assert "no value" not in [text.get_text() for text in draw_panels((panel,)).axes[0].texts]
 
 
@@ -183,3 +183,13 @@ def test_what_stands_along_the_x_axis_is_named_where_it_is_at_one_place_in_all_d
     monkeypatch.setattr(registry, "mechanism", lambda kind: type("Kind", (), {"plots": staticmethod(plots_of)}))
     assert overlay([shaft(0.2), shaft(0.2), shaft(0.3)], ["one", "two", "three"], "p").panels[0].places == ((0.0, "A"),)
     assert overlay([shaft(0.2), shaft(0.2)], ["one", "two"], "p").panels[0].places == ((0.0, "A"), (pytest.approx(200.0), "B"))
+
+
+def test_all_designs_are_drawn_in_the_unit_of_the_first(plots):
+    plots(Plot("p", "P", "t", "x", ("d",)))
+
+    def deflected(*sizes):
+        return result(Column("x", "m", "place", np.array([0.0, 1.0])), Column("d", "m", "deflection", np.array(sizes)))
+
+    (panel,) = overlay([deflected(1e-5, 2e-5), deflected(3e-4, 4e-4)], ["A", "B"], "p").panels
+    assert panel.label.endswith("[µm]") and list(panel.series[1].data) == pytest.approx([300.0, 400.0])

@@ -137,3 +137,58 @@ def test_a_polar_plot_turns_with_the_angle():
     line = next(line for line in figure.axes[0].lines)
     assert figure.axes[0].name == "polar" and list(line.get_ydata()) == list(range(9))
     assert np.allclose(line.get_xdata(), angle)
+
+
+SHARES = Table("t", "T", (Column("x", "m", "place", np.array([0.0, 0.1])), Column("a", "-", "share of A", np.array([0.25, 0.75]))))
+
+
+def with_columns(*columns):
+    return replace(four_bar_result(), tables={"t": replace(SHARES, columns=(*SHARES.columns, *columns))})
+
+
+def drawn(result, *y, **more):
+    return panels(result, Plot("p", "P", "t", "x", y, **more))
+
+
+def test_shares_are_drawn_in_percent_with_their_limit():
+    (panel,) = drawn(with_columns(), "a", limits=((0.5, "half"),))
+    assert list(panel.series[0].data) == [25.0, 75.0] and panel.label.endswith("[%]") and panel.limits == ((50.0, "half 50\u00a0%"),)
+    assert panel.low <= 25.0 and panel.high >= 75.0
+
+
+def test_a_slope_is_drawn_in_arcmin_unless_an_angle_stands_beside_it():
+    slope = Column("s", "rad", "slope", np.array([0.0, np.deg2rad(0.5)]))
+    angle = Column("b", "rad", "angle of rotation", np.array([0.0, np.deg2rad(0.5)]))
+    (alone,), (both,) = drawn(with_columns(slope), "s"), drawn(with_columns(slope, angle), "s", "b")
+    assert alone.series[0].unit == "arcmin" and alone.series[0].data[1] == pytest.approx(30.0)
+    assert both.series[0].unit == "°" and both.series[1].data[1] == pytest.approx(0.5)
+    (wanted,) = drawn(with_columns(slope), "s", unit="rad")
+    assert wanted.series[0].unit == "rad" and wanted.series[0].data[1] == pytest.approx(np.deg2rad(0.5))
+
+
+def test_samples_of_a_share_and_their_limit_have_one_unit():
+    (panel,) = panels(with_columns(), Plot("p", "P", "t", "a", ("a",), limits=((0.5, "half"),), style="histogram"))
+    assert panel.x.unit == panel.series[0].unit == "%" and list(panel.x.data) == [25.0, 75.0] and panel.limits[0][0] == 50.0
+
+
+def test_the_colour_of_a_map_of_shares_is_percent():
+    up = Column("y", "m", "height", np.array([0.0, 0.1]))
+    (panel,) = panels(with_columns(up), Plot("p", "P", "t", "x", ("y", "a"), limits=((0.5, "half"),), style="map"))
+    assert panel.series[1].unit == "%" and (panel.low, panel.high) == (25.0, 75.0) and panel.limits[0][0] == 50.0
+
+
+def test_points_of_a_share_are_percent():
+    group = Column("g", "-", "group", np.array(["u", "v"]))
+    (panel,) = panels(with_columns(group), Plot("p", "P", "t", "x", ("a",), by="g", style="points"))
+    assert panel.label.endswith("[%]") and panel.series[1].data[1] == 75.0
+
+
+def test_short_lengths_are_drawn_in_micrometres_unless_the_limit_or_the_drawing_is_large():
+    short = with_columns(Column("s", "m", "deflection", np.array([2e-5, -9e-5])))
+    (panel,) = drawn(short, "s")
+    assert panel.series[0].unit == "µm" and list(panel.series[0].data) == pytest.approx([20.0, -90.0])
+    assert drawn(short, "s", limits=((5e-5, "limit"),))[0].limits[0][0] == pytest.approx(50.0)
+    assert [p.series[0].unit for p in (*drawn(short, "s", limits=((2e-4, "limit"),)), *drawn(short, "s", equal=True))] == ["mm", "mm"]
+    zero = with_columns(Column("s", "m", "deflection", np.zeros(2)))
+    assert drawn(zero, "s")[0].series[0].unit == "mm"
+    assert panels(short, Plot("p", "P", "t", "x", ("s",)), "inch")[0].series[0].unit == "in"

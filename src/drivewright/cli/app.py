@@ -4,6 +4,7 @@ import json
 import os
 from collections import Counter
 from collections.abc import Iterable
+from functools import partial
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -35,7 +36,13 @@ ReportOption = Annotated[
 ]
 LanguageOption = Annotated[str, typer.Option("--lang", help="language of the report: en or zh")]
 OutOption = Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the spec>")]
-ADVICE_HELP = "say what to change for checks that fail: however long that takes, or not at all; unless given, within 3 s"
+AdviceOption = Annotated[
+    bool | None,
+    typer.Option(
+        "--advice/--no-advice",
+        help="say what to change for checks that fail: however long that takes, or not at all; unless given, within 3 s",
+    ),
+]
 VARY_HELP = (
     "repeatable: KEY=FROM:TO:STEPS, KEY=V1,V2, KEY=FROM:TO or uniform(FROM, TO), KEY=normal(MEAN, SIGMA), "
     "KEY=triangular(FROM, PEAK, TO), KEY=+-TOLERANCE; FROM and TO also as -5 % and +5 % of the spec's own value, SIGMA and "
@@ -64,6 +71,13 @@ def _names(text: str) -> tuple[str, ...]:
 def _refuse_both(only: str, everything: bool) -> None:
     if only and everything:
         raise InputError("--only and --all contradict each other; give one of them")
+
+
+def _advised(result: Any, advice: bool | None, progress: Any = None) -> Any:
+    """The result with what to change where a check fails, as `AdviceOption` has it."""
+    from drivewright.studies.advising import PATIENCE, advise
+
+    return result if advice is False else advise(result, None if advice else PATIENCE, progress)
 
 
 def _paper_names(incomplete: str) -> list[str]:
@@ -113,7 +127,7 @@ def run(
     as_json: Annotated[bool, typer.Option("--json", help="print the result as JSON to stdout")] = False,
     strict: StrictOption = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="print all values, checks and findings")] = False,
-    advice: Annotated[bool | None, typer.Option("--advice/--no-advice", help=ADVICE_HELP)] = None,
+    advice: AdviceOption = None,
 ) -> None:
     """Validate, analyse and write a run folder per spec."""
     from drivewright import runner
@@ -122,7 +136,6 @@ def run(
     from drivewright.report.folder import write_run_folder
     from drivewright.report.form import report_form
     from drivewright.report.letterhead import read_letterhead
-    from drivewright.studies.advising import PATIENCE, advise
 
     _refuse_both(only, all_)
     form = report_form(report, lang)
@@ -138,8 +151,7 @@ def run(
             with compiling_ahead(spec):
                 model = runner.build(spec)
                 result = runner.run(spec, _names(only), all_, step, model)
-            if advice is not False and not result.ok:
-                result = advise(result, None if advice else PATIENCE, step)
+            result = _advised(result, advice, step)
             folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model), compute, form)
         results.append(result)
         if not as_json:
@@ -195,6 +207,7 @@ def export(
     units: UnitsOption = None,
     report: ReportOption = "normal",
     lang: LanguageOption = "en",
+    advice: AdviceOption = None,
     anyway: Annotated[bool, typer.Option("--anyway", help="manufacturing files also with a failed geometry check")] = False,
 ) -> None:
     """Write manufacturing files and the PDF report."""
@@ -207,7 +220,7 @@ def export(
     with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = _folder(spec, out)
         recover_run_folder(folder)
-        files = write(loaded, _names(to), folder / "cad", anyway, step, form)
+        files = write(loaded, _names(to), folder / "cad", anyway, step, form, partial(_advised, advice=advice))
     for file in files:
         print(file)
 

@@ -106,8 +106,10 @@ def _difference(comparison: "DesignComparison", name: str) -> list[str]:
     """The difference of the second design to the first one, marked where the intervals of the two overlap."""
     from drivewright.report.comparison import difference_text
 
-    apart = comparison.differences(name)[1]
-    return [difference_text(apart, comparison.known(name).unit, comparison.system) + ("" if apart is None or apart.certain else " ~")]
+    apart, known = comparison.differences(name)[1], comparison.known(name)
+    return [
+        difference_text(apart, known.unit, comparison.system, show.label_text(known)) + ("" if apart is None or apart.certain else " ~")
+    ]
 
 
 def _value(result: "Result[Any]", name: str, system: "System") -> str:

@@ -376,9 +376,9 @@ def _inputs_of_ends(study: "Study", name: str, ends: "tuple[End, End]") -> str:
 
 def _ends(study: "Study", name: str, ends: "Sequence[End]") -> list[str]:
     """Least and greatest of a column in one unit, each with the interval that it has in its case."""
-    from drivewright.view.text import shown_scale
+    from drivewright.view.text import labelled_scale
 
-    shown = shown_scale(study.unit(name), system=study.spec.units, size=max(abs(end.number) for end in ends))
+    shown = labelled_scale(study.label(name), study.unit(name), study.spec.units, max(abs(end.number) for end in ends))
     return [_on_scale(end.number, end.bounds, shown) for end in ends]
 
 

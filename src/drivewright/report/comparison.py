@@ -15,7 +15,7 @@ from drivewright.spec.differences import DifferingKey, differing_keys
 from drivewright.units import System
 from drivewright.view import draw_panels
 from drivewright.view.overlays import overlay
-from drivewright.view.text import SOLID, display_unit, number, numbers, uncertain, with_unit
+from drivewright.view.text import SOLID, labelled_scale, number, numbers, uncertain, with_unit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -215,7 +215,7 @@ def value_text(value: Value | None, system: System = "mm") -> str:
     """A value as people read it, with its interval; a dash where there is none."""
     if value is None or not math.isfinite(value.value):
         return "–"
-    return uncertain(value.value, value.unit, value.low, value.high, system=system)
+    return uncertain(value.value, value.unit, value.low, value.high, system=system, label=label_of(value.meaning, value.label))
 
 
 def identical_text(labels: Sequence[str]) -> str:
@@ -232,13 +232,13 @@ def entry_text(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
-def difference_text(apart: Difference | None, unit: str, system: System = "mm") -> str:
-    """'+1.2 mm (+3.4 %)', '0' where there is no difference, '' where none can be told."""
+def difference_text(apart: Difference | None, unit: str, system: System = "mm", label: str = "") -> str:
+    """'+1.2 mm (+3.4 %)' of values with a label, '0' where there is no difference, '' where none can be told."""
     if apart is None:
         return ""
     if apart.absolute == 0:
         return "0"
-    factor, text = display_unit(unit, system)
+    factor, text, _ = labelled_scale(label, unit, system)
     low, high = (None if end is None else end * factor for end in (apart.low, apart.high))
     told = with_unit(_signed(numbers(apart.absolute * factor, low, high, DIGITS)[0]), text)
     return f"{told} ({percent_text(apart.relative)})" if apart.relative is not None else told

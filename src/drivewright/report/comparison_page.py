@@ -35,7 +35,7 @@ from drivewright.view.axis_names import common_phrase
 from drivewright.view.merged_scenes import merged_scene
 from drivewright.view.overlays import apart, common_plots, is_apart, overlay
 from drivewright.view.palette import SERIES
-from drivewright.view.text import SIGNS, ends_shown, number, numbers, quantity, sentence, shown_scale, unit_text, with_unit
+from drivewright.view.text import SIGNS, ends_shown, labelled_scale, number, numbers, quantity, sentence, unit_text, with_unit
 
 PAGE, RECORD = "index.html", "compare.json"
 OURS = {PAGE, RECORD, "figures"}  # what a comparison writes, and the next one replaces
@@ -247,7 +247,7 @@ def _value_row(comparison: DesignComparison, name: str) -> Content:
     cells = [
         {
             **_shown_value(result.values.get(name), comparison.system),
-            "difference": difference_text(step, known.unit, comparison.system) if n else "",
+            "difference": difference_text(step, known.unit, comparison.system, label_of(known.meaning, known.label)) if n else "",
             "certain": step is None or step.certain,
             "same": step is not None and step.absolute == 0,
         }
@@ -261,7 +261,7 @@ def _shown_value(value: Value | None, system: System) -> dict[str, str]:
     """{value, interval}: the number with its unit, and the ends of its interval, "" where that says nothing."""
     if value is None or not math.isfinite(value.value):
         return {"value": value_text(None), "interval": ""}
-    shown = shown_scale(value.unit, system=system, size=value.value)
+    shown = labelled_scale(label_of(value.meaning, value.label), value.unit, system, value.value)
     text, low, high = numbers(shown.of(value.value), *ends_shown(value.low, value.high, shown))
     return {"value": with_unit(text, shown.unit), "interval": f"{low} to {high}" if low else ""}
 
@@ -281,7 +281,7 @@ def _check_row(name: str, results: Sequence[Result[Any]], system: System) -> Con
 
 
 def _limit(check: Check, system: System) -> str:
-    return f"{SIGNS[check.sense]} {quantity(check.limit, check.unit, system=system)}"
+    return f"{SIGNS[check.sense]} {quantity(check.limit, check.unit, system=system, label=check_label(check))}"
 
 
 def _check_cell(check: Check | None, own_limit: bool, system: System) -> Content:
@@ -289,7 +289,7 @@ def _check_cell(check: Check | None, own_limit: bool, system: System) -> Content
         return {"state": "none", "mark": "", "word": "not made", **_shown_value(None, system), "limit": ""}
     state = "bad" if not check.ok else "warn" if check.undecided else "good"
     mark, word = {"bad": ("✕", "fails"), "warn": ("?", "undecided"), "good": ("✓", "passes")}[state]
-    value = _shown_value(Value(check.value, check.unit, "", *(check.bounds or (None, None))), system)
+    value = _shown_value(Value(check.value, check.unit, check_label(check), *(check.bounds or (None, None))), system)
     return {"state": state, "mark": mark, "word": word, **value, "limit": _limit(check, system) if own_limit else ""}
 
 

@@ -28,12 +28,14 @@ def export(
     anyway: bool = False,
     progress: Callable[[int, int, str], object] | None = None,
     form: ReportForm = ReportForm(),
+    advise: Callable[[Result[Any]], Result[Any]] = lambda result: result,
 ) -> list[Path]:
     """Write the formats of a design into `folder`; returns the paths.  What is checked, and what tables there are, is that of the
     default analyses and of those for manufacture.
 
     GeometryCheckFailed where a geometry check fails, unless `anyway`, or only the PDF report is wanted, which says so itself, in the
-    `form` given; a solid format needs the extra 'fe', the PDF the extra 'pdf'.
+    `form` given; a solid format needs the extra 'fe', the PDF the extra 'pdf'.  `advise` adds to the result of the PDF what to change
+    where a check fails (`studies.advise`).
     """
     _refuse_unknown(formats)
     read_letterhead(spec)
@@ -47,7 +49,7 @@ def export(
     files = []
     for number, name in enumerate(formats):
         step(number, len(formats), name)
-        files += _pdf(result, folder, form) if name in REPORTS else WRITERS[name](mechanism, model, result, folder)
+        files += _pdf(advise(result), folder, form) if name in REPORTS else WRITERS[name](mechanism, model, result, folder)
     return files
 
 

@@ -6,12 +6,13 @@ from typing import Any
 import numpy as np
 
 from drivewright.atomic import replacing, write_text
+from drivewright.labels import label_of
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.folder import file_name, record_text
 from drivewright.report.html import embedded, page
 from drivewright.report.records import AnswersRecord, StudyRecord, VariableRecord
 from drivewright.units import System
-from drivewright.view.text import ends_shown, number, numbers, quantity, sentence, shown_scale, uncertain, unit_text, with_unit
+from drivewright.view.text import ends_shown, labelled_scale, number, numbers, quantity, sentence, uncertain, unit_text, with_unit
 
 STATES = {"complete": "good", "partial": "warn", "failed": "bad"}
 MOST_REASONS = 8
@@ -130,7 +131,7 @@ def _printed(table, system):
 def _column_scale(column, system):
     """The `Scale` of a column: long times in hours, where the longest of them is long."""
     size = np.nanmax(np.abs(column.data), initial=0.0) if _is_number(column) else 0.0
-    return shown_scale(column.unit, system=system, size=size)
+    return labelled_scale(label_of(column.meaning, column.label), column.unit, system, size)
 
 
 def _is_number(column):

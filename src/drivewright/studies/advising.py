@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from drivewright import registry, runner
+from drivewright import registry
 from drivewright._typing import Floats
 from drivewright.advice import Advice, Change
 from drivewright.execution.evaluation import PreparedTask, case_task
@@ -73,17 +73,9 @@ class _Designs:
         self.keys = tuple(each.key for each in self.dimensions)
         self.nominal = np.array([each.value for each in self.dimensions])
         self.analyses = tuple(result.provenance["analyses"])
-        self._owner, self._seconds = self._analyses_of_checks()
+        self._owner, self._seconds = result.check_analyses, result.timings
         self._evaluations: dict[tuple[str, ...], Callable[[Floats], Mapping[str, float]]] = {}
         self._run_all = self._by_runs(self.analyses)
-
-    def _analyses_of_checks(self) -> tuple[dict[str, str], dict[str, float]]:
-        """({check: the analysis that gives it}, {analysis: seconds that it takes})."""
-        analyses = runner.select_analyses(registry.mechanism(self.spec.mechanism).analyses, self.analyses)
-        began: list[float] = []
-        answers = runner.run_analyses(self.spec, runner.build(self.spec), analyses, lambda *_: began.append(time.perf_counter()))
-        seconds = dict(zip(answers, np.diff([*began, time.perf_counter()]).tolist(), strict=True))
-        return {check.name: name for name, answer in answers.items() for check in answer.checks}, seconds
 
     def by_analysis(self, failed: Sequence[Check]) -> list[list[Check]]:
         """Those of one analysis together, those of quick analyses first."""

@@ -33,7 +33,7 @@ from drivewright.studies.search.searching import METHODS, method_of
 from drivewright.studies.store import Memory, Store, joined
 from drivewright.studies.study_folder import Folder
 from drivewright.studies.study_reading import is_study
-from drivewright.view.text import shown_scale, with_unit
+from drivewright.view.text import labelled_scale, shown_scale, with_unit
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -316,9 +316,9 @@ def _bounds(reached, name):
 def _with_interval(reached, name, system):
     """A number with its interval, in the digits that this supports."""
     output = reached[name]
-    shown = shown_scale(output.unit, system=system, size=output.value)
+    shown = labelled_scale(label_of(output.meaning, output.label), output.unit, system, output.value)
     value, *ends = plain(*(shown.of(each) for each in (output.value, *_bounds(reached, name).values())))
-    return _with_unit(f"{value} ({ends[0]} to {ends[1]})", shown.unit) if ends else _shown(output.value, output.unit, system)
+    return _with_unit(f"{value} ({ends[0]} to {ends[1]})", shown.unit) if ends else _with_unit(f"{shown.of(output.value):.6g}", shown.unit)
 
 
 def _shown(value, unit, system, digits=6):

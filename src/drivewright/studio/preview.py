@@ -10,14 +10,14 @@ from drivewright import registry, runner
 from drivewright._jit.compilation import Compilation, watched_by
 from drivewright.registry import Analysis
 from drivewright.report.comparison import difference, difference_text
-from drivewright.report.content import summary
+from drivewright.report.content import check_label, summary
 from drivewright.report.pack import pack_plot_groups, pack_scene
 from drivewright.result import Result, Value
 from drivewright.scene import Scene
 from drivewright.studio.design import Design
 from drivewright.view.panels import known_plots
 
-Number: TypeAlias = list[Any]  # value [SI], its unit, the ends of its interval or None
+Number: TypeAlias = list[Any]  # value [SI], its unit, the ends of its interval or None, its label
 
 
 def warm(send: Callable[[Any], object]) -> None:
@@ -98,14 +98,14 @@ def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str
 
 def _numbers(result: Result[Any], names: Iterable[str]) -> dict[str, dict[str, Number]]:
     """The numbers behind the texts of the headline values of those names, and of the checks."""
-    checks = {check.name: Value(check.value, check.unit, "", *(check.bounds or (None, None))) for check in result.checks}
+    checks = {check.name: Value(check.value, check.unit, check_label(check), *(check.bounds or (None, None))) for check in result.checks}
     return {"values": _finite_numbers({name: result.values[name] for name in names}), "checks": _finite_numbers(checks)}
 
 
 def _finite_numbers(values: Mapping[str, Value]) -> dict[str, Number]:
     """Those that exist, as JSON has them."""
     plain = {name: value.plain() for name, value in values.items() if math.isfinite(value.value)}
-    return {name: [value.value, value.unit, value.low, value.high] for name, value in plain.items()}
+    return {name: [value.value, value.unit, value.low, value.high, value.label] for name, value in plain.items()}
 
 
 def differences(first: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, dict[str, str]]:
@@ -119,8 +119,8 @@ def differences(first: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str,
 
 
 def _difference(first: Number, other: Number) -> str:
-    one, two = (Value(value, unit, "", low, high) for value, unit, low, high in (first, other))
-    return difference_text(difference(one, two), two.unit)
+    one, two = (Value(value, unit, label, low, high) for value, unit, low, high, label in (first, other))
+    return difference_text(difference(one, two), two.unit, label=two.meaning)
 
 
 def _fraction(check):

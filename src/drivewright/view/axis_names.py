@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from drivewright.labels import LEADING, label_of
 from drivewright.view.text import dimension, sentence
 
-OTHER_NAMES = {"N m": "moment", "Pa": "stress"}  # what the unit measures too, where the labels say so
+OTHER_NAMES = {"N m": "moment", "Pa": "stress", "rad": "slope"}  # what the unit measures too, where the labels say so
 SPEAKS_FOR_NOTHING = ("length", "value")  # a deflection is a length, and everything else may be a pure number
 LONGEST = 40  # letters of a name that is put together
 DANGLING = (*LEADING, "as", "is", "the", "a", "an")  # words that no phrase ends with

@@ -14,8 +14,20 @@ from drivewright.view.coincident import show_coincident
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.markers import line_marker
 from drivewright.view.palette import SERIES
-from drivewright.view.panels import Panel, Series, drawable, find_plot, known_plots, limits_of, panel_of, panels, places_along, series_of
-from drivewright.view.text import display_unit, shown_scale
+from drivewright.view.panels import (
+    Panel,
+    Series,
+    drawable,
+    find_plot,
+    in_usual_unit,
+    known_plots,
+    limits_of,
+    panel_of,
+    panels,
+    places_along,
+    series_of,
+)
+from drivewright.view.text import shown_scale
 
 MOST_PANELS = 12  # quantities of one plot that are drawn
 APART = ("map", "mesh", "histogram")  # styles whose pictures cannot lie upon each other
@@ -104,7 +116,10 @@ def _quantities(results, chosen):
         x, lines = lines_of(results[number].tables[plot.table], plot, results[0].units)
         unit = x.unit if unit is None else unit
         for line in lines if x.unit == unit else ():
-            found.setdefault((line.column.name, line.column.unit), []).append(Curve(number, plot, x, line, results[0].units))
+            curves = found.setdefault((line.column.name, line.column.unit), [])
+            shown = in_usual_unit(plot, results[number].tables[plot.table], line.column.unit, limits_of(results[number], plot))
+            one = plot._replace(unit=curves[0].plot.unit) if curves else shown  # all designs in the unit of the first
+            curves.append(Curve(number, one, x, line, results[0].units))
     return found
 
 
@@ -208,7 +223,7 @@ def _ranked(quantities: Sequence[Sequence[Curve]], labels: Sequence[str]) -> tup
 def _ranked_panel(curves, labels, names, data) -> Panel:
     column, system = curves[0].line.column, curves[0].system
     series = [
-        Series(labels[curve.design], labels[curve.design], display_unit(column.unit, system)[1], each, _role(curve))
+        Series(labels[curve.design], labels[curve.design], shown_scale(column.unit, curve.plot.unit, system).unit, each, _role(curve))
         for curve, each in zip(curves, data, strict=True)
     ]
     x, label = series_of(curves[0].x)._replace(data=names), (column.meaning or column.name, column.unit)
@@ -217,6 +232,6 @@ def _ranked_panel(curves, labels, names, data) -> Panel:
 
 def _by_name(curve: Curve, names: Sequence[str]) -> Floats:
     """The curve's numbers at the names, nan where it has none."""
-    shown = series_of(curve.line.column, system=curve.system)
+    shown = series_of(curve.line.column, unit=curve.plot.unit, system=curve.system)
     known = dict(zip(map(str, curve.x.data), np.asarray(shown.data, float), strict=True))
     return np.array([known.get(name, np.nan) for name in names])

@@ -4,6 +4,7 @@ Figures and the player's plots both draw these panels, so both show the same thi
 """
 
 import itertools
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, NamedTuple
 
@@ -13,8 +14,9 @@ from numpy.typing import NDArray
 from drivewright import registry
 from drivewright._typing import ArrayLike, Floats, Ints
 from drivewright.errors import UnknownName
+from drivewright.labels import label_of, usual_unit
 from drivewright.result import Column, Plot, Result, Table
-from drivewright.units import System
+from drivewright.units import SHORT, System
 from drivewright.view.axis_names import axis_name
 from drivewright.view.lines import Line, lines_of
 from drivewright.view.palette import MARKERS, SERIES
@@ -123,18 +125,41 @@ def panels(result: Result[Any], plot: Plot, system: System | None = None) -> tup
     chunks = [group[i : i + most] for group in groups.values() for i in range(0, len(group), most)]
     roles = itertools.cycle(SERIES)  # running on from panel to panel, so that one colour means one line as long as there are enough
     shade = _shaded(x, table[plot.shade], system) if plot.shade else ()
+    limits = tuple(limits_of(result, plot))
+    shown = [in_usual_unit(plot, table, chunk[0].column.unit, () if n else limits) for n, chunk in enumerate(chunks)]
     return tuple(
         panel_of(
-            plot,
-            series_of(x, system=system),
-            _coloured(chunk, roles, plot.unit, system),
+            each,
+            series_of(x, unit=each.unit if plot.style == "histogram" else "", system=system),
+            _coloured(chunk, roles, each.unit, system),
             _label(table, plot, chunk, len(groups) == 1),
-            () if n else limits_of(result, plot),
+            () if n else limits,
             shade,
             system,
         )._replace(places=places_along(plot, x.unit, system))
-        for n, chunk in enumerate(chunks)
+        for n, (each, chunk) in enumerate(zip(shown, chunks, strict=True))
     )
+
+
+def in_usual_unit(plot: Plot, table: Table, si_unit: str, limits: Iterable[tuple[float, str]] = ()) -> Plot:
+    """The plot with the unit of its y axis in which people read those of its columns that have an SI unit.
+
+    "%" where all are shares, micrometres where all numbers and limits are short lengths; the plot itself where it names a unit, is a
+    drawing to scale, or where its columns are read in different units.
+    """
+    columns = [column for column in map(table.__getitem__, plot.y) if column.unit == si_unit]
+    usual = {usual_unit(label_of(column.meaning, column.label), si_unit) for column in columns}
+    if plot.unit or plot.equal or len(usual) != 1:
+        return plot
+    if si_unit == "m" and max((_size(column.data) for column in columns), default=0.0) < SHORT:
+        usual = {"um" if all(abs(value) < SHORT for value, _ in limits) else ""}
+    return plot._replace(unit=usual.pop())
+
+
+def _size(data: ArrayLike) -> float:
+    """The largest finite magnitude of a column; infinite where all of it is 0, so that nothing is said of its size."""
+    finite = np.abs(np.asarray(data, float))
+    return float(np.max(finite, initial=0.0, where=np.isfinite(finite))) or math.inf
 
 
 def _label(table: Table, plot: Plot, chunk: Sequence[Line], alone: bool) -> tuple[str, str]:
@@ -147,7 +172,9 @@ def _label(table: Table, plot: Plot, chunk: Sequence[Line], alone: bool) -> tupl
 
 def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str, system: System) -> Panel:
     """Points of a column told apart by colour and shape; the rows of the other groups are nan."""
-    column = series_of(table[name], ends=table.bounds_of(name) or (), system=system)
+    limits = tuple(limits_of(result, plot)) if name == plot.y[0] else ()
+    plot = in_usual_unit(plot, table, table[name].unit, limits)
+    column = series_of(table[name], ends=table.bounds_of(name) or (), unit=plot.unit, system=system)
     names, group = _groups(table[plot.by], system)
 
     def member(n, name):
@@ -162,7 +189,6 @@ def _cloud_panel(result: Result[Any], plot: Plot, table: Table, name: str, syste
         )
 
     series = [member(n, name) for n, name in enumerate(names)]
-    limits = limits_of(result, plot) if name == plot.y[0] else ()
     x = series_of(table[plot.x], system=system)
     return panel_of(plot, x, series or [column], (column.label, table[name].unit), limits, (), system)
 
@@ -264,9 +290,11 @@ def _mesh_panel(plot: Plot, table: Table, system: System) -> Panel:
 
 def _map_panel(result: Result[Any], plot: Plot, table: Table, system: System) -> Panel:
     """The panel of cells over two axes; its range and its limits are those of the colour."""
-    up, tint = (series_of(table[name], system=system) for name in plot.y)
-    shown = shown_scale(table[plot.y[1]].unit, system=system)
-    limits = tuple((shown.of(value), limit_text(shown.of(value), label, shown.unit)) for value, label in limits_of(result, plot))
+    contours = tuple(limits_of(result, plot))
+    colour = in_usual_unit(plot._replace(y=plot.y[1:]), table, table[plot.y[1]].unit, contours).unit
+    up, tint = series_of(table[plot.y[0]], system=system), series_of(table[plot.y[1]], unit=colour, system=system)
+    shown = shown_scale(table[plot.y[1]].unit, colour, system)
+    limits = tuple((shown.of(value), limit_text(shown.of(value), label, shown.unit)) for value, label in contours)
     finite = np.asarray(tint.data, float)
     finite = finite[np.isfinite(finite) & (finite > 0)] if plot.log else finite[np.isfinite(finite)]
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (np.nan, np.nan)

@@ -5,6 +5,7 @@ import re
 import textwrap
 
 from drivewright.digits import EXACT, ROUGH, last_place, over_decades, to_place
+from drivewright.labels import usual_unit
 from drivewright.result import Value
 from drivewright.units import BY_UNIT, Scale, System, display, scale
 
@@ -87,6 +88,11 @@ def shown_scale(unit: str, wanted: str = "", system: System = "mm", size: float 
     return plain._replace(unit=unit_text(plain.unit))
 
 
+def labelled_scale(label: str, unit: str, system: System = "mm", size: float = 0.0) -> Scale:
+    """`shown_scale` in the unit in which people read a quantity of this label: a share in percent, a play in arcmin."""
+    return shown_scale(unit, usual_unit(label, unit), system, size)
+
+
 def with_unit(text: str, unit: str) -> str:
     """A number's text and its printed unit; a degree sign stands close, and infinity has no unit."""
     if text in ("n/a", "∞", "−∞"):
@@ -94,15 +100,17 @@ def with_unit(text: str, unit: str) -> str:
     return f"{text}{unit}" if unit.startswith("°") and unit not in ("°C", "°F") or not unit else f"{text}{SOLID}{unit}"
 
 
-def quantity(value: float, unit: str, digits: int = EXACT, system: System = "mm") -> str:
-    """An SI number in the unit people read."""
-    shown = shown_scale(unit, system=system, size=value)
+def quantity(value: float, unit: str, digits: int = EXACT, system: System = "mm", label: str = "") -> str:
+    """An SI number in the unit people read, that of its `label` where one is given."""
+    shown = labelled_scale(label, unit, system, value)
     return with_unit(number(shown.of(value), digits), shown.unit)
 
 
-def uncertain(value: float, unit: str, low: float | None, high: float | None, digits: int = EXACT, system: System = "mm") -> str:
+def uncertain(
+    value: float, unit: str, low: float | None, high: float | None, digits: int = EXACT, system: System = "mm", label: str = ""
+) -> str:
     """The same with its interval, '10.2 (8.1 to 12.4) mm'; as `quantity` where the interval says nothing."""
-    shown = shown_scale(unit, system=system, size=value)
+    shown = labelled_scale(label, unit, system, value)
     middle, *ends = numbers(shown.of(value), *ends_shown(low, high, shown), digits)
     return with_unit(f"{middle} ({ends[0]} to {ends[1]})" if ends[0] else middle, shown.unit)
 

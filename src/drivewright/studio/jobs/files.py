@@ -16,6 +16,7 @@ from drivewright.report.html import write_report
 from drivewright.spec import set_key, value_at
 from drivewright.spec.keys import leaves
 from drivewright.spec.serialisation import data_file_places, toml_text
+from drivewright.studies.advising import advise
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.progress import Progress
 
@@ -30,7 +31,7 @@ def export(design: Design, progress: Progress, format: str, anyway: bool = False
     GeometryCheckFailed where a geometry check fails, unless `anyway`; MissingExtra where the format needs what is not installed.
     """
     with TemporaryDirectory() as folder:
-        written = write_export(design.spec(), (format,), Path(folder), anyway, progress)
+        written = write_export(design.spec(), (format,), Path(folder), anyway, progress, advise=advise)
         return _files(_stem(design), format, {path.name: path.read_bytes() for path in written})
 
 
@@ -38,7 +39,7 @@ def report(design: Design, progress: Progress, whole: bool = False) -> Files:
     """The report page of a run as one file, or the `whole` run folder as an archive."""
     spec = design.spec()
     model = runner.build(spec)
-    result = runner.run(spec, model=model, progress=progress)
+    result = advise(runner.run(spec, model=model, progress=progress))
     done = len(result.provenance["analyses"])
     progress(done, done, "drawing")
     seen, stem = views(result, model), _stem(design)
