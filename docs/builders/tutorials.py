@@ -65,8 +65,8 @@ def refresh(page: Path, folder: Path) -> list[str]:
 
 
 def compact(picture: bytes) -> bytes:
-    """An SVG with coordinates of two decimals, a hundredth of a pixel."""
-    return re.sub(rb"(\d\.\d\d)\d+", rb"\1", picture)
+    """An SVG with coordinates of two decimals, a hundredth of a pixel; numbers that are read, between the tags, stay."""
+    return re.sub(rb"<[^>]*>", lambda tag: re.sub(rb"(\d\.\d\d)\d+", rb"\1", tag[0]), picture)
 
 
 def notebooks(docs: Path = DOCS) -> list[Path]:

@@ -46,6 +46,11 @@ def test_notebook_keeps_nothing_of_a_machine():
         assert not [word for word in ("execution_timing", "iopub", "/home/", "/tmp/", "<dc:date>") if word in text]
 
 
+def test_compact_pictures_keep_the_numbers_of_their_axes():
+    picture = b'<path d="M 1.23456 7.891011"/><!-- 320.1702 -->\n<text x="0.12345">320.1702</text>'
+    assert tutorials.compact(picture) == b'<path d="M 1.23 7.89"/><!-- 320.17 -->\n<text x="0.12">320.1702</text>'
+
+
 # -- the comparison itself -----------------------------------------------------------------------------------------------------
 
 PAGE = """
