@@ -100,3 +100,9 @@ def test_a_page_is_read_in_its_order():
 def test_the_comparison_is_loose_in_digits_and_strict_in_words(shown, printed, told):
     found = difference(shown, printed)
     assert told in found and bool(found) == bool(told)
+
+
+def test_a_kept_picture_has_short_coordinates_and_its_texts_as_they_were():
+    made = b'<svg><path d="M 1.23456 7.8"/><g transform="scale(0.015625 -0.085)"/><text x="1.99999">0.125 mm</text></svg>'
+    kept = b'<svg><path d="M 1.23 7.8"/><g transform="scale(0.015625 -0.085)"/><text x="1.99">0.125 mm</text></svg>'
+    assert tutorials.compact(made) == kept
