@@ -65,7 +65,7 @@ def _variant(kind: str, sheet: DimensionSheet) -> tuple[tuple[str, Any], ...]:
     """(key, value) of the design of a sheet, at the keys of its variant."""
     tables = read_document(registry.mechanism(kind).presets()[sheet.preset])
     for change in sheet.changes:
-        change_key(tables, change)
+        tables = change_key(tables, change)
     return tuple((key, _variant_value(kind, tables, key)) for key in sheet.variant)
 
 

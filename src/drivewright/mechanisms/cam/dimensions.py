@@ -237,16 +237,18 @@ FLAT_LEVER = (
 
 FACE = ("closure", "follower.motion", "follower.face")
 SHEETS = (
-    DimensionSheet("cam", "Disc cam, roller on a slide", "default", _slide, changes=("follower.offset=12 mm",)),
-    DimensionSheet("cam-oscillating", "Disc cam, roller on a lever", "oscillating", _lever_alone),
-    DimensionSheet("cam-flat", "Disc cam, flat face on a slide", "flat", _flat),
-    DimensionSheet("cam-conjugate", "Conjugate cams, lever with two rollers", "conjugate", _conjugate, changes=SECOND),
-    DimensionSheet("cam-conjugate-slide", "Conjugate cams, slide with two rollers", "conjugate", _second_slide, changes=SECOND_SLIDE),
-    DimensionSheet("cam-groove", "Groove cam, roller on a slide", "groove", _groove, changes=("limits.wall=8 mm",)),
-    DimensionSheet("cam-yoke", "Cam of constant breadth in a yoke", "yoke", _yoke),
-    DimensionSheet("cam-shoe", "Disc cam, curved shoe on a slide", "default", _shoe, changes=SHOE),
-    DimensionSheet("cam-tilted", "Disc cam, tilted flat face", "flat", _tilted, changes=("follower.face_angle=12 deg",)),
-    DimensionSheet("cam-flat-lever", "Disc cam, flat face on a lever", "oscillating", _flat_lever, changes=FLAT_LEVER),
+    DimensionSheet("cam", "Disc cam, roller on a slide", "default", _slide, changes=("follower.offset=12 mm",), variant=FACE),
+    DimensionSheet("cam-oscillating", "Disc cam, roller on a lever", "oscillating", _lever_alone, variant=(*FACE, "valve")),
+    DimensionSheet("cam-flat", "Disc cam, flat face on a slide", "flat", _flat, variant=FACE),
+    DimensionSheet("cam-conjugate", "Conjugate cams, lever with two rollers", "conjugate", _conjugate, changes=SECOND, variant=FACE),
+    DimensionSheet(
+        "cam-conjugate-slide", "Conjugate cams, slide with two rollers", "conjugate", _second_slide, changes=SECOND_SLIDE, variant=FACE
+    ),
+    DimensionSheet("cam-groove", "Groove cam, roller on a slide", "groove", _groove, changes=("limits.wall=8 mm",), variant=FACE),
+    DimensionSheet("cam-yoke", "Cam of constant breadth in a yoke", "yoke", _yoke, variant=FACE),
+    DimensionSheet("cam-shoe", "Disc cam, curved shoe on a slide", "default", _shoe, changes=SHOE, variant=FACE),
+    DimensionSheet("cam-tilted", "Disc cam, tilted flat face", "flat", _tilted, changes=("follower.face_angle=12 deg",), variant=FACE),
+    DimensionSheet("cam-flat-lever", "Disc cam, flat face on a lever", "oscillating", _flat_lever, changes=FLAT_LEVER, variant=FACE),
     DimensionSheet("cam-section", "Cam cut along its axis: widths and hub", "default", _widths, scene=_across),
-    DimensionSheet("cam-valve-train", "Valve train, rocker with a roller", "valve_train", _valve),
+    DimensionSheet("cam-valve-train", "Valve train, rocker with a roller", "valve_train", _valve, variant=(*FACE, "valve")),
 )

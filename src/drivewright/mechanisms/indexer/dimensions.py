@@ -223,10 +223,14 @@ SHEETS = (
     DimensionSheet("indexer", "Pin-wheel indexer", "default", _pin_wheel, left_out=("normal", "pitch_point"), variant=("kind",)),
     DimensionSheet("indexer-parallel", "Parallel indexer", "parallel", _parallel, left_out=("normal", "pitch_point"), variant=("kind",)),
     DimensionSheet("indexer-cycloid", "Cycloid pin reducer", "cycloid", _cycloid, left_out=("normal", "pitch_point"), variant=("kind",)),
-    DimensionSheet("indexer-barrel", "Barrel indexer, along the wheel's axis", "barrel", _barrel, BARREL, scene=_plan, variant=("kind",)),
-    DimensionSheet("indexer-barrel-side", "Barrel indexer, along the cam's axis", "barrel", _barrel_side, BARREL, scene=_side, variant=("kind",)),
-    DimensionSheet("indexer-gear", "Gear of input and split shafts", "default", _gear, scene=_gear_alone, variant=("kind",)),
-    DimensionSheet("indexer-shaft", "Split shaft of a pin-wheel indexer", "default", _split_shaft, SPLIT, scene=_shaft_alone, variant=("kind",)),
-    DimensionSheet("indexer-section", "Plate cams of a pin-wheel indexer, cut along their axis", "default", _widths, scene=_plates_cut, variant=("kind",)),
+    DimensionSheet("indexer-barrel", "Barrel drive, along the wheel's axis", "barrel", _barrel, BARREL, scene=_plan, variant=("kind",)),
+    DimensionSheet(
+        "indexer-barrel-side", "Barrel drive, along the cam's axis", "barrel", _barrel_side, BARREL, scene=_side, variant=("kind",)
+    ),
+    DimensionSheet("indexer-gear", "Gear of input and split shafts", "default", _gear, scene=_gear_alone, variant=("gear",)),
+    DimensionSheet(
+        "indexer-shaft", "Split shaft of a pin-wheel indexer", "default", _split_shaft, SPLIT, scene=_shaft_alone, variant=("shafts",)
+    ),
+    DimensionSheet("indexer-section", "Plate cams, cut along their axis", "default", _widths, scene=_plates_cut, variant=("kind",)),
     DimensionSheet("indexer-globoidal", "Globoidal indexer", "globoidal", _globoidal, scene=_plan, variant=("kind",)),
 )
