@@ -52,7 +52,8 @@ def _gear(model: IndexerModel, scene: Scene) -> Iterator[Dimension]:
     """The pitch circle is as many modules across as there are teeth."""
     ((centre, radius),) = set(circles_of(scene, "gear", "pitch"))
     left, right = ((centre[0] + side * radius, centre[1]) for side in (-1, 1))
-    yield Length("gear.module", left, right, 0.0, times=model.spec.gear.teeth)
+    yield Length("gear.module", left, right, -0.56, times=model.spec.gear.teeth)
+    yield Radius("shafts.diameters.0", *circles_of(scene, "gear", "hole")[0], np.radians(60), diameter=True)
 
 
 def _shaft_alone(model: IndexerModel) -> Scene:
