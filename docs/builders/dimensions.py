@@ -1,4 +1,4 @@
-"""Drawings of what the main keys of each kind measure, in the folder of the kind (for the studio) and in docs/img; and their page."""
+"""Drawings of what the main keys of each kind measure, in the folder of the kind (which keeps them), copied to docs/img; and their page."""
 
 import shutil
 from collections.abc import Callable, Iterator

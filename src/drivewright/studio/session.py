@@ -13,7 +13,7 @@ from typing import Any
 from drivewright import registry
 from drivewright.errors import DrivewrightError, InputError, SpecError, brief
 from drivewright.execution.workers import WorkerDied, WorkerFault
-from drivewright.report.dimension_drawings import drawing_files
+from drivewright.report.dimension_drawings import drawing_files, fitting_drawings
 from drivewright.report.folder import file_name
 from drivewright.report.worked_examples import cards, preset_pictures
 from drivewright.studio import editing, translations
@@ -299,6 +299,7 @@ class Session:
             "toml": design.toml(),
             "files": self.files,
             "settled": list(settled),
+            "drawings": fitting_drawings(design.kind, design.tables),
         }
         if edited.fields is not None:
             self.send({"what": "values", "fields": edited.fields, **common})
