@@ -186,10 +186,11 @@ def _radii() -> Iterator[Row]:
 # -- section 5 -----------------------------------------------------------------------------------------------------------------
 
 
+ELASTIC = "elastic joints and teeth"
 ROUTES = {
     "straight strands": lambda radius: rigid_closure(radius, "straight"),
     "strands in equilibrium": rigid_closure,
-    "elastic joints and teeth": elastic_equilibrium,
+    ELASTIC: elastic_equilibrium,
 }
 
 
@@ -271,7 +272,7 @@ def _trends() -> Iterator[Row]:
 
 
 def _fluctuations(route: str, groups: Floats, control: float, common: dict[str, Any]) -> Iterator[Row]:
-    elastic = "yield" in route
+    elastic = route == ELASTIC
     common = common | {"where": "Fig. 11", "pinned": EXPLAINED, "note": "" if elastic else RUNNING_NOTE, "idealised": True}
     for name, claim, ours, stiff in (
         ("minimum growth of the fluctuation from group to group, in um", GROWS, np.diff(groups).min() * 1e6, _least_fluctuation_growth()),
