@@ -116,7 +116,7 @@ def test_nothing_beside_the_print_is_not_compared():
     assert (nothing.verdict, nothing.deviation, nothing.deviation_text()) == (NOT_COMPARED, None, "")
     assert (row(None).verdict, row(None).deviation_text()) == (NOT_COMPARED, "")
     page = validation.page([Source("mine", "A book", lambda: [nothing])])
-    assert "| quantity | table 1 | published table | 50.22 deg |  |  | not compared [1] |" in page
+    assert "| quantity | table 1 | published table | 50.22° |  |  | not compared [1] |" in page
     assert "- [1] From the print alone: no evidence. A mesh of others." in page
 
 
