@@ -278,5 +278,5 @@ def test_page_numbers_each_remark_once():
     page = validation.page([Source("mine", "A book", lambda: rows, ("A fault.",))])
     assert page.count("[1]") == 3 and "[2]" not in page
     assert "| quantity | table 1 | published table | 50.22° | 57.2958° | +7.08° | differs, open [1] |" in page
-    assert "| 50.22 deg | 50.22 deg | +0 deg | agrees |" in page
+    assert "| 50.22° | 50.22° | +0° | agrees |" in page
     assert "- [1] Odd." in page and "- Assumed: a size." in page and "- Erratum: A fault." in page
