@@ -26,6 +26,6 @@ def page() -> Iterator[str]:
     yield from ("# What the keys measure", "", "Drawn from the presets of each kind, to scale; a test compares every length with its key.")
     for kind in registry.kinds():
         if sheets := registry.mechanism(kind).dimensions:
-            yield from ("", f"## {kind}", "", f"All keys: [spec of `{kind}`](reference/spec-{kind}.md).")
+            yield from ("", f"## {kind.replace('-', ' ').capitalize()}", "", f"All keys: [spec of `{kind}`](reference/spec-{kind}.md).")
         for sheet in sheets:
             yield from ("", f"![{sheet.title}]({FOLDER}/{sheet.name}.svg)")
