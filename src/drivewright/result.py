@@ -417,6 +417,7 @@ class Result(Generic[SpecT]):
     fields: Mapping[str, SurfaceFields] = field(default_factory=dict)
     advice: tuple[Advice, ...] = ()  # what to change for the checks that fail, where `studies.advise` was asked
     advice_stopped: bool = False  # the time for advice was over before all failed checks were looked at
+    value_sources: Mapping[str, str] = field(default_factory=dict)  # {value: the analysis that computed it}, by which reports group them
 
     def __getitem__(self, name: str) -> float:
         """A value by its dotted name, as an SI float."""

@@ -185,7 +185,7 @@ def test_margins_and_limits_in_display_units():
 
 
 def registered(monkeypatch, **parts):
-    kind = {"headline": (), "plots": PLOTS, "scene": None, "drawings": None, "build": lambda spec: "model", **parts}
+    kind = {"headline": (), "analyses": (), "plots": PLOTS, "scene": None, "drawings": None, "build": lambda spec: "model", **parts}
     monkeypatch.setattr(registry, "kinds", lambda: ["four-bar-sample"])
     monkeypatch.setattr(registry, "mechanism", lambda name: SimpleNamespace(**kind))
 

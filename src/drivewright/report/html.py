@@ -183,4 +183,5 @@ def embedded(picture: Picture) -> "dict[str, str | Markup]":
     from markupsafe import Markup
 
     data = re.sub(r"\s+", " ", picture.svg).replace("%", "%25").replace("#", "%23").replace("&", "&amp;").replace('"', "%22")
-    return {"name": picture.name, "title": picture.title, "source": Markup(f"data:image/svg+xml;charset=utf-8,{data}")}
+    source = Markup(f"data:image/svg+xml;charset=utf-8,{data}")
+    return {"name": picture.name, "title": picture.title, "meaning": picture.meaning, "source": source}
