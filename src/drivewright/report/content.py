@@ -21,7 +21,7 @@ from drivewright.report.localised import localised
 from drivewright.report.paper_figures import paper_svg
 from drivewright.report.value_groups import grouped_values
 from drivewright.report.words import Words, translated, words_of
-from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table
+from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
 from drivewright.units import Scale, System
@@ -261,12 +261,28 @@ def verdict(passed: Sequence[bool], outcome: str, undecided: int = 0, warnings: 
 
 
 def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Content]:
-    """The values of those names; unless given the first of the mechanism's headline values, or of all; those that the run has."""
+    """The values of those names; unless given the first of the mechanism's headline values, or of all; those that the run has.
+
+    What a pattern such as "*.max_acceleration" finds is left out where it is zero: a slider does not turn."""
     if names is None:
         known = registry.is_known(result.mechanism)
         mechanism = registry.mechanism(result.mechanism) if known else None
-        names = registry.key_values(mechanism, result.values, MOST_HEADLINES) if mechanism else list(result.values)[:MOST_HEADLINES]
+        names = registry.key_values(mechanism, _telling(result, mechanism), MOST_HEADLINES) if mechanism else _first(result)
     return [_value(result, name) for name in names]
+
+
+def _first(result: Result[Any]) -> list[str]:
+    """The first names of the values of a kind of drive that is not known here."""
+    return list(result.values)[:MOST_HEADLINES]
+
+
+def _telling(result: Result[Any], mechanism: registry.Mechanism[Any, Any]) -> dict[str, Value]:
+    """The values that are not zero, or that the headline asks for by their full names."""
+    return {name: value for name, value in result.values.items() if name in mechanism.headline or not _is_zero(result, value)}
+
+
+def _is_zero(result: Result[Any], value: Value) -> bool:
+    return value.value == 0 or result.is_noise(value)
 
 
 def _value(result: Result[Any], name: str) -> Content:
