@@ -277,6 +277,7 @@ def _result(spec: SpecT, mechanism: Mechanism[Any, Any], answers: Answers, findi
         findings=tuple(findings),
         outcome="partial" if any(a.outcome == "partial" for a in answers.values()) else "complete",
         failures=_failures(answers),
+        value_sources={name: analysis for analysis, answer in answers.items() for name in answer.values if name not in absent},
         provenance={
             "seed": spec.optimise.seed if spec.optimise else 0,
             "seconds": round(seconds, 4),

@@ -27,6 +27,7 @@ from drivewright.report.numbering import (
     with_figures,
 )
 from drivewright.report.pdf import HALF_WIDTH, figure_rows, write_pdf
+from drivewright.report.value_groups import OTHERS, grouped_values
 from drivewright.result import Check, Plot
 
 pytestmark = pytest.mark.interface
@@ -61,10 +62,65 @@ def test_a_short_report_is_its_first_page(tmp_path):
 
 def test_a_full_report_is_all_open_and_says_how_it_was_computed(tmp_path):
     result = four_bar_result()
+    result = replace(result, value_sources={name: "swing" if "swing" in name else "rest" for name in result.values})
     normal, full = written(tmp_path, result), written(tmp_path, result, FULL)
-    assert re.search(r'<details class="card" id="values">', normal) and not re.search(r'<details class="card"[^>]*[^n]>\s', full)
+    folded = re.findall(r'<details class="(?:card|card full|group)"(?: id="(\w+)")?>', full)
+    assert folded == ["si"], "all is open but the table for those who compute on"
+    assert re.search(r'<details class="card" id="tables">', normal) and '<details class="group">' in normal
     assert 'id="spec" open' in full and "How it was computed" in full and "computing time" in full and "Greatest" in full
     assert "How it was computed" not in normal and "2.4669517247e-06\u00a0m" in full
+
+
+# -- values and captions -------------------------------------------------------------------------------------------------------
+
+
+def test_values_stand_under_the_analyses_that_computed_them():
+    from drivewright import registry
+
+    result = replace(four_bar_result(), mechanism="linkage")
+    sources = {name: "motion" if name.startswith("rocker") else "energy" for name in result.values}
+    groups = grouped_values(replace(result, value_sources=sources), [{"name": name} for name in result.values])
+    meanings = {each.name: each.meaning for each in registry.mechanism("linkage").analyses}
+    assert {group["title"].lower() for group in groups} == {meanings[each].lower() for each in set(sources.values())}
+    assert sorted(row["name"] for group in groups for row in group["values"]) == sorted(result.values)
+
+
+def test_without_analyses_the_first_part_of_their_names_groups_values():
+    names = ("cam.lift", "ratio", "joint.A.force", "cam.radius", "joint.B.force", "mass")
+    groups = grouped_values(replace(four_bar_result(), value_sources={}), [{"name": name} for name in names])
+    assert [(group["title"], [row["name"] for row in group["values"]]) for group in groups] == [
+        ("Cam", ["cam.lift", "cam.radius"]),
+        ("Joint", ["joint.A.force", "joint.B.force"]),
+        (OTHERS, ["ratio", "mass"]),
+    ]
+
+
+def test_the_runner_says_which_analysis_computed_each_value():
+    from places import EXAMPLES
+
+    from drivewright import runner
+    from drivewright.spec import load
+
+    result = runner.run(load(EXAMPLES / "disc_cam.toml"))
+    assert result.value_sources.keys() == result.values.keys() and set(result.value_sources.values()) <= set(result.provenance["analyses"])
+    assert result.value_sources["max_pressure_angle"] == "geometry"
+
+
+@pytest.mark.parametrize("form", [NORMAL, FULL])
+def test_numbers_in_si_have_a_folded_table_at_the_end(tmp_path, form):
+    text = written(tmp_path, four_bar_result(), form)
+    values, si = (text.index(f'id="{name}"') for name in ("values", "si"))
+    assert '<details class="card" id="si">' in text and si > text.index('id="sources"') > values
+    assert "2.4669517247e-06\u00a0m" in text[si:] and "2.4669517247e-06" not in text[values : text.index('id="sources"')]
+
+
+def test_what_a_plot_shows_is_its_caption(tmp_path):
+    plots = (SEEN.plots[0]._replace(meaning="dashed: with ideal joints"),)
+    result, seen = four_bar_result(), Views(plots=plots)
+    text = write_report(result, seen, tmp_path, pictures(result, seen), NORMAL).read_text(encoding="utf-8")
+    assert '<p class="muted">Dashed: with ideal joints.</p></figcaption>' in text
+    (drawn,) = pictures(replace(result, mechanism="linkage"), seen, language="zh")
+    assert drawn.meaning == "虚线：理想运动副。"
 
 
 def test_the_numerical_settings_of_a_spec_are_in_a_full_report():
@@ -152,7 +208,7 @@ def test_a_failed_check_names_the_figure_that_shows_it(tmp_path):
 
 
 def picture(name, width, height=100):
-    return SimpleNamespace(name=name, title=name, svg=f'<svg width="{width}pt" height="{height}pt"/>')
+    return SimpleNamespace(name=name, title=name, meaning="", svg=f'<svg width="{width}pt" height="{height}pt"/>')
 
 
 def test_two_narrow_figures_share_a_row_and_a_wide_one_has_its_own():
