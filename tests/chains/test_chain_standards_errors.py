@@ -51,7 +51,7 @@ def test_too_few_links():
 
 def test_least_wrap():
     for wrap in (0.0, np.pi, 4.0, NAN):
-        refused(r"least wrap must lie between 0 and 180 deg, got (0|180|229|nan)", s.min_centre_distance, P, 20, 60, least_wrap=wrap)
+        refused(r"least wrap must lie between 0 and 180°, got (0|180|229|nan)", s.min_centre_distance, P, 20, 60, least_wrap=wrap)
     refused("tip diameters must be finite and 0 or more, got -1", s.min_centre_distance, P, 20, 60, (0.1, -1.0))
 
 

@@ -84,7 +84,7 @@ def test_a_file_is_read_in_its_units_whatever_the_order_of_its_columns(tmp_path)
         (np.full(60, 300.0), ANGLE, "the torque is 300 N m in all samples; a stiffness needs a torque that changes"),
         (TORQUE, np.full(60, 0.25), "the angle is 0.25 rad in all samples"),
         (np.where(TORQUE > 400, np.nan, TORQUE), ANGLE, "must be finite"),
-        (TORQUE, -ANGLE, "the angle falls by 1e-05 rad per N m of rising torque.*change the sign of one of the columns"),
+        (TORQUE, -ANGLE, "the angle falls by 1e-05 rad per N·m of rising torque.*change the sign of one of the columns"),
     ],
 )
 def test_readings_without_a_stiffness_are_refused(torque, angle, wanted):
@@ -95,12 +95,12 @@ def test_readings_without_a_stiffness_are_refused(torque, angle, wanted):
 def test_a_position_that_is_refused_is_named():
     crank = np.repeat([0.0, np.pi / 4], 60)
     readings = Readings(np.tile(TORQUE, 2), np.concatenate([ANGLE, -ANGLE]), crank=crank)
-    with pytest.raises(InputError, match="^crank angle 45 deg: torsion test: the angle falls"):
+    with pytest.raises(InputError, match="^crank angle 45°: torsion test: the angle falls"):
         evaluate_positions(readings)
 
 
 def test_a_rig_softer_than_the_test_is_refused():
-    with pytest.raises(InputError, match="is not positive: the rig would be softer.*loading bar's stiffness .*above 100000 N m/rad"):
+    with pytest.raises(InputError, match="is not positive: the rig would be softer.*loading bar's stiffness .*above 100000 N·m/rad"):
         evaluate_loop(Readings(TORQUE, ANGLE), TorsionTestSettings(parts=(SeriesSpring("loading bar's", 9e4),)))
 
 

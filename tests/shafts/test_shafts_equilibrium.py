@@ -242,7 +242,7 @@ def test_one_rolling_bearing_holds_by_its_tilt_stiffness_unless_its_seat_turns()
 
 
 def test_torques_that_partly_cancel_do_not_balance():
-    with pytest.raises(InputError, match="their sum is 2 N m"):
+    with pytest.raises(InputError, match="their sum is 2 N·m"):
         loaded(axial_spring(), shafts.ShaftLoad(0.1, moment=(0, 0, 5.0)), shafts.ShaftLoad(0.3, moment=(0, 0, -3.0)))
 
 

@@ -191,8 +191,8 @@ class RockerPins(NamedTuple):
         back, forward = self.limits(link)
         if forward < self.turn or back > 0:
             raise InputError(
-                f"RockerPins: the joint turns from {np.degrees(back):.4g} to {np.degrees(forward):.4g} deg only, 0 to "
-                f"{np.degrees(self.turn):.4g} deg are wanted. Take a larger back_radius, more clearance or less turn."
+                f"RockerPins: the joint turns from {np.degrees(back):.4g} to {np.degrees(forward):.4g}° only, 0 to "
+                f"{np.degrees(self.turn):.4g}° are wanted. Take a larger back_radius, more clearance or less turn."
             )
 
     def rod_center(self, link: Link, turn: ArrayLike) -> Floats:

@@ -42,9 +42,9 @@ class RollerSprocket:
             )
         if not (0 < self.seat_angle < np.pi and self.flank_radius > 0):
             raise InputError(
-                f"RollerSprocket: seat_angle = {np.degrees(self.seat_angle):.4g} deg, flank_radius = "
+                f"RollerSprocket: seat_angle = {np.degrees(self.seat_angle):.4g}°, flank_radius = "
                 f"{self.flank_radius * 1e3:.4g} mm; "
-                "the angle lies between 0 and 180 deg, the radius is positive."
+                "the angle lies between 0 and 180°, the radius is positive."
             )
         if not self._lowest_tip < self.tip_radius < abs(self._flank_center) + self.flank_radius:
             raise InputError(

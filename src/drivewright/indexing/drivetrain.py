@@ -167,8 +167,8 @@ def _check_gear(gear: GearMesh, spacing: float) -> None:
         )
     if not 0 <= gear.pressure_angle < np.pi / 2:
         raise InputError(
-            f"drive train: the gears' pressure angle {np.degrees(gear.pressure_angle):.4g} deg must lie from 0 to below 90 deg "
-            "(it is taken in radians); 20 deg is usual."
+            f"drive train: the gears' pressure angle {np.degrees(gear.pressure_angle):.4g}° must lie from 0 to below 90° "
+            "(it is taken in radians); 20° is usual."
         )
 
 

@@ -36,7 +36,7 @@ class Segment:
         if not isinstance(self.law, MotionLaw):
             raise InputError(f"segment: its law is {self.law!r}; give a MotionLaw, the name of one, or 'dwell'.")
         if not (math.isfinite(self.angle) and self.angle > 0):
-            raise InputError(f"segment {self.law.name!r}: its angle is {math.degrees(self.angle):.9g} deg; it must be positive and finite.")
+            raise InputError(f"segment {self.law.name!r}: its angle is {math.degrees(self.angle):.9g}°; it must be positive and finite.")
         if not math.isfinite(self.rise):
             raise InputError(f"segment {self.law.name!r}: its rise is {self.rise}; it must be finite.")
         self._refuse_rise()
@@ -177,14 +177,14 @@ def _refuse_angles(segments, cycle):
     if not segments:
         raise InputError("programme: it has no segment; give at least one.")
     if not (math.isfinite(cycle) and cycle > 0):
-        raise InputError(f"programme: its cycle is {math.degrees(cycle):.9g} deg; it must be positive and finite.")
+        raise InputError(f"programme: its cycle is {math.degrees(cycle):.9g}°; it must be positive and finite.")
     total = math.fsum(segment.angle for segment in segments)
     missing = math.degrees(cycle - total)
     if abs(cycle - total) > CLOSURE * cycle:
         remedy = f"add a dwell of {missing:.9g} deg or lengthen a segment" if missing > 0 else "shorten a segment"
         raise InputError(
-            f"programme: the angles of its segments sum to {math.degrees(total):.9g} deg, {abs(missing):.9g} deg "
-            f"{'less' if missing > 0 else 'more'} than the cycle of {math.degrees(cycle):.9g} deg; {remedy}."
+            f"programme: the angles of its segments sum to {math.degrees(total):.9g}°, {abs(missing):.9g}° "
+            f"{'less' if missing > 0 else 'more'} than the cycle of {math.degrees(cycle):.9g}°; {remedy}."
         )
 
 
@@ -195,8 +195,8 @@ def _refuse_tables(segments, levels, unit):
             continue
         if abs(span - segment.angle) > CLOSURE * segment.angle:
             raise InputError(
-                f"programme, segment {number}: its table ends at {math.degrees(span):.9g} deg, but the segment spans "
-                f"{math.degrees(segment.angle):.9g} deg; make the last angle of the table and the segment's angle equal, over a whole turn "
+                f"programme, segment {number}: its table ends at {math.degrees(span):.9g}°, but the segment spans "
+                f"{math.degrees(segment.angle):.9g}°; make the last angle of the table and the segment's angle equal, over a whole turn "
                 "by the first lift once more at its end."
             )
         first = float(segment.motion_law(0.0).s)

@@ -165,8 +165,8 @@ def _refuse_rows(rows):
     refuse_disorder(np.degrees(rows.angle), rows.lift, rows.what, rows.places, "the angle in deg")
     if rows.angle[0] != 0:
         raise InputError(
-            f"{rows.what}, {rows.places[0]}: the angle starts at {math.degrees(rows.angle[0]):.9g} deg; "
-            f"it is counted from the start of the segment, so start at 0: take {math.degrees(rows.angle[0]):.9g} deg off every angle."
+            f"{rows.what}, {rows.places[0]}: the angle starts at {math.degrees(rows.angle[0]):.9g}°; "
+            f"it is counted from the start of the segment, so start at 0: take {math.degrees(rows.angle[0]):.9g}° off every angle."
         )
 
 

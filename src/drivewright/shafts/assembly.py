@@ -210,7 +210,7 @@ def refuse_unbalanced(model: ShaftSystem, force: Floats) -> None:
             f"{'right' if way > 0 else 'left'}; give a bearing an axial_stiffness, or reverse a rolling bearing (carries)"
         )
     if abs(torque) > 1e-9 * np.abs(nodes[:, TWIST]).sum():
-        raise InputError(f"shaft: the torques do not balance: their sum is {torque:.6g} N m; add the torque of the driven or driving end")
+        raise InputError(f"shaft: the torques do not balance: their sum is {torque:.6g} N·m; add the torque of the driven or driving end")
 
 
 # -- regularisation --------------------------------------------------------------------------------------------------------------

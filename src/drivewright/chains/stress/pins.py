@@ -121,7 +121,7 @@ def beam(breaks: Floats, load: Floats) -> Beam:
     force = np.interp(position, breaks, shear)
     moment = np.concatenate([[0.0], np.cumsum(np.diff(position) * (force[1:] + force[:-1]) / 2)])  # V is linear: exact
     if abs(moment[-1]) > 1e-9 * size * np.ptp(breaks):
-        raise InputError(f"pins: the line load leaves a moment of {moment[-1]:.4g} N m; the pack must be symmetrical")
+        raise InputError(f"pins: the line load leaves a moment of {moment[-1]:.4g} N·m; the pack must be symmetrical")
     return Beam(position, force, moment)
 
 
