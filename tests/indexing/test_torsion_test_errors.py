@@ -107,8 +107,8 @@ def test_a_rig_softer_than_the_test_is_refused():
 def test_a_rated_torque_beyond_the_data_leaves_the_secant_out():
     test = evaluate_loop(Readings(TORQUE, ANGLE), TorsionTestSettings(rated_torque=800.0))
     assert np.isnan(test.shape.secant) and np.isfinite(test.shape.lost_motion)
-    wanted = "secant from 50 to 100 % of the rated torque 800 N m is absent"
-    assert any(wanted in text and "ends at 500 N m" in text for text in test.findings)
+    wanted = "secant from 50 to 100 % of the rated torque 800 N·m is absent"
+    assert any(wanted in text and "ends at 500 N·m" in text for text in test.findings)
     assert np.isfinite(evaluate_loop(Readings(TORQUE, ANGLE), TorsionTestSettings(rated_torque=500.0)).shape.secant)
 
 
@@ -117,7 +117,7 @@ def test_a_loop_that_does_not_close_is_remarked():
     texts = evaluate_loop(Readings(TORQUE, slipped)).findings
     assert any("the loop does not close: at the same torque the angle ends 0.0014 rad from where it began" in text for text in texts)
     texts = evaluate_loop(Readings(TORQUE[:48], ANGLE[:48])).findings
-    assert any("does not close: it begins at -500 N m and ends at -86.21 N m" in text for text in texts)
+    assert any("does not close: it begins at -500 N·m and ends at -86.21 N·m" in text for text in texts)
     assert not any("close" in text for text in evaluate_loop(Readings(TORQUE, ANGLE)).findings)
 
 

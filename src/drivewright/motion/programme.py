@@ -181,7 +181,7 @@ def _refuse_angles(segments, cycle):
     total = math.fsum(segment.angle for segment in segments)
     missing = math.degrees(cycle - total)
     if abs(cycle - total) > CLOSURE * cycle:
-        remedy = f"add a dwell of {missing:.9g} deg or lengthen a segment" if missing > 0 else "shorten a segment"
+        remedy = f"add a dwell of {missing:.9g}° or lengthen a segment" if missing > 0 else "shorten a segment"
         raise InputError(
             f"programme: the angles of its segments sum to {math.degrees(total):.9g}°, {abs(missing):.9g}° "
             f"{'less' if missing > 0 else 'more'} than the cycle of {math.degrees(cycle):.9g}°; {remedy}."

@@ -144,10 +144,10 @@ def missing_rows(angle: Floats) -> Iterator[str]:
     if not len(wide) or np.mean(np.abs(step - usual) <= ROUNDED * usual) < EVEN:
         return
     degrees = np.degrees(angle)
-    places = [f"{degrees[k]:.6g} to {degrees[k + 1]:.6g} deg" for k in wide[:MOST_NAMED]]
+    places = [f"{degrees[k]:.6g} to {degrees[k + 1]:.6g}°" for k in wide[:MOST_NAMED]]
     more = f" and {len(wide) - len(places)} more" if len(wide) > len(places) else ""
     yield (
-        f"rows of the table are missing from {', '.join(places)}{more}: elsewhere there is one every {math.degrees(usual):.4g} deg. "
+        f"rows of the table are missing from {', '.join(places)}{more}: elsewhere there is one every {math.degrees(usual):.4g}°. "
         "The lift there is that of the spline, not measured; give the missing rows, or check the motion there"
     )
 

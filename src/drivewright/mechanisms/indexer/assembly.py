@@ -152,7 +152,7 @@ def _findings(spec: IndexerSpec, angles: Floats, own: SolidStiffness) -> Iterato
     for reason in dict.fromkeys(reason for reason in own.reasons if reason):
         rows = [k for k, each in enumerate(own.reasons) if each == reason]
         places = ", ".join(f"{angle:.4g}" for angle in np.degrees(angles[rows]))
-        yield f"assembly: no stiffness at {len(rows)} of {len(angles)} input angles ({places} deg): {reason}"
+        yield f"assembly: no stiffness at {len(rows)} of {len(angles)} input angles ({places}°): {reason}"
     yield (
         "assembly: wheel, drum and seats have usual proportions where the spec has no key for them (theory.md); a finer mesh lowers the "
         f"stiffness by up to {100 * MESH_ERROR:.0f} %"
