@@ -324,7 +324,7 @@ class Dimension:
         """SI number of so many of a unit; a temperature counts from where its scale begins."""
         exact = number * self._exact(self._read_as(unit), whole) + self._begin(unit)
         if self.name == "temperature" and exact < 0:
-            raise UnitError(f"{brief(whole)} is below absolute zero, 0 K or -273.15 degC")
+            raise UnitError(f"{brief(whole)} is below absolute zero, 0 K or -273.15 °C")
         return exact
 
     def _begin(self, unit: str) -> Fraction:

@@ -93,7 +93,7 @@ def test_messages():
         lacing(1, 2, -2e-3)
     with pytest.raises(InputError, match="leaves 3 N"):
         beam(np.array([0.0, 1.0]), np.array([3.0]))
-    with pytest.raises(InputError, match="leaves a moment of"):
+    with pytest.raises(InputError, match="has a moment of"):
         beam(np.array([0.0, 1.0, 2.0]), np.array([3.0, -3.0]))
     with pytest.raises(InputError, match="radius 0 mm"):
         round_section(0.0)

@@ -215,7 +215,7 @@ def test_messages():
         amounts(basis(), slack)
     with pytest.raises(InputError, match=r"right flank is pressed at a height of -9 mm \(instant 0, 1 in all\)"):
         amounts(basis(), Loads(np.zeros((1, 2, 2)), [[0.0, 5.0]], [[0.0, -9e-3]]))
-    with pytest.raises(InputError, match="not below 0 .* the least is -5 N"):
+    with pytest.raises(InputError, match="not below 0 .* the smallest is -5 N"):
         amounts(basis(), Loads(np.zeros((1, 2, 2)), [[0.0, -5.0]], [[0.0, -4e-3]]))
     with pytest.raises(InputError, match=r"pins \(2, 2\)"):
         amounts(basis(), Loads(np.zeros((2, 2)), np.zeros((1, 2)), np.zeros((1, 2))))

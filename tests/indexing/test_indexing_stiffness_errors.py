@@ -47,7 +47,7 @@ def test_a_station_on_a_support():
 
 
 def test_a_place_off_the_shaft():
-    with pytest.raises(InputError, match="off the shaft"):
+    with pytest.raises(InputError, match="outside the shaft"):
         torsion_stiffness(SHAFT._replace(cams=(0.05, 0.3)))
 
 

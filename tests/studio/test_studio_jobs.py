@@ -302,7 +302,7 @@ def test_a_search_without_anything_to_change_says_so():
     with pytest.raises(SpecError, match="every unknown is locked .*so nothing may change; unlock one"):
         asked("optimise", pusher, locks=keys)
     assert len(pusher.tables["optimise"]["unknowns"]) == len(keys)  # the design itself is as it was
-    with pytest.raises(SpecError, match=r"(?s)does not say what may change and what is wanted.*optimise\.unknowns"):
+    with pytest.raises(SpecError, match=r"(?s)Choose the parameters to vary and an objective.*optimise\.unknowns"):
         asked("optimise", design("four_bar"))
 
 

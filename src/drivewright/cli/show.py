@@ -311,7 +311,7 @@ def advice(run: "Result[Any]") -> None:
         print(f"  to pass '{checks_by_name[each.check].display_label}': {advice_text(each, checks_by_name, run.units)}")
         print(f"      {options}")
     if run.advice_stopped:
-        note("note: the search for what to change stopped after its usual time; --advice goes on to the end")
+        note("note: the search for what to change stopped after its usual time; with --advice it runs to the end")
 
 
 def check_numbers(check: "Check", system: units.System) -> tuple[str, str, str]:

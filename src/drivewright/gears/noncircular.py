@@ -37,7 +37,7 @@ class NonCircularPair(RollingPair):
             worst = int(np.argmin(np.where(np.isfinite(probes), probes, -np.inf)))
             raise InputError(
                 f"NonCircularPair: ratio = {probes[worst]:.4g} at driver angle {np.rad2deg(_PROBES[worst]):.4g}°; gears that keep "
-                "rolling need a positive ratio everywhere. Raise its mean or lessen its swing."
+                "rolling need a positive ratio everywhere. Raise its mean or reduce its swing."
             )
         self._refuse_no_period(1)
         self._refuse_open()

@@ -197,7 +197,7 @@ def _refuse_tables(segments, levels, unit):
             raise InputError(
                 f"programme, segment {number}: its table ends at {math.degrees(span):.9g}°, but the segment spans "
                 f"{math.degrees(segment.angle):.9g}°; make the last angle of the table and the segment's angle equal, over a whole turn "
-                "by the first lift once more at its end."
+                "by repeating the first lift at the end."
             )
         first = float(segment.motion_law(0.0).s)
         if abs(first - level) > CLOSURE * np.max(np.abs([first, *levels])):

@@ -149,7 +149,7 @@ def compare(results: Sequence[Result[Any]], labels: Sequence[str] = ()) -> Desig
 def check_count(count: int) -> None:
     """InputError for a number of designs that cannot be compared on a page."""
     if count < 2:
-        raise InputError(f"a comparison wants at least two designs, got {count}")
+        raise InputError(f"a comparison needs at least two designs, got {count}")
     if count > MOST_DESIGNS:
         raise InputError(f"a comparison shows at most {MOST_DESIGNS} designs, got {count}; `drivewright sweep` computes any number")
 

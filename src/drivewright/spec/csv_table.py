@@ -229,6 +229,6 @@ def _refuse_longer(header, rows, separator, columns, file):
             hint = "; where the comma is the decimal sign, separate the columns by semicolons" if separator == "," else ""
             raise SpecError(
                 f"line {row.line}: {used} cells between {between}s, but the headings of line {header.line} are "
-                f"{width}{hint}; a text that has the separator in it wants quotes",
+                f"{width}{hint}; put a text that contains the separator in quotes",
                 file=file,
             )

@@ -86,7 +86,7 @@ def parts_of(ledger: sqlite3.Connection) -> list[Part]:
     stop = 0
     for part in parts:
         if not (isinstance(part.first, int) and isinstance(part.count, int) and part.count > 0 and part.first >= stop):
-            raise LedgerDamaged(f"is damaged (the cases of its part {part.name!r} make no sense)")
+            raise LedgerDamaged(f"is damaged (the cases of its part {part.name!r} are inconsistent)")
         if part.name != part_name(part.first, part.count):
             raise LedgerDamaged(f"is damaged (its part {part.name!r} has another name than its cases)")
         stop = part.first + part.count

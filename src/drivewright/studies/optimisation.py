@@ -180,7 +180,7 @@ def _place(out, spec, method):
         return Memory()
     if (Path(out) / HISTORY).is_file() and not is_study(out):
         raise InputError(
-            f"{out}: holds the outcome of a search ({HISTORY}) by an older version, which cannot be gone on with; nothing was "
+            f"{out}: holds the outcome of a search ({HISTORY}) by an older version, which cannot be continued; nothing was "
             "written. Remove the folder, or give another --out"
         )
     return Folder(out, spec, {"spec": spec.digest(), "search": method, "drivewright": versions()["drivewright"]})

@@ -249,7 +249,7 @@ class Folder:
         except (OSError, sqlite3.Error) as error:
             reason = getattr(error, "strerror", None) or error
             raise InputError(
-                f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. Make room or mend the disk, "
+                f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. Free space on the disk, or repair it, "
                 "and give the same command again"
             ) from None
 

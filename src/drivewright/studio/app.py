@@ -63,7 +63,7 @@ def serve(
         raise MissingExtra("drivewright studio", "studio", error) from None
     if token and (len(token) < LEAST_TOKEN or not token.isascii() or not token.isprintable()):
         raise InputError(
-            f"studio: --token has {len(token)} characters; it wants at least {LEAST_TOKEN} printable ASCII characters. "
+            f"studio: --token has {len(token)} characters; it needs at least {LEAST_TOKEN} printable ASCII characters. "
             "Leave it out, and a new one is made"
         )
     listening = _listening(host, port)

@@ -82,7 +82,7 @@ def in_words() -> Iterator[None]:
     except DrivewrightError:
         raise
     except ODD as error:
-        raise InputError(f"the page asked for something odd: {brief(str(error))}") from None
+        raise InputError(f"the page sent an unexpected request: {brief(str(error))}") from None
 
 
 def edit(send: object, document: Document, kept: bytes, change: str, arguments: Mapping[str, Any]) -> Edited:

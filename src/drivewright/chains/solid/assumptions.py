@@ -35,7 +35,7 @@ def with_fit(solid: PlateAndPins, fit: Fit) -> list[Floats]:
         made = f"{np.degrees(solid.fit.seat):.4g}° to either side"
         raise InputError(
             f"stress of solids: the plate was condensed with a bearing seat of {made}, but the fit needs {wanted}; condense it with a fit "
-            "of the same seat, or None."
+            "of the same seat, or without a fit."
         )
     return [
         pairing.gap_with(seat_gap(solid.plate, side, fit, solid.stack.own))

@@ -71,7 +71,7 @@ def _places(spec):
     _widths(spec)
     for key, place in wanted:
         if not -NEAR * far <= place <= far * (1 + NEAR):
-            raise SpecError(f"{_mm(place)} is off the shaft, which runs from 0 to {_mm(far)}; move it, or make a segment longer", key)
+            raise SpecError(f"{_mm(place)} lies outside the shaft, which runs from 0 to {_mm(far)}; move it, or make a segment longer", key)
     for table in ("bearings", "stations"):
         entries = sorted(getattr(spec, table), key=lambda entry: entry.position)
         for one, two in zip(entries, entries[1:], strict=False):

@@ -134,4 +134,4 @@ def _solve(system, period):
     try:
         system.SolveDynamic(settings)
     except Exception as error:  # Exudyn's own errors share no base class
-        raise SolverError(f"verify: Exudyn gave up on the cam pair ({error}); try another drive.speed or a smaller push_force") from None
+        raise SolverError(f"verify: Exudyn did not solve the cam pair ({error}); try another drive.speed or a smaller push_force") from None

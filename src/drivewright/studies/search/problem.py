@@ -169,7 +169,7 @@ def _kind(spec, unknowns, number):
     """The `KeyKind` of an unknown."""
     key, place = unknowns[number].key, f"optimise.unknowns.{number}.key"
     if key in (each.key for each in unknowns[:number]):
-        raise SpecError(f"{key} is there twice; give one range for it", place)
+        raise SpecError(f"{key} occurs twice; give one range for it", place)
     kind = key_kind(spec, key, place)
     if not kind.numeric:
         raise SpecError(f"{key} takes {READABLE[kind.name]} and has no range; an unknown is a quantity, a number or a whole number", place)
