@@ -227,7 +227,7 @@ def failure_reason(spec: SpecLike, error: Exception) -> str:
     if isinstance(error, DrivewrightError):
         return str(error)
     if isinstance(error, MemoryError):
-        return "needs more memory than there is; ask for less (fewer turns, samples or elements), or leave it out"
+        return "needs more memory than there is; take fewer turns, samples or elements, or leave it out"
     return _program_fault(spec, error)
 
 

@@ -6,11 +6,10 @@ program.  Errors that only a programmer meets, with a traceback (`messages.OF_PR
 
 import ast
 import re
-import tomllib
 from functools import cache
 
 import pytest
-from messages import HOLE, all_messages, messages_in
+from messages import HOLE, all_messages
 from places import SOURCE
 
 pytestmark = pytest.mark.interface
@@ -65,7 +64,6 @@ PRIVATE = {
     r"whoever\b": "",
     r"what becomes": "",
     r"speaks?\b": "",
-    r"once more": "again",
     r"tells?\b(?! .* from)": "shows, states",
     r"makes? up for": "compensates",
     r"swap the two\?": "exchange them if they were swapped",

@@ -33,7 +33,7 @@ def rows(header="torque [N m],angle [arcmin]", count=10):
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
-        ("", r"test.csv: is empty; the first line wants the columns, e.g. torque \[N m\],angle \[arcmin\]"),
+        ("", r"test.csv: is empty; the first line must name the columns, e.g. torque \[N m\],angle \[arcmin\]"),
         ("# only words\n\n", "is empty"),
         (rows("torque,angle [arcmin]"), r"test.csv: column 'torque': has no unit; write 'torque \[N m\]'"),
         (rows("torque [N],angle [arcmin]"), r"column 'torque': wants a torque, got 'N' \(force\)"),

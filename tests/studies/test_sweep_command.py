@@ -426,7 +426,7 @@ def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(toy, tmp_pa
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=120)
     assert process.returncode == 130 and "Traceback" not in err and out == ""
-    assert "interrupted; what was finished before is kept, and the same command goes on" in err
+    assert "interrupted; what was finished before is kept, and the same command continues" in err
     half = dw.open_study(folder)
     assert 0 < len(half) < 60 and f"{len(half)} of 60 cases" in err and not half.complete and half.counts == {"complete": len(half)}
     stamps = {name: (folder / "parts" / name).stat().st_mtime_ns for name in acknowledged(folder)}

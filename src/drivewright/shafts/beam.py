@@ -45,7 +45,7 @@ class Beam(NamedTuple):
 
 
 def beam(shaft: Shaft, places: Iterable[float] = ()) -> Beam:
-    """The `Beam` of a shaft with nodes at every step, support, station and at the further `places`; InputError where its flexibility overflows."""
+    """The `Beam` of a shaft with nodes at every step, support, station and at the further `places`; InputError where it overflows."""
     z = _nodes(shaft, places)
     pieces = _pieces(shaft, z[:-1], z[1:])
     with np.errstate(all="ignore"):

@@ -142,11 +142,11 @@ def _no_header(lines, groups, file):
     """What to say of a file in which no line has the wanted headings: of the line that looks most like them."""
     example = ",".join(group[0].heading for group in groups)
     if not lines:
-        return f"is empty; the first line wants the columns, e.g. {example}"
+        return f"is empty; the first line must name the columns, e.g. {example}"
     first = next((number for number, (_, text) in enumerate(lines[:SEARCHED]) if _has_numbers_alone(text, file)), len(lines))
     if first == 0:
         line, text = lines[0]
-        return f"line {line}: {brief(text)} has numbers alone; the first line wants the columns with their units, e.g. {example}"
+        return f"line {line}: {brief(text)} has numbers alone; the first line must name the columns with their units, e.g. {example}"
     separator = _separator(lines[min(first, len(lines) - 1)][1])
     above = list(_rows(lines[:first], separator, file)) if first < len(lines) else list(_rows(lines[:1], _separator(lines[0][1]), file))
     header = max(above, key=lambda row: (len(row.cells) > 1, _columns_in(row, groups), not _in_brackets(row.cells), row.line))

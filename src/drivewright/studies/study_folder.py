@@ -79,7 +79,7 @@ class Folder:
         if known and known != identity:
             if self._claimed_study() != self._study:
                 self._refuse(describe_differences(self.folder / SPEC, spec, known, identity))
-            damage, known, named = "is damaged (it says of another study than the parts)", {}, []
+            damage, known, named = "is damaged (it describes another study than the parts)", {}, []
         unnamed, rejected = self._unnamed_parts(named)
         is_rebuilt = not known and bool(unnamed or rejected or damage)
         if is_rebuilt and not unnamed and (differences := differing_keys(self.folder / SPEC, spec, "plan" in identity)):
@@ -249,8 +249,8 @@ class Folder:
         except (OSError, sqlite3.Error) as error:
             reason = getattr(error, "strerror", None) or error
             raise InputError(
-                f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. Free space on the disk, or repair it, "
-                "and give the same command again"
+                f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. "
+                "Free space on the disk, or repair it, and give the same command again"
             ) from None
 
 

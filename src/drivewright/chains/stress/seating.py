@@ -45,7 +45,8 @@ def seated(plate: Plate, body: PlaneBody, pins: Floats, clearance: float, tracti
     pins = np.asarray(pins, float)
     if not (clearance >= 0 and np.hypot(*pins.T).min() > 0):
         raise InputError(
-            f"stress: seating needs a clearance of 0 or more, got {1e6 * clearance:g} µm, and a force on either pin, got {np.hypot(*pins.T)} N"
+            f"stress: seating needs a clearance of 0 or more, got {1e6 * clearance:g} µm, "
+            f"and a force on either pin, got {np.hypot(*pins.T)} N"
         )
     seats = [bearing.seat_of(body, plate, side) for side in SIDES]
     turns, hats = zip(*(_hats(body, *each) for each in zip(seats, pins, SIDES, strict=True)), strict=True)

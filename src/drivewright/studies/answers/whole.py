@@ -94,7 +94,7 @@ def _assumptions(arranged):
     elif len(arranged.sample) and method != "random":
         yield (
             f"the intervals of {LEVEL:.0%} are those of independent cases; the even points of this sample ({method}) make means, "
-            "as a rule, more certain than told"
+            "as a rule, more certain than these intervals state"
         )
 
 

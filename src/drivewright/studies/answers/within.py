@@ -95,8 +95,8 @@ def _findings(rows):
     for _, name, _, variances in rows:
         if variances.keys.value == 0:
             yield (
-                f"{name}: the cases differ no more than one case by itself, so the contributions of the keys cannot be determined; more windows "
-                "or members narrow the intervals of the cases"
+                f"{name}: the cases differ no more than one case by itself, so the contributions of the keys cannot be determined; "
+                "more windows or members narrow the intervals of the cases"
             )
         elif variances.share.value > 0.01:
             yield (
