@@ -61,7 +61,7 @@ def run(
 
 
 def _given_tables(spec: SpecLike, names: Iterable[str]) -> Iterator[str]:
-    """Those of the analyses whose table of the same name in the spec is not as it is by default: the user asks for them."""
+    """Those of the analyses whose table of the same name in the spec is not as it is by default: the user requests them."""
     fields = getattr(type(spec), "model_fields", {})
     yield from (name for name in names if name in fields and getattr(spec, name) != fields[name].get_default(call_default_factory=True))
 

@@ -1,4 +1,4 @@
-"""How far a long part of an analysis is, told from within it to whoever shows progress.
+"""How far a long part of an analysis is, reported from within it to the display of progress.
 
 A loop whose steps take a while - meshes, solutions that condense a body, load steps - calls `note_step`; `detailed` makes a progress
 callable that hears of it.  So no analysis hands a callback down.  What is told changes no number.

@@ -1,4 +1,4 @@
-"""Units at the door: text with a unit -> SI float, once.
+"""Units of input: text with a unit -> SI float, converted once.
 
 A registry of our own, in which **angle is a base dimension**: `rev` and `rpm` exist, "8 1/s" is no angular speed, and
 `N m` (torque) is not `N m/rad` (rotational stiffness).  The registry is built for the first unit that is not among the usual

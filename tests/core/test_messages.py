@@ -9,7 +9,7 @@ import re
 from functools import cache
 
 import pytest
-from messages import HOLE, all_messages
+from messages import HOLE, all_messages, messages_in
 from places import SOURCE
 
 pytestmark = pytest.mark.interface
@@ -139,3 +139,53 @@ def test_messages_are_plain():
 def test_messages_are_found():
     kinds = [message.kind for message in all_messages()]
     assert kinds.count("error") > 900 and kinds.count("help") > 60 and kinds.count("finding") > 20 and "printed" in kinds
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "run: workers must be a whole number, or None",
+        "the bore is 3 mm^2 too small; make it larger",
+        f"the lever swings {HOLE} deg; reduce the rise",
+        "the value of _inner_state is negative; give prime_radiuss",
+        "build a SuperFollower instead",
+        "mend the design",
+        "a file wants its unit",
+        "the greatest pressure is too high",
+        "invalid value",
+        "no contact between both bodies of this pair",
+        "see drivewright.multibody.chart",
+    ],
+)
+def test_what_is_not_plain_is_a_fault(text):
+    assert faults(text)
+
+
+@pytest.mark.parametrize(
+    "text", ["wants a length, got '3 kg'", 'roller_radius = 5 mm must be smaller; at least 2 teeth are needed, e.g. "20 deg"', "is missing"]
+)
+def test_what_is_plain_is_none(text):
+    assert faults(text) == []
+
+
+def test_messages_are_read_wherever_they_stand():
+    source = """
+def _findings(run):
+    yield f"{run} loses contact"
+def refuse(x, out):
+    out.findings.append("is slack")
+    note("wrote it")
+    option(help="folder to write")
+    error = SpecError("is " + ("short" if x else "long") + f" by {x} mm")
+    raise UnknownName("law", f"{'one of two' if x else 'three of them'}")
+"""
+    read = {(message.kind, message.text) for message in messages_in(source)}
+    assert read == {
+        ("finding", f"{HOLE} loses contact"),
+        ("finding", "is slack"),
+        ("printed", "wrote it"),
+        ("help", "folder to write"),
+        ("error", f"is short by {HOLE} mm"),
+        ("error", f"is long by {HOLE} mm"),
+        ("part", "law"),
+    }

@@ -1,4 +1,4 @@
-"""Commands.  They know the registry, the schema and the result; no kind of drive by name."""
+"""Commands.  They depend on the registry, the schema and the result, and on no kind of drive by name."""
 
 import json
 import os

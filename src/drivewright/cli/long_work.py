@@ -182,7 +182,7 @@ class _Lines:
         show.note(f"{self.title}: {text}")
 
     def show(self, what: str) -> None:
-        """What is told with the next line."""
+        """Text that the next line adds."""
         self.what = what
 
     def close(self) -> None:

@@ -111,7 +111,7 @@ def _seldom(title: str) -> "Progress":
 
 @contextlib.contextmanager
 def compiling(kind: str) -> Iterator[None]:
-    """Within the block what is compiled for a kind of drive is said on stderr, line by line."""
+    """Within the block the compilation for a kind of drive is reported on stderr, line by line."""
     from drivewright._jit.compilation import watched_by
 
     lines = _Lines(kind)

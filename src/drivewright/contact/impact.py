@@ -26,7 +26,7 @@ _BUILT_IN = {}
 
 
 class ImpactLaw(NamedTuple):
-    """`factor(e)` -> h for 0 < e <= 1; from e = `reliable` upwards the impact delivers what was asked within 10 %."""
+    """`factor(e)` -> h for 0 < e <= 1; from e = `reliable` upwards the impact gives the required restitution within 10 %."""
 
     name: str
     factor: Callable[[float], float]
@@ -50,7 +50,7 @@ def impact_law(name: str) -> ImpactLaw:
 
 
 def _law(name, reliable, source):
-    """Decorator: the formula e -> h of a built-in law, asked with e in (0, 1] only."""
+    """Decorator: the formula e -> h of a built-in law, called with e in (0, 1] only."""
 
     def keep(formula):
         def factor(restitution):

@@ -1,4 +1,4 @@
-"""Who computes: this process, processes on this machine, or the workers of a Dask scheduler.  All call the same function."""
+"""Executors: this process, processes on this machine, or the workers of a Dask scheduler.  All call the same function."""
 
 import os
 import sys

@@ -283,7 +283,7 @@ class WorkerPool:
             raise
 
     def _grant(self) -> None:
-        """Turns for those who wait, while there are workers."""
+        """Assign waiting calls to free workers."""
         while self._held.total() < self._limit:
             allowed = [
                 (self._held[owner], number)

@@ -1,4 +1,4 @@
-"""What a material endures: the strain-life card, the uniform material law for when only the tensile strength is known, lives as text."""
+"""Fatigue of a material: strain-life card, the uniform material law for when only the tensile strength is known, lives as text."""
 
 import math
 import re

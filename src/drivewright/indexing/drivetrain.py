@@ -1,4 +1,4 @@
-"""What yields in a pin-wheel indexer, as plain data: pins, crank bearings, split shafts, their supports, gears, the wheel.
+"""The elastic parts of a pin-wheel indexer, as plain data: pins, crank bearings, split shafts, their supports, gears, the wheel.
 
 Two split shafts stand at (-spacing/2, 0) and (+spacing/2, 0); a gear on each meshes with the locked input gear on the wheel's axis,
 and their crank pins, one a cam, carry every cam in two holes.  What is None is rigid; without a gear the shafts are held where it

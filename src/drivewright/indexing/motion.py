@@ -146,9 +146,7 @@ def index_motion_of_rows(rows: TableLaw, divisions: int) -> IndexMotion:
             f"{np.degrees(step):.9g}°. Scale the column, or change stations."
         )
     if span > TURN * (1 + JOINT):
-        raise InputError(
-            f"the table ends at an input angle of {np.degrees(span):.9g}°; a step takes at most one turn of the input, 360°."
-        )
+        raise InputError(f"the table ends at an input angle of {np.degrees(span):.9g}°; a step takes at most one turn of the input, 360°.")
     law_of_step = MotionLaw(rows.name, rows.function.scaled(height=1 / last))
     return IndexMotion(law_of_step, divisions, min(span, TURN))
 

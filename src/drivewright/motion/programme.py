@@ -223,6 +223,6 @@ def _does_not_close(segments, gap, unit):
 
 
 def _lift(value, unit):
-    """A lift in the unit people read, in SI where nobody said whether it is a length or an angle."""
+    """A lift in the unit people read, in SI where it is not known whether it is a length or an angle."""
     factor, shown = display(unit) if unit else (1.0, "(SI)")
     return f"{value * factor:.9g} {shown}"

@@ -1,4 +1,4 @@
-"""Where the drives of a mechanism stand, in words."""
+"""Positions of the drives of a mechanism as text."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The door to Netgen and NGSolve (extra `fe`): loaded when first needed, with the real reason where they are not."""
+"""Import of Netgen and NGSolve (extra `fe`): loaded when first needed, with the cause where the import fails."""
 
 import atexit
 import importlib

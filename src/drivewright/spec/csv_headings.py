@@ -82,7 +82,7 @@ def _plain(name):
 
 
 class CsvColumn(NamedTuple):
-    """Where a wanted column stands, its heading as written, and what it holds with its factor to SI; nan while no unit is said."""
+    """Where a wanted column stands, its heading as written, and what it holds with its factor to SI; nan while no unit is given."""
 
     place: int
     heading: str

@@ -1,4 +1,4 @@
-"""Tables of numbers in CSV files, whoever wrote them: one reader for the data files of all drives.
+"""Tables of numbers in CSV files from any program: one reader for the data files of all drives.
 
 * separators: comma, semicolon, tab or blanks, by the header; "sep=;" in the first line is heeded
 * decimal sign: point, or comma where the comma does not separate columns; what may be a sign of thousands is refused

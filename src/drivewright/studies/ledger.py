@@ -94,7 +94,7 @@ def parts_of(ledger: sqlite3.Connection) -> list[Part]:
 
 
 def identity_of(ledger: sqlite3.Connection) -> dict[str, str]:
-    """What the study is, {what: text}; empty where nobody has said so yet."""
+    """What the study is, {what: text}; empty where it is not stated yet."""
     return dict(ledger.execute("select key, value from identity"))
 
 

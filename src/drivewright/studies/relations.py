@@ -1,4 +1,4 @@
-"""A key that follows another one: "-2 * gears.pinion.torque", "0.5 * segments.0.length + 3 mm"; read by hand, in one form."""
+"""A key that follows another one: "-2 * gears.pinion.torque", "0.5 * segments.0.length + 3 mm"; parsed by our own code, in one form."""
 
 import re
 from collections.abc import Sequence

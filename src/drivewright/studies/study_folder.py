@@ -1,4 +1,4 @@
-"""The folder in which a study lives: `study.toml`, a ledger (SQLite) and `parts/` (Parquet).
+"""The folder of a study: `study.toml`, a ledger (SQLite) and `parts/` (Parquet).
 
 A part is written under a temporary name, forced to the disk, renamed, and only then entered in the ledger with its size and checksum.
 At every start all parts are checked: a damaged one is computed again, and one that no ledger names is kept where it proves what it is,
@@ -213,7 +213,7 @@ class Folder:
             self._ledger.executemany("insert into parts (first, count, name, seconds, size, sha256) values (?, ?, ?, ?, ?, ?)", rows)
 
     def remark(self, texts: Iterable[str]) -> None:
-        """Keep what is to be said of the study."""
+        """Keep the notices about the study."""
         with self._to_disk(), self._ledger:
             self._ledger.executemany("insert or ignore into remarks values (?)", [(text,) for text in texts])
 

@@ -1,4 +1,4 @@
-"""How to say what varies: from Python, and as on the command line."""
+"""Statement of what varies: from Python, and as on the command line."""
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -77,7 +77,7 @@ def _entry(keys: str, what: Mapping[str, Any]) -> Vary:
 
 
 def with_options(spec: SpecT, texts: Iterable[str] = (), points: str | Path | None = None, **settings: Any) -> SpecT:
-    """A spec whose [study] is what the command line asks for: `texts` as in `parse_variation`, a file of points, settings that are not
+    """A spec whose [study] is that of the command line: `texts` as in `parse_variation`, a file of points, settings that are not
     None."""
     given = {name: value for name, value in settings.items() if value is not None}
     if points is not None:

@@ -212,7 +212,7 @@ def _pictures():
 
 
 async def _warmed(resources):
-    """Load what the first message and the first drawing need, before they are asked for; it is no garbage to look through again."""
+    """Load what the first message and the first drawing need, before they are needed, and exclude it from garbage collection."""
 
     async def warm(pool, function, *arguments):
         async with pool.worker() as worker:

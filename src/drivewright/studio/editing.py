@@ -76,7 +76,7 @@ def _check_value(value):
 
 @contextmanager
 def in_words() -> Iterator[None]:
-    """What a message asks wrongly, in one line."""
+    """What is wrong with a message, in one line."""
     try:
         yield
     except DrivewrightError:

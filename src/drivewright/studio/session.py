@@ -1,4 +1,4 @@
-"""One tab of the browser: what the page says changes the document, and the page hears what became of it.
+"""One tab of the browser: messages of the page change the document, and the page receives the outcome.
 
 Nothing of NiceGUI is in here: `send(message)` reaches the page, `receive(message)` takes what comes from it.  Messages are worked off one
 after another, and whatever reads or changes a design does so in a worker process: the server's loop only hands on.

@@ -1,4 +1,4 @@
-"""Torsional stiffness of a pin-wheel indexer over its positions: who carries, how far the wheel turns, who yields."""
+"""Torsional stiffness of a pin-wheel indexer over its positions: loaded parts, rotation of the wheel, share of each part."""
 
 from collections.abc import Sequence
 from typing import Literal

@@ -1,4 +1,4 @@
-"""What a reader of a torsion test's numbers has to know, in words."""
+"""Findings on a torsion test, for the reader of its numbers."""
 
 from collections.abc import Iterator, Sequence
 

@@ -1,4 +1,4 @@
-"""Springs in series: what the loading bar and the support of the test rig took of the angle."""
+"""Springs in series: the share of the loading bar and of the support of the test rig in the angle."""
 
 from collections.abc import Sequence
 from typing import NamedTuple

@@ -55,7 +55,7 @@ def assembly(model: IndexerModel, done: Answers) -> Answer:
 
 
 def load(model: IndexerModel, fineness: float = 1.0, positions: int = POSITIONS) -> LoadedAssembly:
-    """The `LoadedAssembly` at `positions` over the index period, or at the one input angle asked for."""
+    """The `LoadedAssembly` at `positions` over the index period, or at the one input angle given."""
     angles = model.angles if len(model.angles) == 1 else np.linspace(0.0, model.wheel.motion.motion_angle, positions)
     contacts, bodies = contacts_at(model.wheel, angles, REACH), model.solids
     rigid, wheel = model.rigid_wheel.train, model.loaded_wheel

@@ -75,7 +75,7 @@ class IndexerModel:
 
     @cached_property
     def angles(self) -> Floats:
-        """Input angles [rad] of the tables: over the index period, or the one asked for."""
+        """Input angles [rad] of the tables: over the index period, or the one given."""
         if self.spec.load.angle is not None:
             return np.array([self.spec.load.angle])
         return index_angles(self.drive, STEP)
@@ -108,7 +108,7 @@ class IndexerModel:
 
     @property
     def solids(self) -> Solids:
-        """The bodies that the spec tells the size of."""
+        """The bodies whose size the spec gives."""
         return solid_parts(self.spec, self.crank_bearing, self.support_bearing, self.wheel, self.train)
 
     @property

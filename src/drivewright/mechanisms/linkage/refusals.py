@@ -1,4 +1,4 @@
-"""What has no meaning in a linkage: names that nobody has, numbers that contradict each other.  Each is a SpecError with its key."""
+"""Invalid input of a linkage: unknown names, numbers that contradict each other.  Each is a SpecError with its key."""
 
 from drivewright.errors import SpecError, nearest
 from drivewright.mechanisms.linkage.tables import (

@@ -1,4 +1,4 @@
-"""What has no meaning, refused by name; what can be computed is left to the checks."""
+"""Invalid input of a shaft, refused with its key; what can be computed is left to the checks."""
 
 from drivewright.bearings.load_spectrum import WHOLE
 from drivewright.bearings.lubricant import refuse_said_twice

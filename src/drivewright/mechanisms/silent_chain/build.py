@@ -1,4 +1,4 @@
-"""From the spec to a link, two teeth, plates and sprockets, and what the published method says of them; SI, plain data."""
+"""From the spec to a link, two teeth, plates and sprockets, and the results of the published method for them; SI, plain data."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -1,4 +1,4 @@
-"""What a study says: `analyse_study(study)` gives a `Result` and its plots.
+"""Evaluation of a study: `analyse_study(study)` gives a `Result` and its plots.
 
 `spread` of a sample and corners, `causes` of the spread, `maps` over levels, `fronts` of objectives; `parts` is what they are made of.
 

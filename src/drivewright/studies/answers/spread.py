@@ -1,4 +1,4 @@
-"""How far the values of a random sample spread, how many cases pass, and how bad it gets at the corners."""
+"""How far the values of a random sample spread, how many cases pass, and the worst values at the corners."""
 
 from collections.abc import Iterator
 

@@ -1,4 +1,4 @@
-"""What a study says: a `Result` with values, tables and findings, and how to look at it.  What can be said depends on the plan."""
+"""Evaluation of a study: a `Result` with values, tables and findings, and its plots.  Which of them exist depends on the plan."""
 
 from collections.abc import Sequence
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The [optimise] table in numbers: what may change, what is wanted, what is required.
+"""The [optimise] table in numbers: unknowns, objectives and requirements.
 
 A value of the result goes by its name, the margin of a design check by `check.NAME`: it is at least 0 exactly when the check passes.
 A value with an interval meets a requirement only where the whole interval does: a search tries many designs and would otherwise choose

@@ -1,4 +1,4 @@
-"""The [optimise] of a design: a search for its best, told while it goes on."""
+"""The [optimise] of a design: a search for its best, reported while it runs."""
 
 from collections.abc import Sequence
 from copy import deepcopy
