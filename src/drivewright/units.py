@@ -145,7 +145,7 @@ SCALES = {
     "°F": Fraction("459.67") * 5 / 9,
 }
 System: TypeAlias = Literal["mm", "si", "inch"]  # what results are shown in
-LONGEST = 100  # characters of a quantity; nobody writes more, and a parser needs an end
+LONGEST = 100  # characters of a quantity: a limit on the work of the parser
 
 
 class SI(float):

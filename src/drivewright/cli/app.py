@@ -133,7 +133,7 @@ def run(
     for path in specs:
         spec = _load(path, set_, units)
         with show.located(path):
-            read_letterhead(spec)  # a wrong logo is told before anything is computed
+            read_letterhead(spec)  # a wrong logo is refused before anything is computed
         with helping_hand(prepare_drawing, figures) as compute, show.progress(path.name, spec.mechanism) as step, show.located(path):
             with compiling_ahead(spec):
                 model = runner.build(spec)

@@ -212,14 +212,14 @@ def _does_not_close(segments, gap, unit):
     """What an open cycle is off by, the rises that make it so, and a rise that would close it."""
     way = "above" if gap > 0 else "below"
     rises = [(number, segment.rise) for number, segment in enumerate(segments, 1) if segment.rise]
-    told = f"programme: the lift ends {_lift(abs(gap), unit)} {way} its start, and a closed cycle must end where it starts"
+    complaint = f"programme: the lift ends {_lift(abs(gap), unit)} {way} its start, and a closed cycle must end where it starts"
     if not rises:
-        return f"{told}; change the last lift of its table."
+        return f"{complaint}; change the last lift of its table."
     given = ", ".join(_lift(rise, unit) for _, rise in rises)
     number, rise = rises[-1]
     if math.isclose(rise, gap):
-        return f"{told}: its rises are {given}; as a dwell segment {number} closes it."
-    return f"{told}: its rises are {given}; with {_lift(rise - gap, unit)} in segment {number} it closes."
+        return f"{complaint}: its rises are {given}; as a dwell segment {number} closes it."
+    return f"{complaint}: its rises are {given}; with {_lift(rise - gap, unit)} in segment {number} it closes."
 
 
 def _lift(value, unit):

@@ -48,7 +48,7 @@ def cad_solid(part: Part, tolerance: float = TOLERANCE) -> EngineObject:
         shape = shape.Rotate(occ.Axis((0, 0, 0), occ.Z), np.degrees(angle)).Move(occ.Vec(MM * x, MM * y, 0.0))
         for body in shape.solids:  # after the last operation: names do not survive one
             body.name = part.name
-            body.faces.col = tuple(c**2.2 for c in COLOURS.get(part.colour, COLOURS["steel"]))  # the kernel wants linear light
+            body.faces.col = tuple(c**2.2 for c in COLOURS.get(part.colour, COLOURS["steel"]))  # the kernel takes linear colours
     return shape
 
 

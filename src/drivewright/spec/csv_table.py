@@ -6,7 +6,7 @@
   are passed over, headings in a comment line (as numpy writes them) are found
 * comments: lines that begin with #, % or //; quotes and byte-order marks
 
-Whatever cannot be read is told with file, line, the text found, and what to write.
+An error names file, line and text of what cannot be read, and what to write instead.
 """
 
 import csv
@@ -115,12 +115,12 @@ def _lines(text, file):
 
 def _with_header(lines, notes, groups, file):
     """(separator, header, rows below it), by the first separator with which a line has a column of each group."""
-    said = re.fullmatch(r'\s*"?sep=(.)"?\s*', lines[0][1], re.IGNORECASE) if lines else None
-    lines = lines[1:] if said else lines
-    for separator in (said[1],) if said else SEPARATORS:
+    declared = re.fullmatch(r'\s*"?sep=(.)"?\s*', lines[0][1], re.IGNORECASE) if lines else None
+    lines = lines[1:] if declared else lines
+    for separator in (declared[1],) if declared else SEPARATORS:
         rows = list(_rows(lines[:SEARCHED], separator, file))
         for place, row in enumerate(rows, 1):
-            if _has_all(row, groups) and (separator != " " or said or _as_wide(row, rows[place : place + 1])):
+            if _has_all(row, groups) and (separator != " " or declared or _as_wide(row, rows[place : place + 1])):
                 below = [each for each in lines if each[0] > row.end]
                 return separator, row, list(_rows(below, separator, file))
         for note in _rows(notes[:SEARCHED], separator, file):

@@ -27,7 +27,7 @@ TABLES = {
     },
     "remarks": {"text": "text primary key"},
 }
-ELSEWHERE = {  # reasons of SQLite that lie outside the file: a disk that is full or away, somebody else at work, no right, no memory
+ELSEWHERE = {  # reasons of SQLite that lie outside the file: a full or missing disk, a lock of another process, no permission, no memory
     sqlite3.SQLITE_PERM,
     sqlite3.SQLITE_BUSY,
     sqlite3.SQLITE_LOCKED,

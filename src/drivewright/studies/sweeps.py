@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what became of them)
-MANY = 200_000  # cases that want a confirmation
+MANY = 200_000  # cases above which a confirmation is required
 
 
 def sweep(

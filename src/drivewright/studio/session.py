@@ -72,7 +72,7 @@ class Session:
             arguments = editing.checked_message(message)
         except InputError as error:
             return self._refuse(error)
-        if arguments.get("what") == "cancel":  # which waits for nobody
+        if arguments.get("what") == "cancel":  # which does not wait in the queue
             self.computations.cancel(str(arguments.get("name", "")))
         elif arguments.get("what") in tuple(ACTIONS):
             self._inbox.put(arguments)

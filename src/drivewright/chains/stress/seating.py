@@ -23,7 +23,7 @@ from drivewright.errors import InputError, SolverError
 from drivewright.solids.plane import ALONG_EDGE, PlaneBody
 
 REACH = np.radians(120.0)  # hats to either side of the force, as far as the seat goes
-LEAST = 5  # hats that must bear for a pressure to be believed
+LEAST = 5  # loaded hat functions needed to resolve a pressure
 TRIES = 100  # of the active set
 
 

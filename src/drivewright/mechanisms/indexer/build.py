@@ -154,8 +154,8 @@ def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT
 def build(spec: IndexerSpec) -> IndexerModel:
     """The `IndexerModel` of a spec; InputError where it has no cam."""
     refuse_contradictions(spec)
-    moving, told = wheel_motion(spec)
-    findings = (*told, *unused(spec))
+    moving, motion_findings = wheel_motion(spec)
+    findings = (*motion_findings, *unused(spec))
     if spec.kind not in TRANSLATING:
         return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=findings)
     sizes = spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "eccentricity")

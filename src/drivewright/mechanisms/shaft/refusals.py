@@ -98,8 +98,8 @@ def _bearings(spec):
         given = [key for key in SPRINGS if getattr(bearing, key) is not None]
         where = f"bearings.{bearing.name}"
         if len(given) != 1 and not (not given and (bearing.axial_stiffness or bearing.tilt_stiffness)):
-            told = f"has {' and '.join(given)}" if given else "has no stiffness"
-            raise SpecError(f"{told}; give one of {', '.join(SPRINGS)}", where)
+            problem = f"has {' and '.join(given)}" if given else "has no stiffness"
+            raise SpecError(f"{problem}; give one of {', '.join(SPRINGS)}", where)
         _refuse_half_matrix(bearing, where)
         if is_rolling(bearing):
             for key in ("axial_stiffness", "tilt_stiffness"):

@@ -159,7 +159,7 @@ def _record(model):
 def ideal_record(model: SimulationModel) -> Record:
     """The record of the ideal mechanism: over a turn of a drive at constant speed, else over the whole run.
 
-    Its stop is told only where the run itself may have come further.
+    Its stop is reported only where the run itself may have come further.
     """
     with collect_stops():
         ideal = _ideal_record(model)

@@ -47,8 +47,8 @@ def analyse_study(study: Study, values: Sequence[str] = (), rerun: Rerun | None 
     arranged = Arranged(held, shown, few.numbers, AllCases(study, few.combinations.tolist())) if few else Arranged(held, shown)
     named = values or (study.spec.study.values if study.spec.study else ())
     front = fronts(held, named, study if few else None)
-    said = Part(findings=(*([few.remark] if few else ()), *remarks))
-    parts = [_cases(study), said, *_parts(arranged, rerun), front]
+    notices = Part(findings=(*([few.remark] if few else ()), *remarks))
+    parts = [_cases(study), notices, *_parts(arranged, rerun), front]
     parts_joined = together(parts)
     return Answers(_result(study, parts_joined), parts_joined.plots)
 

@@ -17,13 +17,13 @@ WITHIN = (
     ("unit", "", "unit of the row's numbers"),
     ("sigma", "", "standard deviation over the cases, all together"),
     *(
-        (name + end, unit, meaning + told)
+        (name + end, unit, meaning + suffix)
         for name, unit, meaning in (
             ("sigma.within", "", "standard deviation within a case"),
             ("sigma.keys", "", "standard deviation by the keys that vary"),
             ("share.within", "-", "share of the variance that is within a case"),
         )
-        for end, told in BOUNDS
+        for end, suffix in BOUNDS
     ),
 )
 
