@@ -165,7 +165,7 @@ def test_programmes():
     )
     refused(["ends 2 mm above", "10 mm, -8 mm; with -10 mm in segment 2 it closes"], Programme, [up, down, rest], TURN, "m")
     refused(["ends 2 mm below", "8 mm, -10 mm; with -8 mm in segment 2"], Programme, [mirrored(down), mirrored(up), rest], TURN, "m")
-    refused(["ends 0.573° above"], Programme, [Segment(2.0, "cycloidal", math.radians(0.573)), Segment(TURN - 2, "dwell")], TURN, "rad")
+    refused(["ends 0.573 deg above"], Programme, [Segment(2.0, "cycloidal", math.radians(0.573)), Segment(TURN - 2, "dwell")], TURN, "rad")
     refused(["rises are 10 mm; as a dwell segment 1 closes it"], Programme, [up, Segment(TURN - 2, "dwell")], TURN, "m")
     fine = Programme([up, Segment(2.0, "cycloidal", -0.01), rest])
     refused(["programme on a piece: theta = 2.5", "0 .. 2", "call the motion itself"], fine.on_piece, 0, 2.5)

@@ -596,7 +596,7 @@ def full(after, monkeypatch, what):
     monkeypatch.setattr(*{"part": (Path, "write_bytes"), "force": (atomic, "force")}[what], failing)
 
 
-SAFE = r"finished before is safe\. Make room or mend the disk, and give the same"
+SAFE = r"finished before is safe\. Free space on the disk, or repair it, and give the same"
 FULL = rf"S: cannot be written: .*(No space left|disk is full).*{SAFE}"
 
 
