@@ -1,4 +1,4 @@
-"""What comes out: values, tables, checks and findings that remember what they came from.
+"""Results: values, tables, checks and findings, with the spec and versions that they came from.
 
 A result is a value: frozen, picklable, SI throughout, every number with a unit and a meaning.
 """

@@ -147,7 +147,7 @@ def test_a_force_that_nothing_resists():
     )
     with pytest.raises(InputError, match=message):
         solve(Rail(), force=[10, 0, -7, 0, 0])
-    with pytest.raises(InputError, match=r"nothing resists \+tilt_x, where 2 N m of the force"):
+    with pytest.raises(InputError, match=r"nothing resists \+tilt_x, where 2 N·m of the force"):
         solve(Rail(), force=[10, 0, 0, 2, 0])
 
 

@@ -212,7 +212,7 @@ def test_no_remark_where_the_spec_agrees(text):
 @pytest.mark.parametrize(
     ("vary", "words"),
     [
-        ({"offset": linked("2 size")}, "study.vary.0.link: wants NUMBER * KEY + QUANTITY, such as"),
+        ({"offset": linked("2 size")}, "study.vary.0.link: must be NUMBER * KEY + QUANTITY, such as"),
         ({"offset": linked("2 * size-3 mm")}, "a minus behind a key needs a blank on its left"),
         ({"ratio": linked("2 * ratio-3")}, "a minus behind a key needs a blank on its left"),
         ({"offset": linked("2 * sise")}, "study.vary.0.link: this spec has no key 'sise' (did you mean 'size'?)"),
@@ -257,7 +257,7 @@ def test_relations_that_are_none(vary, words):
 
 def test_a_word_among_levels_has_no_multiple(gears, tmp_path):
     vary = {"bearings.A.radial_stiffness": ["rigid", "1e8 N/m"], "bearings.B.radial_stiffness": linked("2 * bearings.A.radial_stiffness")}
-    with pytest.raises(SpecError, match=r"study\.vary\.1\.link: .*wants numbers, but 'rigid' is among the values there"):
+    with pytest.raises(SpecError, match=r"study\.vary\.1\.link: .*takes numbers, but 'rigid' is among the values there"):
         make_plan(with_variation(gears, vary))
     with pytest.raises(SpecError, match=r"study\.vary\.0\.also\.0: .*'rigid'"):
         make_plan(with_variation(gears, {"bearings.A.radial_stiffness + -bearings.B.radial_stiffness": ["rigid"]}))

@@ -55,7 +55,7 @@ def export(
 
 def _refuse_unknown(formats: Sequence[str]) -> None:
     if not formats:
-        raise InputError(f"export wants at least one format of {', '.join(FORMATS)}")
+        raise InputError(f"export needs at least one format of {', '.join(FORMATS)}")
     for name in formats:
         if name not in FORMATS:
             raise UnknownName("export format", name, FORMATS)

@@ -112,7 +112,7 @@ def moment_values(unbalances: Sequence[Unbalance]) -> dict[str, Value]:
 
 
 def resonance_finding(orbits: Orbits) -> str:
-    """What is said where `Orbits` at one speed are `resonant`."""
+    """The finding where `Orbits` at one speed are `resonant`."""
     return (
         f"the unbalance response at {orbits.speeds[0] * 30 / np.pi:.6g} rpm is absent: the speed is a natural frequency that no support "
         f"damps (response over {RESONANCE:.0f} times that at rest); give the bearings a radial_damping, or change the speed"

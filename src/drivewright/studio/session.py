@@ -1,4 +1,4 @@
-"""One tab of the browser: what the page says changes the document, and the page hears what became of it.
+"""One tab of the browser: messages of the page change the document, and the page receives the outcome.
 
 Nothing of NiceGUI is in here: `send(message)` reaches the page, `receive(message)` takes what comes from it.  Messages are worked off one
 after another, and whatever reads or changes a design does so in a worker process: the server's loop only hands on.
@@ -72,7 +72,7 @@ class Session:
             arguments = editing.checked_message(message)
         except InputError as error:
             return self._refuse(error)
-        if arguments.get("what") == "cancel":  # which waits for nobody
+        if arguments.get("what") == "cancel":  # which does not wait in the queue
             self.computations.cancel(str(arguments.get("name", "")))
         elif arguments.get("what") in tuple(ACTIONS):
             self._inbox.put(arguments)

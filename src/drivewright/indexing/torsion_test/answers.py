@@ -124,7 +124,7 @@ def _findings(tests: Sequence[TorsionTestResult]) -> Iterator[str]:
         for finding in test.findings:
             places.setdefault(finding, []).append(_crank_angle(test))
     for finding, at in places.items():
-        yield finding if len(at) == len(tests) else f"at {len(at)} of {len(tests)} positions ({np.degrees(at[0]):g} deg ...): {finding}"
+        yield finding if len(at) == len(tests) else f"at {len(at)} of {len(tests)} positions ({np.degrees(at[0]):g}° ...): {finding}"
 
 
 # -- tables --------------------------------------------------------------------------------------------------------------------
