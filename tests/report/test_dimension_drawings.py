@@ -99,7 +99,8 @@ def test_drawings_are_written_into_the_folder_of_the_kind_and_written_again(tmp_
     shutil.copytree(own.folder / "presets", tmp_path / "presets")
     monkeypatch.setattr(registry, "mechanism", lambda kind: replace(own, folder=tmp_path))
     assert drawing_files("linkage") == {}, "a package that brings a kind may leave its drawings out"
-    told, path = [], tmp_path / "drawings" / "linkage.svg"
-    assert [write_drawings("linkage", told.append) for _ in range(2)] == [[path], [path]]
-    assert drawing_files("linkage") == {"linkage": path} and path.read_text().count("<svg") == 1
-    assert told == ["dimensions: linkage"] * 2
+    names = [sheet.name for sheet in own.dimensions]
+    told, paths = [], [tmp_path / "drawings" / f"{name}.svg" for name in names]
+    assert [write_drawings("linkage", told.append) for _ in range(2)] == [paths, paths]
+    assert drawing_files("linkage") == dict(zip(names, paths, strict=True)) and all(path.read_text().count("<svg") == 1 for path in paths)
+    assert told == [f"dimensions: {name}" for name in names] * 2
