@@ -32,7 +32,7 @@ def profile():
         return contacts_at(wheel(), angles)
 
     exact = ours()
-    yield "profile of twelve pins, trimmed on both sides", best(ours), f"area {1e6 * exact.area:.6f} mm^2, {len(exact.corners)} corners"
+    yield "profile of twelve pins, trimmed on both sides", best(ours), f"area {1e6 * exact.area:.6f} mm², {len(exact.corners)} corners"
     yield "profile, and the contact map of 41 positions", best(mapped), "wanted under 0.12 s"
     for steps in (480, 5760):
 
@@ -43,7 +43,7 @@ def profile():
 
         xy = np.array(theirs().coords)
         area = 0.5 * abs(np.sum(xy[:-1, 0] * xy[1:, 1] - xy[1:, 0] * xy[:-1, 1]))
-        yield f"shapely, {12 * steps} points on the centre curve", best(theirs, 3), f"area off by {1e6 * abs(area - exact.area):.2g} mm^2"
+        yield f"shapely, {12 * steps} points on the centre curve", best(theirs, 3), f"area off by {1e6 * abs(area - exact.area):.2g} mm²"
 
 
 def stiffness():
@@ -81,7 +81,7 @@ def _peer(spec, built):
     def ours():
         return core.solve_torsional_stiffness(built.train, theta, near, spec.eccentricity, torque, cams=spec.cams)
 
-    yield "one position of it", best(ours), f"{ours().secant[0]:.6f} N m/rad in {ours().steps} steps"
+    yield "one position of it", best(ours), f"{ours().secant[0]:.6f} N·m/rad in {ours().steps} steps"
     assembly = assemble_drivetrain(
         built.train, spec.cams, spec.eccentricity * np.exp(1j * theta), pad_contacts(near, [np.isfinite(near[0].gap)]), False
     )
@@ -107,7 +107,7 @@ def _peer(spec, built):
     yield (
         "SciPy, trust-exact, same energy and derivatives, from rest",
         best(theirs, 1),
-        (f"{torque / turn:.6f} N m/rad after {found.nit} steps; {'converged' if found.success else found.message}"),
+        (f"{torque / turn:.6f} N·m/rad after {found.nit} steps; {'converged' if found.success else found.message}"),
     )
 
 
@@ -122,7 +122,7 @@ def designs():
     yield (
         f"1000 designs, play, contacts and pressure angle: {1000 / seconds[0]:.0f} designs per second",
         seconds,
-        ("wanted under 4 s; two threads; play every 0.9 deg of the whole turn"),
+        ("wanted under 4 s; two threads; play every 0.9° of the whole turn"),
     )
 
 

@@ -19,6 +19,10 @@ import studio
 from timing import best
 
 ROOT = Path(__file__).parent.parent
+sys.path.append(str(ROOT / "docs"))
+
+from builders.markdown import table  # noqa: E402
+
 EXAMPLES = ROOT / "examples"
 EXAMPLE = EXAMPLES / "seedling_pusher.toml"
 BYTECODE = Path(tempfile.gettempdir()) / "drivewright-bytecode"
@@ -176,7 +180,7 @@ def optimiser():
     yield (
         f"optimise: {found.evaluations:,} designs ({33_000 * seconds / found.evaluations:.2f} s for 33 000)",
         (seconds, seconds),
-        f"wanted under 5 s for 33 000; {'feasible' if found.feasible else 'not feasible'}, {angle:.2f} deg",
+        f"wanted under 5 s for 33 000; {'feasible' if found.feasible else 'not feasible'}, {angle:.2f}°",
     )
 
 
@@ -340,12 +344,12 @@ def main():
     for title, section in SECTIONS:
         if chosen and not title.startswith(tuple(chosen)):
             continue
-        lines += [f"## {title}", "", "| what | shortest | median | remark |", "|---|---|---|---|"]
+        rows = []
         for name, seconds, remark in section():
-            shown = ("", "") if seconds is None else tuple(f"{s:.3g} s" if s >= 1 else f"{1e3 * s:.3g} ms" for s in seconds)
-            lines.append(f"| {name} | {shown[0]} | {shown[1]} | {remark} |")
-            print(f"{title} {lines[-1]}", flush=True)
-        lines.append("")
+            times = ["", ""] if seconds is None else [f"{s:.3g} s" if s >= 1 else f"{1e3 * s:.3g} ms" for s in seconds]
+            rows.append([name, *times, remark])
+            print(f"{title}: {' | '.join(rows[-1])}", flush=True)
+        lines += [f"## {title}", *table(("what", "shortest", "median", "remark"), rows)]
     if not chosen:
         (ROOT / "docs" / "benchmarks.md").write_text("\n".join(lines), encoding="utf-8")
 

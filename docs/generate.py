@@ -29,6 +29,7 @@ STEPS = (
     "dimensions",
     "gallery",
     "moving",
+    "example_pictures",
     "tutorials",
     "studies",
     "papers",

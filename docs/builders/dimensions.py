@@ -1,4 +1,4 @@
-"""Drawings of what the main keys of each kind measure, in the folder of the kind (for the studio) and in docs/img; and their page."""
+"""Drawings of what the main keys of each kind measure, in the folder of the kind (which keeps them), copied to docs/img; and their page."""
 
 import shutil
 from collections.abc import Callable, Iterator
@@ -26,6 +26,6 @@ def page() -> Iterator[str]:
     yield from ("# What the keys measure", "", "Drawn from the presets of each kind, to scale; a test compares every length with its key.")
     for kind in registry.kinds():
         if sheets := registry.mechanism(kind).dimensions:
-            yield from ("", f"## {kind}", "", f"All keys: [spec of `{kind}`](reference/spec-{kind}.md).")
+            yield from ("", f"## {kind.replace('-', ' ').capitalize()}", "", f"All keys: [spec of `{kind}`](reference/spec-{kind}.md).")
         for sheet in sheets:
             yield from ("", f"![{sheet.title}]({FOLDER}/{sheet.name}.svg)")

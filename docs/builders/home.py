@@ -7,12 +7,13 @@ from pathlib import Path
 LINK = re.compile(r"(!?)\[([^\[\]]*)\]\((?!https?:|#|mailto:)([^)\s]+)\)")
 SOURCE = re.compile(r"\b(src|href)=\"(?!https?:|#|mailto:)([^\"]+)\"")
 ROOM = "docs/"
+WIDE = "---\nhide: [navigation, toc]\n---\n"  # the pictures take the whole width
 
 
 def build(docs: Path, progress: Callable[[str], None]) -> None:
     """Write docs/index.md."""
     text = (docs.parent / "README.md").read_text(encoding="utf-8")
-    (docs / "index.md").write_text(seen_from_docs(text), encoding="utf-8")
+    (docs / "index.md").write_text(WIDE + seen_from_docs(text), encoding="utf-8")
 
 
 def seen_from_docs(text: str) -> str:

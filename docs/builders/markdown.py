@@ -15,9 +15,11 @@ def code(text: object) -> str:
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> list[str]:
-    """Lines of a table, with an empty line before and after; no lines where it has no rows."""
-    lines = [f"| {' | '.join(row)} |" for row in rows]
-    return ["", f"| {' | '.join(heads)} |", f"|{'---|' * len(heads)}", *lines, ""] if lines else []
+    """Lines of a table, with an empty line before and after, without columns that are empty in all rows; no lines where it has no rows."""
+    rows = list(rows)
+    kept = [column for column in range(len(heads)) if any(row[column] for row in rows)]
+    lines = [f"| {' | '.join(row[column] for column in kept)} |" for row in [heads, *rows]]
+    return ["", lines[0], f"|{'---|' * len(kept)}", *lines[1:], ""] if rows else []
 
 
 def sentence(text: str) -> str:

@@ -65,8 +65,12 @@ def refresh(page: Path, folder: Path) -> list[str]:
 
 
 def compact(picture: bytes) -> bytes:
-    """An SVG with coordinates of two decimals, a hundredth of a pixel."""
-    return re.sub(rb"(\d\.\d\d)\d+", rb"\1", picture)
+    """An SVG with coordinates of two decimals, a hundredth of a pixel; its texts and the scales of its letters stay as they are."""
+
+    def shorter(tag: re.Match[bytes]) -> bytes:
+        return re.sub(rb"(scale\([^)]*\))|(\d\.\d\d)\d+", lambda found: found[1] or found[2], tag[0])
+
+    return re.sub(rb"<[^>]*>", shorter, picture)
 
 
 def notebooks(docs: Path = DOCS) -> list[Path]:

@@ -94,7 +94,7 @@ def is_held(path: Path) -> bool:
 
 @contextmanager
 def hold(path: Path) -> Iterator[None]:
-    """Hold a file or folder: `is_held` says so to every other process, until this one lets go or dies."""
+    """Hold a file or folder: `is_held` says so to every other process, until this one releases it or ends."""
     if fcntl is None:
         yield
         return

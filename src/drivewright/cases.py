@@ -78,11 +78,11 @@ def run(
 
 
 def worker_count(workers: int | None) -> int:
-    """How many workers are meant: a number, or None for one per core this process may use."""
+    """How many workers are meant: a number, or be left out for one per core this process may use."""
     if workers is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     if isinstance(workers, bool) or not isinstance(workers, int) or workers < 1:
-        raise InputError(f"run: workers must be a whole number from 1 up, or None for one per core; got {brief(workers)}.")
+        raise InputError(f"run: workers must be a whole number from 1 up, or be left out for one per core; got {brief(workers)}.")
     return workers
 
 

@@ -70,7 +70,8 @@ Dimension: TypeAlias = Length | Radius | Angle
 class DimensionSheet(NamedTuple):
     """One drawing of a kind: a preset, with `changes` as on the command line, at the start of its scene, seen by the first observer.
 
-    Bodies whose name begins with one of `left_out` are not drawn.  `scene(model)` replaces the kind's own.
+    Bodies whose name begins with one of `left_out` are not drawn.  `scene(model)` replaces the kind's own.  The drawing is of the designs
+    that agree with its own in every key of `variant` (a table: whether it is given); of all, where that is empty.
     """
 
     name: str
@@ -80,6 +81,7 @@ class DimensionSheet(NamedTuple):
     changes: tuple[str, ...] = ()
     left_out: tuple[str, ...] = ()
     scene: Callable[[Any], Scene] | None = None
+    variant: tuple[str, ...] = ()
 
 
 def shown(sheet: DimensionSheet, scene: Scene) -> Scene:

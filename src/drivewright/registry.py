@@ -162,7 +162,7 @@ def commands() -> dict[str, str]:
 
 
 def command(name: str) -> Command:
-    """The `Command` of a name; InputError where the mechanism that is said to bring it does not."""
+    """The `Command` of a name; InputError where the mechanism that is declared to bring it does not."""
     bringing = plugins.load("drivewright.commands", name, "command")
     named = next((each for each in bringing.commands if each.name == name), None)
     if named is None:

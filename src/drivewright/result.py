@@ -1,4 +1,4 @@
-"""What comes out: values, tables, checks and findings that remember what they came from.
+"""Results: values, tables, checks and findings, with the spec and versions that they came from.
 
 A result is a value: frozen, picklable, SI throughout, every number with a unit and a meaning.
 """
@@ -419,6 +419,7 @@ class Result(Generic[SpecT]):
     check_analyses: Mapping[str, str] = field(default_factory=dict)  # {check: the analysis that makes it}
     timings: Mapping[str, float] = field(default_factory=dict)  # {analysis: seconds that it took}
     advice_stopped: bool = False  # the time for advice was over before all failed checks were looked at
+    value_sources: Mapping[str, str] = field(default_factory=dict)  # {value: the analysis that computed it}, by which reports group them
 
     def __getitem__(self, name: str) -> float:
         """A value by its dotted name, as an SI float."""

@@ -79,7 +79,7 @@ def _durations(began: Mapping[str, float], ended: float) -> dict[str, float]:
 
 
 def _given_tables(spec: SpecLike, names: Iterable[str]) -> Iterator[str]:
-    """Those of the analyses whose table of the same name in the spec is not as it is by default: the user asks for them."""
+    """Those of the analyses whose table of the same name in the spec is not as it is by default: the user requests them."""
     fields = getattr(type(spec), "model_fields", {})
     yield from (name for name in names if name in fields and getattr(spec, name) != fields[name].get_default(call_default_factory=True))
 
@@ -245,7 +245,7 @@ def failure_reason(spec: SpecLike, error: Exception) -> str:
     if isinstance(error, DrivewrightError):
         return str(error)
     if isinstance(error, MemoryError):
-        return "needs more memory than there is; ask for less (fewer turns, samples or elements), or leave it out"
+        return "needs more memory than there is; take fewer turns, samples or elements, or leave it out"
     return _program_fault(spec, error)
 
 
@@ -277,6 +277,7 @@ def _result(spec: SpecT, mechanism: Mechanism[Any, Any], answers: Answers, findi
         findings=tuple(findings),
         outcome="partial" if any(a.outcome == "partial" for a in answers.values()) else "complete",
         failures=_failures(answers),
+        value_sources={name: analysis for analysis, answer in answers.items() for name in answer.values if name not in absent},
         provenance={
             "seed": spec.optimise.seed if spec.optimise else 0,
             "seconds": round(seconds, 4),

@@ -91,7 +91,7 @@ Piece: TypeAlias = Line | Arc | Spline
 
 
 class Outline(NamedTuple):
-    """Chain of pieces end to end, closed unless told otherwise."""
+    """Chain of pieces end to end, closed unless stated otherwise."""
 
     pieces: tuple[Piece, ...]
     closed: bool = True

@@ -1,7 +1,7 @@
-"""How far a long part of an analysis is, told from within it to whoever shows progress.
+"""How far a long part of an analysis is, reported from within it to the display of progress.
 
 A loop whose steps take a while - meshes, solutions that condense a body, load steps - calls `note_step`; `detailed` makes a progress
-callable that hears of it.  So no analysis hands a callback down.  What is told changes no number.
+callable that receives it.  So no analysis hands a callback down.  Reports of progress change no number.
 """
 
 import time
@@ -11,7 +11,7 @@ from contextvars import ContextVar
 from typing import TypeAlias
 
 Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, name of what comes next)
-EACH = 0.1  # s, at least, between two steps that are told
+EACH = 0.1  # s, at least, between two reported steps
 
 _listener: ContextVar[Callable[[str], object] | None] = ContextVar("listener", default=None)
 
@@ -28,7 +28,7 @@ def detailed(progress: Progress) -> Iterator[Progress]:
 
     No more often than every `EACH` seconds.
     """
-    last, told = (0, 0, ""), -EACH
+    last, reported_at = (0, 0, ""), -EACH
 
     def step(done: int, total: int, what: str) -> object:
         nonlocal last
@@ -36,10 +36,10 @@ def detailed(progress: Progress) -> Iterator[Progress]:
         return progress(done, total, what)
 
     def hear(words: str) -> None:
-        nonlocal told
+        nonlocal reported_at
         done, total, what = last
-        if time.monotonic() - told >= EACH:
-            told = time.monotonic()
+        if time.monotonic() - reported_at >= EACH:
+            reported_at = time.monotonic()
             progress(done, total, f"{what}: {words}" if what else words)
 
     token = _listener.set(hear)

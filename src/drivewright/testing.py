@@ -1,4 +1,4 @@
-"""The conformance suite: what every kind of drive promises, for ours and for those of other packages.
+"""The conformance suite: requirements on every kind of drive, built in or from other packages.
 
 In a package that brings a drive::
 

@@ -1,4 +1,4 @@
-"""Units at the door: text with a unit -> SI float, once.
+"""Units of input: text with a unit -> SI float, converted once.
 
 A registry of our own, in which **angle is a base dimension**: `rev` and `rpm` exist, "8 1/s" is no angular speed, and
 `N m` (torque) is not `N m/rad` (rotational stiffness).  The registry is built for the first unit that is not among the usual
@@ -145,7 +145,7 @@ SCALES = {
     "°F": Fraction("459.67") * 5 / 9,
 }
 System: TypeAlias = Literal["mm", "si", "inch"]  # what results are shown in
-LONGEST = 100  # characters of a quantity; nobody writes more, and a parser needs an end
+LONGEST = 100  # characters of a quantity: a limit on the work of the parser
 
 
 class SI(float):
@@ -324,7 +324,7 @@ class Dimension:
         """SI number of so many of a unit; a temperature counts from where its scale begins."""
         exact = number * self._exact(self._read_as(unit), whole) + self._begin(unit)
         if self.name == "temperature" and exact < 0:
-            raise UnitError(f"{brief(whole)} is below absolute zero, 0 K or -273.15 degC")
+            raise UnitError(f"{brief(whole)} is below absolute zero, 0 K or -273.15 °C")
         return exact
 
     def _begin(self, unit: str) -> Fraction:

@@ -114,7 +114,7 @@ def test_unknown_designations_come_with_their_neighbours(written, message):
         ("31306", "a tapered roller bearing of a series whose dimensions are not in the table"),
         ("30206 B", "steeper contact angle than 30206, .* Give its envelope with contact_angle"),
         ("30305 DJ", "steeper contact angle than 30305"),
-        ("7208", "'7208': an angular-contact bearing needs the letters of its contact angle.*B 40 deg, e.g. 7208B"),
+        ("7208", "'7208': an angular-contact bearing needs the letters of its contact angle.*B 40°, e.g. 7208B"),
         ("7208 C3", "needs the letters of its contact angle"),
     ],
 )

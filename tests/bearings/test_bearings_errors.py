@@ -57,7 +57,7 @@ def test_force_or_displacement(given):
 
 
 @pytest.mark.parametrize("value", [[1, 2, 3], 5.0, [1, 2, 3, 4, "x"], [0, 0, np.nan, 0, 0], [0, np.inf, 0, 0, 0], np.zeros((1, 5))])
-@pytest.mark.parametrize(("name", "units"), [("force", "N, N, N, N m, N m"), ("displacement", "m, m, m, rad, rad")])
+@pytest.mark.parametrize(("name", "units"), [("force", "N, N, N, N·m, N·m"), ("displacement", "m, m, m, rad, rad")])
 def test_five_finite_numbers(name, units, value):
     with pytest.raises(InputError, match=rf"{name} needs five finite numbers \[{units}\], got"):
         solve(BEARING, **{name: value})
@@ -147,7 +147,7 @@ def test_a_force_that_nothing_resists():
     )
     with pytest.raises(InputError, match=message):
         solve(Rail(), force=[10, 0, -7, 0, 0])
-    with pytest.raises(InputError, match=r"nothing resists \+tilt_x, where 2 N m of the force"):
+    with pytest.raises(InputError, match=r"nothing resists \+tilt_x, where 2 N·m of the force"):
         solve(Rail(), force=[10, 0, 0, 2, 0])
 
 

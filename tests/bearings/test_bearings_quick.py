@@ -90,7 +90,7 @@ def test_beside_the_lamina_model_of_an_nu207e():
         ((np.array([5.0, -2.0]), 12, 4e-3), "got -2 N"),
         ((10.0, 0, 4e-3), "number of rolling elements must be above 0"),
         ((10.0, 12, -4e-3), "got -0.004 m"),
-        ((10.0, 12, 4e-3, 15.0), "below 90 deg, got 859.437 deg .the formulas want radians"),
+        ((10.0, 12, 4e-3, 15.0), "below 90°, got 859.437° .the formulas take radians"),
         ((np.nan, 12, 4e-3), "got nan N"),
     ],
 )

@@ -78,7 +78,7 @@ def test_a_solver_that_gives_up_says_where_and_hands_over_what_it_had(monkeypatc
     with pytest.raises(SolverError) as caught:
         close(GOOD)
     angle = np.degrees(caught.value.partial.driver_angle[-1])
-    words = f"the {what} beyond a driver angle of {angle:.4f} deg, after 20 samples, at a centre distance of about 219.1 mm"
+    words = f"the {what} beyond a driver angle of {angle:.4f}°, after 20 samples, at a centre distance of about 219.1 mm"
     assert words in str(caught.value)
     assert len(caught.value.partial.driver_angle) == 20
     monkeypatch.setattr(tracking, "solve_at", lambda *given: np.inf)

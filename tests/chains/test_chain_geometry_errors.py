@@ -57,7 +57,7 @@ def test_plate_refuses(text, lengths):
         ("back_radius = -0.001 m", CLASSICAL, RockerPins(-1e-3, 1e-3, 1e-4)),
         ("thickness = 1.5 mm; with back_radius 1.5 mm.*between 1.55 mm.*and 3 mm", CLASSICAL, RockerPins(1.5e-3, 1.5e-3, 1e-4)),
         ("reach 5.1 mm from the pitch points overlap", CLASSICAL, RockerPins(3e-3, 5e-3, 1e-4)),
-        ("the joint turns from .* deg only, 0 to 45.84 deg are wanted", CLASSICAL, RockerPins(1.6e-3, 2e-3, 2e-4, 0.8)),
+        ("the joint turns from .*° only, 0 to 45.84° are required", CLASSICAL, RockerPins(1.6e-3, 2e-3, 2e-4, 0.8)),
     ],
 )
 def test_pins_refuse(text, chain, pins):
@@ -65,7 +65,7 @@ def test_pins_refuse(text, chain, pins):
 
 
 def test_plate_refuses_steep_flanks_and_unknown_sides():
-    refuses("flank angle = 50 deg; it lies between 0 and 45", design_plate, CHAIN._replace(flank_angle=np.radians(50)))
+    refuses("flank angle = 50°; it lies between 0 and 45", design_plate, CHAIN._replace(flank_angle=np.radians(50)))
     refuses("side = 'top'; a plate has a 'left' and a 'right' side", design_plate(CHAIN).hole, "top")
 
 
@@ -117,9 +117,9 @@ def test_hob_refuses_a_rounding_above_its_rolling_circle():
         ("a roller smaller than the pitch", (17, P, 1e-2), {}),
         ("space = 1.2; it lies between 0", (17, P, 6.35e-3, 1.2), {}),
         ("seat_radius = 3 mm; a roller of 6.35 mm", (17, P, 6.35e-3), {"seat_radius": 3e-3}),
-        ("tip_radius = 22 mm; the flank arcs reach from 24.667 to", (17, P, 6.35e-3), {"tip_radius": 0.022}),
+        ("tip_radius = 22 mm; it must lie on the flank arcs, which reach from 24.667 to", (17, P, 6.35e-3), {"tip_radius": 0.022}),
         ("pointed below the tip at 29.5 mm; they overlap by", (17, P, 6.35e-3, 1.0), {"tip_radius": 0.0295}),
-        ("seat_angle = 200 deg", (17, P, 6.35e-3), {"seat_angle": np.radians(200)}),
+        ("seat_angle = 200°", (17, P, 6.35e-3), {"seat_angle": np.radians(200)}),
     ],
 )
 def test_roller_sprocket_refuses(text, args, lengths):

@@ -51,7 +51,7 @@ def test_too_few_links():
 
 def test_least_wrap():
     for wrap in (0.0, np.pi, 4.0, NAN):
-        refused(r"least wrap must lie between 0 and 180 deg, got (0|180|229|nan)", s.min_centre_distance, P, 20, 60, least_wrap=wrap)
+        refused(r"minimum wrap must lie between 0 and 180°, got (0|180|229|nan)", s.min_centre_distance, P, 20, 60, least_wrap=wrap)
     refused("tip diameters must be finite and 0 or more, got -1", s.min_centre_distance, P, 20, 60, (0.1, -1.0))
 
 
@@ -70,7 +70,7 @@ def test_loops():
 
 def test_a_loop_that_misses_a_circle_or_crosses_itself():
     refused(
-        r"turns 2 times in all.*largest wrap is 3\d\d deg on circle 2. Leave out circles that the loop misses",
+        r"turns 2 times in all.*largest wrap is 3\d\d° on circle 2. Leave out circles that the loop misses",
         s.loop_length,
         [(0, 0, 1), (2.5, 0, 0.2), (5, 0, 1), (2.5, 4, 1)],
     )
@@ -144,7 +144,7 @@ def test_tables():
     refused("08B: powers must be finite and above 0, got 0", s.rating_table, [11], [2.0, 60.0], [0.0, 900.0], "08B")
     for teeth, speeds in (([25, 11], [2.0, 60.0]), ([11, 25], [60.0, 2.0])):
         refused("tooth numbers and speeds must increase", s.rating_table, teeth, speeds, np.ones((2, 2)))
-    refused("two speeds are the least", s.rating_table, [11], [2.0], [[1.0]])
+    refused("at least two speeds are needed", s.rating_table, [11], [2.0], [[1.0]])
 
 
 def test_nothing_is_read_off_outside_of_a_table():

@@ -91,9 +91,9 @@ def test_messages():
         lacing(2, 2, 2e-3)
     with pytest.raises(InputError, match="plates -2 mm thick"):
         lacing(1, 2, -2e-3)
-    with pytest.raises(InputError, match="leaves 3 N"):
+    with pytest.raises(InputError, match="has a resultant of 3 N"):
         beam(np.array([0.0, 1.0]), np.array([3.0]))
-    with pytest.raises(InputError, match="leaves a moment of"):
+    with pytest.raises(InputError, match="has a moment of"):
         beam(np.array([0.0, 1.0, 2.0]), np.array([3.0, -3.0]))
     with pytest.raises(InputError, match="radius 0 mm"):
         round_section(0.0)

@@ -102,7 +102,7 @@ def test_scaling_forces_and_clearance_together_scales_the_answer():
 
 
 def test_messages():
-    with pytest.raises(InputError, match="clearance from 0 up, got -1 um"):
+    with pytest.raises(InputError, match="clearance of 0 or more, got -1 µm"):
         seated(plate(), body(), PINS, -1e-6)
-    with pytest.raises(SolverError, match="clearance of 50 um a pin bears on . places only.*fineness"):
+    with pytest.raises(SolverError, match="clearance of 50 µm a pin is in contact at . nodes only.*fineness"):
         seated(plate(), body(), PINS, 50e-6)

@@ -155,7 +155,7 @@ def test_a_solver_that_gives_up_exits_with_4_and_leaves_a_partial_result(drivewr
         (["."], ".: is a folder; a spec is a TOML file"),
         (["toy.toml", "--set", "lenght=3 mm"], "toy.toml: lenght: unknown key (did you mean 'length'?)"),
         (["toy.toml", "--set", "length=3"], 'toy.toml: length: unit missing: a length, e.g. "3 mm"'),
-        (["toy.toml", "--set", "length"], "toy.toml: --set wants key=value"),
+        (["toy.toml", "--set", "length"], "toy.toml: --set takes key=value"),
         (["toy.toml", "--only", "raech"], "toy.toml: no analysis is called 'raech' (did you mean 'reach'?)"),
         (["toy.toml", "--out", "toy.toml"], "toy.toml: is a file, a run folder cannot take its place"),
         (["toy.toml", "--out", "full"], "full: is not empty and is no run folder"),

@@ -78,7 +78,7 @@ def quiet(said):
     """One line beside those on how far the command is, and nothing from the interpreter or its helpers."""
     lines = [line for line in said.splitlines() if line and not re.match(r"[\w-]+\.toml: ", line)]
     assert len(lines) <= 2 and not re.search("leaked|Traceback|Error|resource_tracker", said), said
-    assert "interrupted; what was finished before is kept, and the same command goes on" in said
+    assert "interrupted; what was finished before is kept, and the same command continues" in said
 
 
 @pytest.mark.usefixtures("compiled")

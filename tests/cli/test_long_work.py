@@ -9,7 +9,7 @@ import pytest
 from places import EXAMPLES
 
 from drivewright.cli import long_work, main
-from drivewright.cli.long_work import Pace, duration, place_text, rate_text, words
+from drivewright.cli.long_work import Pace, duration, place_text, rate_text, words, worker_number
 from drivewright.spec import from_document
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.search.searching import METHODS, method_of, most_evaluations
@@ -132,3 +132,94 @@ def test_a_search_says_how_many_evaluations_there_are(tmp_path, capsys):
     with pytest.raises(SystemExit):
         main(["optimise", str(tmp_path / "cam.toml"), "--out", str(tmp_path / "O"), "--on", "serial"])
     assert "cam.toml: up to 64 evaluations in 3 generations by differential evolution" in capsys.readouterr().err
+
+
+def test_counts_of_the_last_half_minute_are_kept_and_no_fewer_than_three():
+    """One count a minute: the rate is still that of the last two."""
+    pace = paced((0, 0), (60, 1), (120, 3), (180, 7))
+    assert pace.rate == pytest.approx(4 / 60)
+
+
+def test_nothing_done_since_is_no_pace():
+    assert paced((0, 0), (1, 0)).rate is None and paced((0, 4), (1, 4)).left is None
+
+
+def test_only_the_first_one_is_alone():
+    """Three counts and more: the pace is that of all workers together."""
+    assert paced((0, 0), (10, 1), (20, 2), total=42, workers=4).left == pytest.approx(400)
+    assert paced((0, 0), (10, 1), total=41, workers=4).left == pytest.approx(100)
+
+
+def test_workers_that_are_asked_for_share_even_what_is_short():
+    pace = Pace(clock=iter([0.0, 1.0]).__next__)
+    pace.workers, pace.at_once = 2, True
+    pace.count(0, 3)
+    pace.count(1, 3)
+    assert pace.left == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("rate", "text"), [(0.5, "0.5/s"), (0.49, "2 s each"), (0.01, "1 min 40 s each"), (99.4, "99/s"), (100.4, "100/s"), (999.0, "999/s")]
+)
+def test_rates_on_both_sides_of_a_limit(rate, text):
+    assert rate_text(rate) == text
+
+
+def test_nothing_is_left_when_all_are_done():
+    assert words(paced((0, 0), (1, 1), (2, 41)), "cases") == "41 of 41 cases, 40/s"
+    assert words(paced((0, 0), (1, 1), (3, 41)), "cases") == "41 of 41 cases, 20/s"
+
+
+def test_as_many_workers_as_there_is_work(monkeypatch):
+    monkeypatch.setattr("drivewright.cases.worker_count", lambda workers: workers or 8)
+    monkeypatch.setattr("drivewright.execution.processes.most_processes", lambda: 6)
+    numbers = [worker_number(*asked) for asked in ((None, None, 3), (4, None, 99), (None, None, 99), (2, None, 0), (None, "local:5", 99))]
+    assert numbers == [3, 4, 6, 1, 5] and worker_number(8, "tcp://a:1", 99) == 1
+
+
+class Said:
+    """Keeps what is noted."""
+
+    def __init__(self):
+        self.notes = []
+
+    def note(self, text):
+        self.notes.append(text)
+
+    def show(self, what):
+        pass
+
+
+@pytest.mark.parametrize(
+    ("seconds", "workers", "said"),
+    [
+        (10.0, 4, ["9 cases", "judged by the first, the rest takes about 20 s with 4 workers"]),
+        (10.0, 1, ["9 cases", "judged by the first, the rest takes about 1 min 20 s in one process"]),
+        (0.1, 4, ["9 cases"]),
+    ],
+)
+def test_how_long_the_rest_takes_is_said_where_it_is_long(seconds, workers, said, monkeypatch):
+    """One of nine done, eight are left; 0.8 s are not worth a word."""
+    monkeypatch.setattr(long_work, "worker_number", lambda asked, on, limit: min(workers, limit))
+    teller = Said()
+    step = long_work._Steps(teller, Pace(clock=iter([0.0, seconds]).__next__), "cases", workers, None, "")
+    step(0, 9, "")
+    step(1, 9, "")
+    assert teller.notes == said
+
+
+def test_cases_that_are_done_before_need_no_worker(monkeypatch):
+    """Seven of nine are there: two workers have something to do."""
+    monkeypatch.setattr(long_work, "worker_number", lambda asked, on, limit: min(8, limit))
+    pace = Pace(clock=iter([0.0]).__next__)
+    long_work._Steps(Said(), pace, "cases", None, None, "")(7, 9, "")
+    assert pace.workers == 2
+
+
+def test_the_bar_is_as_long_as_what_is_done(capsys):
+    pace = paced((0, 0), (1, 10))
+    bar = long_work._Bar("a.toml", "cases", pace, str)
+    bar.show("")
+    (task,) = bar.bar.tasks
+    bar.close()
+    assert (task.completed, task.total) == (10, 41)

@@ -51,8 +51,8 @@ def test_a_law_is_made_from_what_a_place_of_contact_states(monkeypatch):
     ("point", "words"),
     [
         (3.0, "entry point gives a float"),
-        (lambda stated: 3.0, "returns a float; it must return a NamedTuple"),
-        (lambda stated: stated, "returns a ContactParameters; it must return a NamedTuple whose class has a formula"),
+        (lambda stated: 3.0, "returns a float; it must return a record"),
+        (lambda stated: stated, "returns a ContactParameters; it must return a record whose class has a formula"),
         (lambda stated: HuntCrossley(np.nan, 1.5, 0.0), "gives nan N across a gap of 1 m"),
     ],
 )

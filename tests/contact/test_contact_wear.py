@@ -86,7 +86,7 @@ def test_the_wear_over_the_angle_is_periodic_and_smooth():
     "change, message",
     [
         ({"slip": np.zeros(2)}, r"rows of the same two or more samples, got the shapes \(3,\), \(3,\), \(3,\), \(2,\)"),
-        ({"time": [0.0, 2.0, 1.0]}, "time falls back after 2 s; sort the samples"),
+        ({"time": [0.0, 2.0, 1.0]}, "time decreases after 2 s; sort the samples"),
         ({"force": [1.0, -1.0, 0.0]}, "forces must be finite and not below 0"),
         ({"angle": [np.nan, 0.0, 0.0]}, "angles of loaded samples finite"),
         ({"bins": 2}, "2 bins do not tell"),

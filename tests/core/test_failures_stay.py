@@ -117,7 +117,7 @@ def test_before_an_export_run_the_default_analyses_and_those_for_manufacture(mon
     fake = registry.Mechanism(**{**vars(kind), "analyses": (*kind.analyses, extra)})
     monkeypatch.setattr(registry, "mechanism", lambda name: fake)
     if refused:
-        with pytest.raises(GeometryCheckFailed, match=r"wall\.rim = 1.mm, limit >= 2.mm"):
+        with pytest.raises(GeometryCheckFailed, match=r"Wall of the rim: 1.mm, limit >= 2.mm"):
             export.export(spec, ("dxf",), tmp_path)
     else:
         assert export.export(spec, ("dxf",), tmp_path)

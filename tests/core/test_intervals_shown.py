@@ -154,7 +154,7 @@ def test_page_tells_the_interval_with_a_hint(tmp_path):
     result = run()
     text = page("report.html.j2", content(result), player=None, pictures=[])
     assert '<p class="tile-interval" title="95\u00a0%, ensemble">9.27 to 10.43</p>' in text
-    assert 'title="95\u00a0%, ensemble">9.85 (9.27 to 10.43)\u00a0mm</td>' in text
+    assert '<b>9.85\u00a0mm</b><span class="ends" title="95\u00a0%, ensemble">9.27 to 10.43</span>' in text
     folder = write_run_folder(result, tmp_path / "run", seen=Views())
     write_index([folder], tmp_path / "index.html")
     assert "9.85 (9.27 to 10.43)\u00a0mm" in (tmp_path / "index.html").read_text()

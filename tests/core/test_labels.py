@@ -2,7 +2,7 @@
 
 import pytest
 
-from drivewright.labels import LONGEST, duplicates, faults, label_of, label_of_key
+from drivewright.labels import LONGEST, duplicates, faults, key_in_words, label_of, label_of_key, usual_unit
 from drivewright.result import Check, Column, Table, Value
 from drivewright.spec import schema
 
@@ -65,3 +65,38 @@ def test_duplicates_are_named_once():
 def test_the_fields_of_a_schema_have_labels():
     properties = schema("cam")["$defs"]["Follower"]["properties"]
     assert properties["prime_radius"]["title"] == "Prime radius" and properties["face"]["title"] == "Face"
+
+
+@pytest.mark.parametrize(
+    ("key", "words"),
+    [
+        ("cams.roller_radius", "roller radius"),
+        ("roller_radius", "roller radius"),
+        ("bearings.A.position", "position of bearings.A"),
+        ("teeth.0", "teeth.0"),
+    ],
+)
+def test_a_key_within_a_sentence(key, words):
+    assert key_in_words(key) == words
+
+
+def test_a_dash_or_a_colon_ends_the_first_phrase_a_hyphen_does_not():
+    assert label_of("peak-to-peak play - over one turn") == "Peak-to-peak play"
+    assert label_of("play of the B side: over one turn") == "Play of the B side"
+
+
+@pytest.mark.parametrize(
+    ("label", "unit", "wanted"),
+    [
+        ("Transmission error", "rad", "arcmin"),
+        ("Backlash", "rad", "arcmin"),
+        ("Angle of maximum play", "rad", ""),
+        ("Fraction of time", "-", "%"),
+    ],
+)
+def test_units_of_small_angles_and_of_shares(label, unit, wanted):
+    assert usual_unit(label, unit) == wanted
+
+
+def test_a_label_that_leans_on_others_is_a_fault_of_its_own():
+    assert faults("Bearings, the others") == ("leans on another label",) and faults("Bearings, others") == ()

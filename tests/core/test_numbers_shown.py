@@ -119,3 +119,30 @@ def test_a_real_run_shows_them():
     assert show.value_text(run, "play.forward.maximum").endswith(" arcmin")
     play = next(check for check in summary(run)["checks"] if check["name"] == "play.forward")
     assert play["limit"] == "≤ 1\u00a0arcmin" and play["value"].endswith("arcmin")
+
+
+@pytest.mark.parametrize(
+    ("value", "low", "high", "texts"),
+    [
+        (999_999.0, None, None, ["1e+06"]),
+        (123_456.0, None, None, ["123460"]),
+        (1_234_567.0, None, None, ["1.2346e+06"]),
+        (-0.0, None, None, ["0"]),
+        (2.5, 2.5, 2.5, ["2.5"]),
+        (0.0, 0.0, 0.0, ["0"]),
+        (4.1e-5, 3.0e-5, 5.2e-5, ["4.1e-05", "3.0e-05", "5.2e-05"]),
+        (1.2345e-2, 1.2e-2, 1.2690e-2, ["0.01235", "0.01200", "0.01269"]),
+        (2.0e6, 1.9e6, 2.1e6, ["2.00e+06", "1.90e+06", "2.10e+06"]),
+        (0.9e6, 0.85e6, 0.95e6, ["900000", "850000", "950000"]),
+    ],
+)
+def test_texts_of_a_number_and_its_ends(value, low, high, texts):
+    """Plain digits between 1e-5 and a million, powers of ten outside; a width of nothing is no interval."""
+    assert digits.plain(value, low, high) == texts
+
+
+def test_the_first_pattern_of_the_headline_that_fits_has_a_name_and_twelve_stand_for_none():
+    drive = replace(TOY, headline=("life.A", "life.*"))
+    assert registry.headline_groups(drive, ["life.B", "life.A", "other"]) == [["life.A"], ["life.B"]]
+    names = [f"v{n}" for n in range(14)]
+    assert registry.headlines(replace(TOY, headline=()), names) == names[:12]

@@ -74,5 +74,5 @@ def test_a_line_that_only_translates_is_refused():
 
 
 def test_a_rest_has_no_tangent():
-    with pytest.raises(InputError, match=r"tangent: the curve stands still .* at 1 of 3 points, first at \(0, 2\) m"):
+    with pytest.raises(InputError, match=r"tangent: the curve does not move .* at 1 of 3 points, first at \(0, 2\) m"):
         curves.tangent(variable(np.array([-1.0, 0.0, 1.0])) ** 2 + 2j)

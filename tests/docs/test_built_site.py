@@ -72,3 +72,50 @@ def test_a_load_from_elsewhere_is_found(tmp_path, checker, text):
 def test_a_link_that_a_reader_follows_is_none(tmp_path, checker):
     (tmp_path / "index.html").write_text('<a href="https://example.org">x</a><link rel="canonical" href="https://example.org/">')
     assert list(checker.loads(tmp_path)) == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '<iframe src="//example.org/x"></iframe>',
+        '<object data="https://example.org/x.svg"></object>',
+        '<link rel="ModulePreload" href="https://cdn.example/x.js">',
+        '<link rel="alternate ICON" href="https://cdn.example/x.png">',
+        '<video><source src="HTTPS://example.org/x.mp4"></video>',
+    ],
+)
+def test_frames_objects_and_links_of_any_spelling_load(tmp_path, checker, text):
+    (tmp_path / "index.html").write_text(f"<html><body>{text}</body></html>")
+    assert len(list(checker.loads(tmp_path))) == 1
+
+
+def test_a_file_that_is_there_is_found_whatever_its_address_has_behind_it(tmp_path, checker):
+    (tmp_path / "below").mkdir()
+    (tmp_path / "a picture.png").write_bytes(b"x")
+    texts = ("../a%20picture.png", "../a picture.png?v=2#top", "data:image/png;base64,eA==", "#part", "/served/from/the/root.png")
+    (tmp_path / "below" / "page.html").write_text("".join(f'<img src="{text}">' for text in texts))
+    assert list(checker.loads(tmp_path)) == []
+    (tmp_path / "a picture.png").unlink()
+    assert [target for _, target in checker.loads(tmp_path)] == list(texts[:2])
+
+
+def test_styles_below_a_folder_load_nothing_from_elsewhere(tmp_path, checker):
+    (tmp_path / "assets").mkdir()
+    style = tmp_path / "assets" / "x.css"
+    style.write_text('@import "https://example.org/a.css"; b { background: url( //example.org/b.png ) } c { background: url(c.png) }')
+    assert [(file, target) for file, target in checker.loads(tmp_path)] == [
+        (style, "https://example.org/a.css"),
+        (style, "//example.org/b.png"),
+    ]
+
+
+def test_the_command_ends_with_the_addresses_or_with_a_word_of_praise(tmp_path, checker, monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["check_site.py", str(tmp_path)])
+    with pytest.raises(SystemExit, match="holds no site"):
+        checker.main()
+    (tmp_path / "index.html").write_text("<p>")
+    checker.main()
+    assert "nothing is missing" in capsys.readouterr().out
+    (tmp_path / "index.html").write_text('<img src="gone.png">')
+    with pytest.raises(SystemExit, match=r"^index\.html loads gone\.png, "):
+        checker.main()

@@ -101,3 +101,9 @@ def test_lists_of_modules_become_lists(builder):
     text = "About.\n\nrack      cuts a gear,\n          and more\n`a`, `b`   two\n\nEnd."
     lines = builder("docstrings").listed(text).splitlines()
     assert "- `rack`: cuts a gear, and more" in lines and "- `a`, `b`: two" in lines and lines[-1] == "End."
+
+
+def test_a_table_has_no_column_that_is_empty_in_all_rows(builder):
+    table = builder("markdown").table
+    assert table(("a", "b", "c"), [("1", "", "3"), ("4", "", "")]) == ["", "| a | c |", "|---|---|", "| 1 | 3 |", "| 4 |  |", ""]
+    assert table(("a",), []) == []

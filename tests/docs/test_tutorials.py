@@ -46,6 +46,11 @@ def test_notebook_keeps_nothing_of_a_machine():
         assert not [word for word in ("execution_timing", "iopub", "/home/", "/tmp/", "<dc:date>") if word in text]
 
 
+def test_compact_pictures_keep_the_numbers_of_their_axes():
+    picture = b'<path d="M 1.23456 7.891011"/><!-- 320.1702 -->\n<text x="0.12345">320.1702</text>'
+    assert tutorials.compact(picture) == b'<path d="M 1.23 7.89"/><!-- 320.17 -->\n<text x="0.12">320.1702</text>'
+
+
 # -- the comparison itself -----------------------------------------------------------------------------------------------------
 
 PAGE = """
@@ -95,3 +100,9 @@ def test_a_page_is_read_in_its_order():
 def test_the_comparison_is_loose_in_digits_and_strict_in_words(shown, printed, told):
     found = difference(shown, printed)
     assert told in found and bool(found) == bool(told)
+
+
+def test_a_kept_picture_has_short_coordinates_and_its_texts_as_they_were():
+    made = b'<svg><path d="M 1.23456 7.8"/><g transform="scale(0.015625 -0.085)"/><text x="1.99999">0.125 mm</text></svg>'
+    kept = b'<svg><path d="M 1.23 7.8"/><g transform="scale(0.015625 -0.085)"/><text x="1.99">0.125 mm</text></svg>'
+    assert tutorials.compact(made) == kept

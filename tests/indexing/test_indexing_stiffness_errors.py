@@ -28,7 +28,7 @@ ONE = CamContacts(np.array([0]), np.array([0.12j]), np.array([1.0 + 0j]), np.arr
         (DRIVE._replace(pins=PinContact(series=0.0)), ("pins.series = 0 N/m",)),
         (DRIVE._replace(gear=GearMesh(0.06, 2e8, 0.35)), ("60 mm", "110 mm apart", "below half")),
         (DRIVE._replace(gear=GearMesh(0.02, 2e8, 0.35, -1e-5)), ("gear.backlash = -1e-05 m", "0 or more")),
-        (DRIVE._replace(gear=GearMesh(0.02, 2e8, 20.0)), ("pressure angle", "1146 deg", "radians")),
+        (DRIVE._replace(gear=GearMesh(0.02, 2e8, 20.0)), ("pressure angle", "1146°", "radians")),
         (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05,))), ("positions for 1 cams", "has 2")),
         (DRIVE._replace(shaft=SHAFT._replace(supports=(0.1, 0.025))), ("front support at 100 mm", "25 mm")),
         (DRIVE._replace(shaft=SHAFT._replace(cams=(0.05, 0.05))), ("50 mm", "different positions")),
@@ -47,7 +47,7 @@ def test_a_station_on_a_support():
 
 
 def test_a_place_off_the_shaft():
-    with pytest.raises(InputError, match="off the shaft"):
+    with pytest.raises(InputError, match="outside the shaft"):
         torsion_stiffness(SHAFT._replace(cams=(0.05, 0.3)))
 
 

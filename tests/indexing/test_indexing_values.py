@@ -52,7 +52,7 @@ def test_a_sleeve_needs_room_around_the_shaft():
 def test_directions_without_contact():
     angle, best = np.radians([0.0, 10.0, 20.0]), np.array([[0.3, 0.5, 0.4], [np.nan, 0.2, np.nan]])
     (finding,) = contact_findings(angle, best)
-    assert finding.startswith("no contact can push a pin backward at 2 of 3 positions (0, 20 deg)") and finding.endswith("acts forward")
+    assert finding.startswith("no contact can push a pin backward at 2 of 3 positions (0, 20°)") and finding.endswith("acts forward")
     values = {name: value.value for name, value in pressure_angle_values(np.array([0.3, 0.5, np.nan]), best).items()}
     assert values == {"pressure_angle.maximum": 0.5, "pressure_angle.forward.maximum": 0.5, "pressure_angle.backward.maximum": 0.2}
     assert pressure_angle_values(np.full(2, np.nan), np.full((2, 2), np.nan)) == {}
@@ -63,7 +63,7 @@ def test_play_has_no_maximum_where_nothing_stops_the_wheel():
     values = {name: value.value for name, value in play_values(angle, rotations, 0.12).items()}
     assert values == {"play.forward.maximum": 3e-3, "play.forward.maximum.at": pytest.approx(np.radians(10.0))}
     (finding,) = play_findings(angle, rotations)
-    assert finding.startswith("no contact stops the wheel backward at 1 of 3 input angles (10 deg)")
+    assert finding.startswith("no contact stops the wheel backward at 1 of 3 input angles (10°)")
 
 
 def wheel_under_torque(outcome, rotation):
@@ -85,7 +85,7 @@ def test_stiffness_is_that_of_the_positions_that_carry():
     }
     after = wheel_under_torque((CARRIED, CARRIED, CARRIED, FREE), [1e-3, 1e-3, 2e-3, np.nan])
     (finding,) = stiffness_findings(angle, found, after)
-    assert finding.startswith("no stiffness at 2 of 4 input angles (10, 30 deg) against 100 N m")
+    assert finding.startswith("no stiffness at 2 of 4 input angles (10, 30°) against 100 N·m")
     assert "At 1 of them a contact carries it after the play" in finding
 
 

@@ -45,7 +45,7 @@ def test_impossible_designs_are_refused_with_the_limit(make, change, message):
 
 def test_loads_want_a_torque_and_a_modulus():
     found = compute_flanks(globoidal(MOTION, **HOURGLASS), np.array([0.3]), 3)
-    with pytest.raises(InputError, match="torque = 0.0 N m; it must be finite and not 0"):
+    with pytest.raises(InputError, match="torque = 0.0 N·m; it must be finite and not 0"):
         compute_roller_loads(found, 0.0, 115e9)
     with pytest.raises(InputError, match="effective modulus = -1.0 Pa"):
         compute_roller_loads(found, 100.0, -1.0)

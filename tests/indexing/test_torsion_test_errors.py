@@ -33,7 +33,7 @@ def rows(header="torque [N m],angle [arcmin]", count=10):
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
-        ("", r"test.csv: is empty; the first line wants the columns, e.g. torque \[N m\],angle \[arcmin\]"),
+        ("", r"test.csv: is empty; the first line must name the columns, e.g. torque \[N m\],angle \[arcmin\]"),
         ("# only words\n\n", "is empty"),
         (rows("torque,angle [arcmin]"), r"test.csv: column 'torque': has no unit; write 'torque \[N m\]'"),
         (rows("torque [N],angle [arcmin]"), r"column 'torque': wants a torque, got 'N' \(force\)"),
@@ -84,7 +84,7 @@ def test_a_file_is_read_in_its_units_whatever_the_order_of_its_columns(tmp_path)
         (np.full(60, 300.0), ANGLE, "the torque is 300 N m in all samples; a stiffness needs a torque that changes"),
         (TORQUE, np.full(60, 0.25), "the angle is 0.25 rad in all samples"),
         (np.where(TORQUE > 400, np.nan, TORQUE), ANGLE, "must be finite"),
-        (TORQUE, -ANGLE, "the angle falls by 1e-05 rad per N m of rising torque.*change the sign of one of the columns"),
+        (TORQUE, -ANGLE, "the angle falls by 1e-05 rad per N·m of rising torque.*change the sign of one of the columns"),
     ],
 )
 def test_readings_without_a_stiffness_are_refused(torque, angle, wanted):
@@ -95,20 +95,20 @@ def test_readings_without_a_stiffness_are_refused(torque, angle, wanted):
 def test_a_position_that_is_refused_is_named():
     crank = np.repeat([0.0, np.pi / 4], 60)
     readings = Readings(np.tile(TORQUE, 2), np.concatenate([ANGLE, -ANGLE]), crank=crank)
-    with pytest.raises(InputError, match="^crank angle 45 deg: torsion test: the angle falls"):
+    with pytest.raises(InputError, match="^crank angle 45°: torsion test: the angle falls"):
         evaluate_positions(readings)
 
 
 def test_a_rig_softer_than_the_test_is_refused():
-    with pytest.raises(InputError, match="is not positive: the rig would be softer.*loading bar's stiffness .*above 100000 N m/rad"):
+    with pytest.raises(InputError, match="is not positive: the rig would be softer.*loading bar's stiffness .*above 100000 N·m/rad"):
         evaluate_loop(Readings(TORQUE, ANGLE), TorsionTestSettings(parts=(SeriesSpring("loading bar's", 9e4),)))
 
 
 def test_a_rated_torque_beyond_the_data_leaves_the_secant_out():
     test = evaluate_loop(Readings(TORQUE, ANGLE), TorsionTestSettings(rated_torque=800.0))
     assert np.isnan(test.shape.secant) and np.isfinite(test.shape.lost_motion)
-    wanted = "secant from 50 to 100 % of the rated torque 800 N m is absent"
-    assert any(wanted in text and "ends at 500 N m" in text for text in test.findings)
+    wanted = "secant from 50 to 100 % of the rated torque 800 N·m is absent"
+    assert any(wanted in text and "ends at 500 N·m" in text for text in test.findings)
     assert np.isfinite(evaluate_loop(Readings(TORQUE, ANGLE), TorsionTestSettings(rated_torque=500.0)).shape.secant)
 
 
@@ -117,7 +117,7 @@ def test_a_loop_that_does_not_close_is_remarked():
     texts = evaluate_loop(Readings(TORQUE, slipped)).findings
     assert any("the loop does not close: at the same torque the angle ends 0.0014 rad from where it began" in text for text in texts)
     texts = evaluate_loop(Readings(TORQUE[:48], ANGLE[:48])).findings
-    assert any("does not close: it begins at -500 N m and ends at -86.21 N m" in text for text in texts)
+    assert any("does not close: it begins at -500 N·m and ends at -86.21 N·m" in text for text in texts)
     assert not any("close" in text for text in evaluate_loop(Readings(TORQUE, ANGLE)).findings)
 
 

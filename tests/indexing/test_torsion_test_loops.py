@@ -61,7 +61,7 @@ def test_backlash_inside_the_branches_is_lost_motion_and_leaves_their_stiffness(
     test = evaluate_loop(Readings(torque, torque / K + 4e-4 * np.sign(torque)), TorsionTestSettings(rated_torque=1000.0))
     assert test.per_branch.value == closely(K) and test.shape.lost_motion == closely(8e-4 + 60 / K)
     assert test.whole_loop.value < 0.9 * K and test.inverse.value < 0.9 * K
-    assert any("are split there" in text and "within 30 N m" in text for text in test.findings)
+    assert any("are split there" in text and "within 30 N·m" in text for text in test.findings)
     straight = evaluate_loop(Readings(torque, torque / K + 4e-5 * np.sin(torque)))
     assert not any("are split there" in text for text in straight.findings)
 
@@ -165,7 +165,7 @@ def test_series_springs_in_closed_form():
     assert found.value == closely(k) and found.uncertainty == closely(u)
     reach = pytest.approx(1.959964 * u / k**2, rel=1e-5)
     assert 1 / found.low - 1 / k == reach and 1 / k - 1 / found.high == reach
-    wanted = r"1/100000 - 1/400000 - 1/50000 .* is not positive.*Check the bar stiffness .*well above 100000 N m/rad"
+    wanted = r"1/100000 - 1/400000 - 1/50000 .* is not positive.*Check the bar stiffness .*well above 100000 N·m/rad"
     with pytest.raises(InputError, match=wanted):
         remove_series_springs(measured, 10, (SeriesSpring("support", 4e5), SeriesSpring("bar", 5e4)))
 

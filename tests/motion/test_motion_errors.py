@@ -114,7 +114,7 @@ def test_a_table_file_in_other_units_says_the_same(tmp_path):
         ("240,3", "240,x", ["cam.csv", "line 4: the lift is 'x', not a number"]),
         ("240,3", "240", ["cam.csv", "line 4: the lift is missing"]),
         ("360,1", "360,1.5", ["first and the last row disagree", "starts at 0.001 and ends at 0.0015", "+0.0005"]),
-        ("0,1\n120", "5,1\n120", ["row 1 (line 2): the angle starts at 5 deg"]),
+        ("0,1\n120", "5,1\n120", ["row 1 (line 2): the angle starts at 5°"]),
         ("120,5\n240,3\n", "", ["2 rows are too few", "at least 3"]),
         ("angle [deg],", "angle,", ["column 'angle'", "has no unit", "'angle [deg]'"]),
     ],
@@ -138,7 +138,7 @@ def test_table_arrays():
 
 
 def test_segments():
-    refused(["'cycloidal'", "angle is -10 deg", "positive"], Segment, math.radians(-10), "cycloidal", 1)
+    refused(["'cycloidal'", "angle is -10°", "positive"], Segment, math.radians(-10), "cycloidal", 1)
     refused(["angle is nan"], Segment, math.nan, "dwell")
     refused(["rise is inf"], Segment, 1, "cycloidal", math.inf)
     refused(["no rise is given", "make it a dwell"], Segment, 1, "cycloidal")
@@ -157,8 +157,8 @@ def test_programmes():
     up, down = Segment(2.0, "cycloidal", 0.01), Segment(2.0, "cycloidal", -0.008)
     rest = Segment(TURN - 4, "dwell")
     refused(["no segment"], Programme, [])
-    refused(["sum to 229.183", "130.816882 deg less", "cycle of 360 deg", "add a dwell of 130.816882 deg"], Programme, [up, down])
-    refused(["130.816882 deg more", "shorten"], Programme, [up, up, rest, rest])
+    refused(["sum to 229.183", "130.816882° less", "cycle of 360°", "add a dwell of 130.816882°"], Programme, [up, down])
+    refused(["130.816882° more", "shorten"], Programme, [up, up, rest, rest])
     refused(["cycle is nan"], Programme, [up, down, rest], math.nan)
     refused(
         ["ends 0.002 (SI) above its start", "rises are 0.01 (SI), -0.008 (SI); with -0.01 (SI) in segment 2"], Programme, [up, down, rest]
@@ -179,7 +179,7 @@ def test_tables_in_programmes():
     rows = law("table", angle=angle, lift=0.01 * (1 - law("cycloidal")(angle / 2).s))
     rest = Segment(TURN - 4, "dwell")
     refused(
-        ["segment 2: its table ends at 114.591559 deg", "spans 120.321137 deg"],
+        ["segment 2: its table ends at 114.591559°", "spans 120.321137°"],
         Programme,
         [Segment(2.0, "cycloidal", 0.01), Segment(2.1, rows), Segment(TURN - 4.1, "dwell")],
     )

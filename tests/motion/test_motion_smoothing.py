@@ -139,12 +139,12 @@ def gap_findings(path):
 def test_missing_rows_of_an_even_table_are_told(tmp_path):
     """Eleven of 121 rows are cut out: a step of 36 deg where there is one every 3 deg."""
     (told,) = gap_findings(with_gaps(tmp_path, (120, 156)))
-    assert "missing from 120 to 156 deg: elsewhere there is one every 3 deg" in told
+    assert "missing from 120 to 156°: elsewhere there is one every 3°" in told
     (told,) = gap_findings(with_gaps(tmp_path, (30, 36), (90, 99)))
-    assert "missing from 30 to 36 deg, 90 to 99 deg:" in told
+    assert "missing from 30 to 36°, 90 to 99°:" in told
     assert not gap_findings(with_gaps(tmp_path))
     model = dw.build(spec(tmp_path) if with_gaps(tmp_path, (120, 156)) else None)
-    assert any("missing from 120 to 156 deg" in each for each in model.findings)
+    assert any("missing from 120 to 156°" in each for each in model.findings)
 
 
 @pytest.mark.property

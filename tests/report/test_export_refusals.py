@@ -92,7 +92,7 @@ def test_gcode_wants_positive_settings(setting, value):
 
 
 def test_gcode_wants_one_closed_profile():
-    with pytest.raises(InputError, match="drawing 'plate' wants one closed outline on layer 'profile'; there are 1, not closed"):
+    with pytest.raises(InputError, match="drawing 'plate' needs one closed outline on layer 'profile'; there are 1, not closed"):
         gcode(drawing(SQUARE._replace(closed=False)), **SETTINGS)
     two = Drawing("plate", "Plate", (Shape("profile", SQUARE), Shape("profile", circle((0.1, 0), 0.01))), 0.005)
     with pytest.raises(InputError, match="there are 2"):

@@ -13,9 +13,21 @@ from drivewright.errors import InputError, UnknownName
 from drivewright.report.content import Views, content, pictures
 from drivewright.report.form import ReportForm, report_form
 from drivewright.report.html import write_report
-from drivewright.report.letterhead import LARGEST_LOGO, read_letterhead
-from drivewright.report.numbering import BEARS_NAME, DRAWS_LIMIT, UNRELATED, failed_first, numbered_figures, relation, seen_in, with_figures
+from drivewright.report.letterhead import LARGEST_LOGO, LARGEST_TEMPLATE, read_letterhead
+from drivewright.report.numbering import (
+    BEARS_NAME,
+    DRAWS_LIMIT,
+    UNRELATED,
+    NumberedFigure,
+    failed_first,
+    in_order,
+    numbered_figures,
+    relation,
+    seen_in,
+    with_figures,
+)
 from drivewright.report.pdf import HALF_WIDTH, figure_rows, write_pdf
+from drivewright.report.value_groups import OTHERS, grouped_values
 from drivewright.result import Check, Plot
 
 pytestmark = pytest.mark.interface
@@ -50,10 +62,65 @@ def test_a_short_report_is_its_first_page(tmp_path):
 
 def test_a_full_report_is_all_open_and_says_how_it_was_computed(tmp_path):
     result = four_bar_result()
+    result = replace(result, value_sources={name: "swing" if "swing" in name else "rest" for name in result.values})
     normal, full = written(tmp_path, result), written(tmp_path, result, FULL)
-    assert re.search(r'<details class="card" id="values">', normal) and not re.search(r'<details class="card"[^>]*[^n]>\s', full)
+    folded = re.findall(r'<details class="(?:card|card full|group)"(?: id="(\w+)")?>', full)
+    assert folded == ["si"], "all is open but the table for those who compute on"
+    assert re.search(r'<details class="card" id="tables">', normal) and '<details class="group">' in normal
     assert 'id="spec" open' in full and "How it was computed" in full and "computing time" in full and "Greatest" in full
     assert "How it was computed" not in normal and "2.4669517247e-06\u00a0m" in full
+
+
+# -- values and captions -------------------------------------------------------------------------------------------------------
+
+
+def test_values_stand_under_the_analyses_that_computed_them():
+    from drivewright import registry
+
+    result = replace(four_bar_result(), mechanism="linkage")
+    sources = {name: "motion" if name.startswith("rocker") else "energy" for name in result.values}
+    groups = grouped_values(replace(result, value_sources=sources), [{"name": name} for name in result.values])
+    meanings = {each.name: each.meaning for each in registry.mechanism("linkage").analyses}
+    assert {group["title"].lower() for group in groups} == {meanings[each].lower() for each in set(sources.values())}
+    assert sorted(row["name"] for group in groups for row in group["values"]) == sorted(result.values)
+
+
+def test_without_analyses_the_first_part_of_their_names_groups_values():
+    names = ("cam.lift", "ratio", "joint.A.force", "cam.radius", "joint.B.force", "mass")
+    groups = grouped_values(replace(four_bar_result(), value_sources={}), [{"name": name} for name in names])
+    assert [(group["title"], [row["name"] for row in group["values"]]) for group in groups] == [
+        ("Cam", ["cam.lift", "cam.radius"]),
+        ("Joint", ["joint.A.force", "joint.B.force"]),
+        (OTHERS, ["ratio", "mass"]),
+    ]
+
+
+def test_the_runner_says_which_analysis_computed_each_value():
+    from places import EXAMPLES
+
+    from drivewright import runner
+    from drivewright.spec import load
+
+    result = runner.run(load(EXAMPLES / "disc_cam.toml"))
+    assert result.value_sources.keys() == result.values.keys() and set(result.value_sources.values()) <= set(result.provenance["analyses"])
+    assert result.value_sources["max_pressure_angle"] == "geometry"
+
+
+@pytest.mark.parametrize("form", [NORMAL, FULL])
+def test_numbers_in_si_have_a_folded_table_at_the_end(tmp_path, form):
+    text = written(tmp_path, four_bar_result(), form)
+    values, si = (text.index(f'id="{name}"') for name in ("values", "si"))
+    assert '<details class="card" id="si">' in text and si > text.index('id="sources"') > values
+    assert "2.4669517247e-06\u00a0m" in text[si:] and "2.4669517247e-06" not in text[values : text.index('id="sources"')]
+
+
+def test_what_a_plot_shows_is_its_caption(tmp_path):
+    plots = (SEEN.plots[0]._replace(meaning="dashed: with ideal joints"),)
+    result, seen = four_bar_result(), Views(plots=plots)
+    text = write_report(result, seen, tmp_path, pictures(result, seen), NORMAL).read_text(encoding="utf-8")
+    assert '<p class="muted">Dashed: with ideal joints.</p></figcaption>' in text
+    (drawn,) = pictures(replace(result, mechanism="linkage"), seen, language="zh")
+    assert drawn.meaning == "虚线：理想运动副。"
 
 
 def test_the_numerical_settings_of_a_spec_are_in_a_full_report():
@@ -97,6 +164,31 @@ def test_plots_of_failed_checks_come_first_and_all_others_keep_their_order():
     assert [each.name for each in failed_first(result, Views(plots=plots)).plots] == ["four", "two", "one", "three", "five"]
 
 
+def test_a_plot_of_one_of_two_failed_checks_comes_first():
+    plots = (plot("one", "x"), plot("two", "bad"), plot("three", "worse", limits=(("bad", "limit"),)))
+    result = replace(four_bar_result(), checks=(check("worse", False), check("bad", False)))
+    assert [each.name for each in failed_first(result, Views(plots=plots)).plots] == ["three", "two", "one"]
+
+
+def test_pictures_stand_in_the_order_of_their_numbers_and_further_ones_follow():
+    figures = (NumberedFigure(1, "scene-top"), NumberedFigure(2, "plot-a"), NumberedFigure(3, "plot-b"))
+    drawn = [picture(name, 300) for name in ("plot-b", "extra", "scene-top", "plot-a", "more")]
+    assert [(number, each.name) for number, each in in_order(drawn, figures)] == [
+        (1, "scene-top"),
+        (2, "plot-a"),
+        (3, "plot-b"),
+        (4, "extra"),
+        (5, "more"),
+    ]
+
+
+def test_a_short_report_without_a_scene_shows_the_first_drawing():
+    result = four_bar_result()
+    still = seen_in(SHORT, result, SEEN._replace(scene=None))
+    assert SEEN.drawings and still.scene is None and still.drawings == SEEN.drawings[:1]
+    assert seen_in(SHORT, result, SEEN).drawings == ()
+
+
 def test_a_failed_check_names_the_figure_that_shows_it(tmp_path):
     result = four_bar_result()
     failed = next(each for each in result.checks if not each.ok)
@@ -116,7 +208,7 @@ def test_a_failed_check_names_the_figure_that_shows_it(tmp_path):
 
 
 def picture(name, width, height=100):
-    return SimpleNamespace(name=name, title=name, svg=f'<svg width="{width}pt" height="{height}pt"/>')
+    return SimpleNamespace(name=name, title=name, meaning="", svg=f'<svg width="{width}pt" height="{height}pt"/>')
 
 
 def test_two_narrow_figures_share_a_row_and_a_wide_one_has_its_own():
@@ -200,8 +292,11 @@ def test_a_png_is_known_by_its_content(tmp_path):
         (b"GIF89a", "neither an SVG .* nor a PNG file"),
         (b"<html><svg/></html>", "neither an SVG"),
         (b'<!DOCTYPE svg [<!ENTITY a "aaaa">]><svg>&a;</svg>', "neither an SVG"),
+        (b'<!-- --><!DOCTYPE svg [<!ENTITY a "aaaa">]><!-- --><svg>&a;</svg>', "neither an SVG"),
         (b"<svg>" + b" " * LARGEST_LOGO, "more than 500 kB"),
         (png(100_000, 100_000), "100000 × 100000 pixels"),
+        (png(2000, 2001), "2000 × 2001 pixels"),
+        (png(0, 10), "0 × 10 pixels"),
         (b"\x89PNG\r\n\x1a\n", "0 × 0 pixels"),
     ],
 )
@@ -212,6 +307,40 @@ def test_what_is_no_logo_is_refused_before_anything_is_written(tmp_path, data, w
     with pytest.raises(InputError, match=f"report.logo: logo.svg .*{wanted}"):
         write_run_folder(branded(tmp_path, "logo.svg"), tmp_path / "run", figures=False, seen=Views())
     assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"<svg>" + b" " * (LARGEST_LOGO - 5),
+        b"\xef\xbb\xbf<svg/>",
+        b'<?xml version="1.0"?>\n<!-- drawn\nby hand -->\n<!DOCTYPE svg>\n<svg xmlns="x"/>',
+    ],
+    ids=["largest", "byte order mark", "prolog"],
+)
+def test_an_svg_may_have_a_prolog_and_the_size_that_is_allowed(tmp_path, data):
+    (tmp_path / "logo.svg").write_bytes(data)
+    head = read_letterhead(branded(tmp_path, "logo.svg").spec)
+    assert (head.suffix, head.logo) == (".svg", data) and head.logo_source.startswith("data:image/svg+xml;base64,")
+
+
+def test_a_png_of_the_most_pixels_is_an_image_of_its_own_type(tmp_path):
+    (tmp_path / "logo.png").write_bytes(png(2000, 2000))
+    head = read_letterhead(branded(tmp_path, "logo.png").spec)
+    assert head.content()["logo"].startswith("data:image/png;base64,iVBOR")
+    assert read_letterhead(branded(tmp_path).spec).logo_source == "", "no logo, no image"
+
+
+@pytest.mark.parametrize(
+    ("data", "wanted"),
+    [(b" " * (LARGEST_TEMPLATE + 1), "house.css has more than 200 kB"), ("Größe".encode("latin-1"), "house.css is not text in UTF-8")],
+)
+def test_a_template_that_is_no_text_of_some_size_is_named(tmp_path, data, wanted):
+    (tmp_path / "house.css").write_bytes(data)
+    with pytest.raises(InputError, match=f"report.templates: {wanted}"):
+        read_letterhead(branded(tmp_path, templates=("house.css",)).spec)
+    (tmp_path / "house.css").write_bytes(b" " * LARGEST_TEMPLATE)
+    assert read_letterhead(branded(tmp_path, templates=("house.css",)).spec).templates == {"house.css": " " * LARGEST_TEMPLATE}
 
 
 def test_templates_replace_ours_by_name(tmp_path):

@@ -14,7 +14,7 @@ from drivewright import registry
 from drivewright.errors import InputError
 from drivewright.report.content import Picture, Views, content, headline, pictures, verdict, views
 from drivewright.report.html import player_data, scripts, write_report
-from drivewright.result import Check
+from drivewright.result import Check, Value
 
 pytestmark = pytest.mark.interface
 
@@ -185,7 +185,7 @@ def test_margins_and_limits_in_display_units():
 
 
 def registered(monkeypatch, **parts):
-    kind = {"headline": (), "plots": PLOTS, "scene": None, "drawings": None, "build": lambda spec: "model", **parts}
+    kind = {"headline": (), "analyses": (), "plots": PLOTS, "scene": None, "drawings": None, "build": lambda spec: "model", **parts}
     monkeypatch.setattr(registry, "kinds", lambda: ["four-bar-sample"])
     monkeypatch.setattr(registry, "mechanism", lambda name: SimpleNamespace(**kind))
 
@@ -193,6 +193,13 @@ def registered(monkeypatch, **parts):
 def test_the_headline_is_the_mechanisms_in_its_order_as_far_as_computed(monkeypatch):
     registered(monkeypatch, headline=("ratio", "not.computed", "rocker.swing"))
     assert [row["name"] for row in headline(four_bar_result())] == ["ratio", "rocker.swing"]
+
+
+def test_a_zero_that_a_pattern_finds_is_no_key_number(monkeypatch):
+    registered(monkeypatch, headline=("*.swing", "play"))
+    still = Value(0.0, "rad", "angle")
+    result = replace(four_bar_result(), values={"slider.swing": still, "play": still, "rocker.swing": Value(1.0, "rad", "angle")})
+    assert [row["name"] for row in headline(result)] == ["rocker.swing", "play"]
 
 
 def test_views_come_from_the_mechanism(monkeypatch):

@@ -163,7 +163,7 @@ def test_a_search_in_inches(capsys, tmp_path):
 
 def test_what_is_to_blame_is_told_in_inches():
     found = searched(requirements=[{"value": "size", "at_least": "25.4 mm"}])
-    assert "the requirement to blame is size >= 1 in: the least violating design reaches 0.6 in" in found.findings[0]
+    assert "the limiting requirement is size >= 1 in: the least violating design reaches 0.6 in" in found.findings[0]
 
 
 def test_long_times_and_their_ends_of_a_search():

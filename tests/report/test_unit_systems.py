@@ -178,11 +178,11 @@ def test_a_report_in_inches_has_no_millimetres(page, runs, tmp_path):
 
 
 def page_text(folder):
-    """What a page says, but for pictures, the spec, the column of SI numbers and the list of the files of tables, which are SI."""
+    """What a page says, but for pictures, the spec, the table of SI numbers and the list of the files of tables, which are SI."""
     text = (folder / "report.html").read_text(encoding="utf-8")
     for part in (r"<script.*?</script>", r"<style.*?</style>", r"<pre.*?</pre>", r'data:image[^"]*', r'<ul class="columns">.*?</ul>'):
         text = re.sub(part, "", text, flags=re.DOTALL)
-    text = re.sub(r'<td class="number si">.*?</td>', "", text)
+    text = re.sub(r'<details class="card" id="si">.*?</details>', "", text, flags=re.DOTALL)
     return html.unescape(re.sub(r"<[^>]+>", " ", unquote(text)))
 
 

@@ -242,13 +242,13 @@ def test_one_rolling_bearing_holds_by_its_tilt_stiffness_unless_its_seat_turns()
 
 
 def test_torques_that_partly_cancel_do_not_balance():
-    with pytest.raises(InputError, match="their sum is 2 N m"):
+    with pytest.raises(InputError, match="their sum is 2 N·m"):
         loaded(axial_spring(), shafts.ShaftLoad(0.1, moment=(0, 0, 5.0)), shafts.ShaftLoad(0.3, moment=(0, 0, -3.0)))
 
 
 @pytest.mark.parametrize("place", [-0.01, 0.45])
 def test_a_place_off_the_shaft_is_told(place):
-    with pytest.raises(InputError, match=f"a place at {1e3 * place:g} mm is off the shaft, which runs from 0 to 400 mm"):
+    with pytest.raises(InputError, match=f"a place at {1e3 * place:g} mm lies outside the shaft, which runs from 0 to 400 mm"):
         loaded(axial_spring(), shafts.ShaftLoad(place, (0.0, 1.0, 0.0)))
 
 

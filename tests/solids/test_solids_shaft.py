@@ -257,7 +257,7 @@ def test_the_table_of_the_deformed_surface():
         ({"bands": (SEATS[0], (0.1, 0.0, 3e7))}, "band 1 at 100 mm has width 0 mm and stiffness 3e+07 N/m; both must be positive"),
         ({"bands": (SEATS[0], (0.1, 0.01, -1.0))}, "band 1 at 100 mm has width 10 mm and stiffness -1 N/m"),
         ({"bands": (SEATS[0], (0.0575, 0.002, 3e7))}, "the bands at 56.5 and 57.5 mm overlap; make them narrower"),
-        ({"stations": (0.0, 0.4)}, "a station at 400 mm is off the shaft of 0 ... 340 mm"),
+        ({"stations": (0.0, 0.4)}, "a station at 400 mm lies outside the shaft of 0 ... 340 mm"),
         ({"stations": ()}, "no station; give at least one position to load"),
         ({"poisson": 0.5}, "Poisson's ratio 0.5; a solid needs E > 0 and -1 < nu < 0.5"),
         ({"modulus": 0.0}, "modulus 0 Pa"),

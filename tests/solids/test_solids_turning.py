@@ -79,9 +79,9 @@ def test_the_axis_runs_along_x_from_the_start_and_turns_with_the_pose():
     "rings, message",
     [
         ((), "part 'spindle': a turned body without rings"),
-        (((0.0, 0.02, 0.02, 0.0),), "ring 0 has length 0 mm, diameters 20 and 20 mm, bore 0 mm; it wants a positive length"),
+        (((0.0, 0.02, 0.02, 0.0),), "ring 0 has length 0 mm, diameters 20 and 20 mm, bore 0 mm; it must have a positive length"),
         (((0.1, 0.02, 0.02, 0.0), (0.1, 0.02, 0.01, 0.01)), "ring 1 has length 100 mm, diameters 20 and 10 mm, bore 10 mm"),
-        (((0.1, 0.02, 0.02, -0.001),), "bore -1 mm; it wants"),
+        (((0.1, 0.02, 0.02, -0.001),), "bore -1 mm; it must have"),
         (((0.1, np.nan, 0.02, 0.0),), "diameters nan and 20 mm"),
         (((0.1, 0.02, 0.02, 0.015), (0.1, 0.012, 0.012, 0.0)), "rings 0 and 1 do not touch: a bore of 15 mm meets a diameter of 12 mm"),
         (((0.1, 0.01, 0.012, 0.0), (0.1, 0.02, 0.02, 0.013)), "rings 0 and 1 do not touch: a bore of 13 mm meets a diameter of 12 mm"),

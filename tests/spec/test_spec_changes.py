@@ -76,10 +76,10 @@ def test_list_elements_go_by_name_or_by_number(tables):
 @pytest.mark.parametrize(
     ("change", "key", "wanted"),
     [
-        ("length", None, "--set wants key=value with a dotted key, got 'length'"),
-        ("=3", None, "--set wants key=value with a dotted key, got '=3'"),
-        ("a..b=3", None, "--set wants key=value"),
-        ("drive.=3", None, "--set wants key=value"),
+        ("length", None, "--set takes key=value with a dotted key, got 'length'"),
+        ("=3", None, "--set takes key=value with a dotted key, got '=3'"),
+        ("a..b=3", None, "--set takes key=value"),
+        ("drive.=3", None, "--set takes key=value"),
         ("joints.x.clearance=1 mm", "joints.x", "the list has no element 'x'; it has 2, named crank, rocker"),
         (
             "joints.rokcer.clearance=1 mm",

@@ -257,7 +257,7 @@ BASE = 'mechanism = "toy"\nlength = "40 mm"\n'
         ("joints = [{name = 'a', at = ['1 mm', 'inf mm']}]", "joints.0.at.1", "'inf mm' is not finite; write e.g. \"9.5 mm\""),
         ("format = 2", "format", "must be at most 1, got 2"),
         ("format = true", "format", "must be a whole number, got true"),
-        ("optimise = {}", "optimise.unknowns", "is missing (what may change)"),
+        ("optimise = {}", "optimise.unknowns", "is missing (parameters to vary)"),
         ("optimise = {unknowns = []}", "optimise.unknowns", "must have at least 1 entries, got 0"),
         (
             "optimise = {unknowns = [{key = 'a', lower = true}]}",

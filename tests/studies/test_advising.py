@@ -13,7 +13,7 @@ from drivewright import registry, runner
 from drivewright.registry import Analysis
 from drivewright.result import Answer, Check
 from drivewright.spec import from_document
-from drivewright.studies.adjustable import dimensions
+from drivewright.studies.adjustable import Dimension, dimensions
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -193,3 +193,44 @@ def test_every_adjustable_key_is_one_of_the_kind(kind):
     patterns = registry.mechanism(kind).adjustable
     assert [pattern for pattern in patterns if not any(fnmatchcase(key, pattern) for key in known)] == []
     assert all(factor > 1 for factor in patterns.values())
+
+
+# -- what a dimension may become -------------------------------------------------------------------------------------------------
+
+
+def dimension(value, low, high):
+    return Dimension("size", None, value, low, high)
+
+
+@pytest.mark.analytical
+def test_a_move_goes_by_equal_factors_to_either_end():
+    """Half way from 4 to 16 is 8, half way down to 1 is 2; no move leads beyond an end."""
+    each = dimension(4.0, 1.0, 16.0)
+    assert [each.at(move) for move in (-1.0, -0.5, 0.0, 0.5, 1.0)] == pytest.approx([1.0, 2.0, 4.0, 8.0, 16.0])
+    assert each.at(3.0) == pytest.approx(16.0) and each.at(-3.0) == pytest.approx(1.0)
+    below = dimension(-4.0, -16.0, -1.0)
+    assert [below.at(move) for move in (-0.5, 0.5)] == pytest.approx([-8.0, -2.0])
+
+
+@pytest.mark.analytical
+def test_a_move_from_or_through_zero_goes_by_equal_steps():
+    assert [dimension(0.0, -2.0, 8.0).at(move) for move in (-0.5, 0.25, 0.5, 1.0)] == pytest.approx([-1.0, 2.0, 4.0, 8.0])
+    assert dimension(2.0, -2.0, 8.0).at(-0.25) == pytest.approx(1.0), "the lower end has another sign: no factor leads there"
+
+
+@pytest.mark.analytical
+def test_a_step_is_a_fiftieth_of_the_value_to_the_side_that_has_room():
+    """As a move over the wider side: 0.02*10/(30 - 10); of a key at 0 a fiftieth of a move; never more than half of one."""
+    assert dimension(10.0, 9.0, 30.0).step == pytest.approx(0.01)
+    assert dimension(10.0, 5.0, 10.0).step == pytest.approx(-0.04), "at its upper end it can only become smaller"
+    assert dimension(0.0, -1.0, 2.0).step == pytest.approx(0.02)
+    assert dimension(10.0, 9.9, 10.1).step == 0.5
+
+
+@pytest.mark.property
+def test_dimensions_have_room_and_their_ends_in_order(monkeypatch):
+    """A negative value has its larger factor below; a key at 0, or whose ends are one, cannot be changed by factors."""
+    install(monkeypatch.setattr, replace(TOY, adjustable={"offset": 2.0, "size": 4.0, "force": 1.0, "ratio": 3.0}))
+    spec = from_document({"mechanism": "toy", "offset": "-4 mm", "size": "10 mm", "force": "2 N", "ratio": 0.0})
+    found = {each.key: (each.low, each.value, each.high) for each in dimensions(spec)}
+    assert found == {"offset": pytest.approx((-8e-3, -4e-3, -2e-3)), "size": pytest.approx((2.5e-3, 10e-3, 40e-3))}

@@ -6,7 +6,7 @@ from drivewright.execution.case_reasons import UNKNOWN, ReasonGroup, reason_grou
 
 pytestmark = pytest.mark.interface
 
-OFF = "loads.0.position: {} mm is off the shaft, which runs from 0 to 340 mm; move it, or make a segment longer"
+OFF = "loads.0.position: {} mm lies outside the shaft, which runs from 0 to 340 mm; move it, or make a segment longer"
 
 
 def groups(*messages, status="failed"):

@@ -116,3 +116,25 @@ def test_without_the_library_the_extra_is_named(shaft, library, monkeypatch):
     monkeypatch.setattr("importlib.import_module", lambda name: (_ for _ in ()).throw(ImportError(name)) if name == library else real(name))
     with pytest.raises(MissingExtra, match=r"needs the extra 'frames'.*pip install 'drivewright\[frames\]'"):
         getattr(shaft, f"to_{library}")()
+
+
+def test_axes_of_equal_length_with_other_labels_stand_apart_and_equal_ones_are_shared():
+    numbers = np.arange(2.0)
+    arrays = {"a.b_c": (("x",), ((1, 2),), numbers, "-"), "b": (("x",), ((1, 3),), numbers, "m"), "c": (("x",), ((1, 2),), numbers, "m")}
+    dataset = frames.labelled(arrays)
+    assert {name: dataset[name].dims for name in arrays} == {"a.b_c": ("x",), "b": ("b.x",), "c": ("x",)}
+    assert dataset["x"].values.tolist() == [1, 2] and dataset["b.x"].values.tolist() == [1, 3]
+    assert dataset["a.b_c"].attrs == {"units": "1", "long_name": "A · b c"}, "a pure number has the unit 1 of the CF conventions"
+
+
+def test_a_third_axis_of_one_name_has_the_number_three():
+    assert frames.distinct_axes(["a", "b", "a", "a"]) == ("a", "b", "a_2", "a_3")
+
+
+def test_a_column_without_a_label_has_the_first_phrase_of_its_meaning():
+    import pyarrow as pa
+
+    about = [{"unit": "m", "meaning": "lift, above the base"}, {"unit": "-", "label": "ratio", "meaning": "one over the other"}]
+    fields = [pa.field(name, pa.float64(), metadata=each) for name, each in zip("ab", about, strict=True)]
+    frame = frames.frame(pa.table([[1.0], [2.0]], schema=pa.schema(fields)), source="here")
+    assert frame.attrs == {"source": "here", "units": {"a": "m", "b": "-"}, "labels": {"a": "Lift", "b": "Ratio"}}

@@ -70,7 +70,7 @@ def test_an_impossible_requirement_is_blamed_by_name():
     data["optimise"]["requirements"].append({"value": "cam.curvature_ratio", "at_least": 9.0})
     found = dw.optimise(from_document(data))
     assert not found.feasible
-    assert "the requirement to blame is cam.curvature_ratio >= 9" in found.findings[0]
+    assert "the limiting requirement is cam.curvature_ratio >= 9" in found.findings[0]
 
 
 def test_exit_code_4_and_the_blame_on_the_command_line(tmp_path, capsys):
@@ -79,7 +79,7 @@ def test_exit_code_4_and_the_blame_on_the_command_line(tmp_path, capsys):
         main(["optimise", str(PUSHER), "--out", str(tmp_path / "o"), *change])
     printed = capsys.readouterr()
     assert left.value.code == 4
-    assert "the requirement to blame is cam.curvature_ratio" in printed.err
+    assert "the limiting requirement is cam.curvature_ratio" in printed.err
     assert (tmp_path / "o" / "best.toml").is_file() and (tmp_path / "o" / "history.parquet").is_file()
     assert dw.load(tmp_path / "o" / "best.toml").push.end_event == "lowest"
 
@@ -242,7 +242,7 @@ def test_a_check_without_a_limit_has_to_pass():
     assert np.array_equal(found.history["check.teeth.drive"] >= 0, found.history["teeth.0"] >= least)
     missed = dw.optimise(chain_of(10, 15, requirements=[{"value": "check.teeth.drive"}]))
     assert not missed.feasible and missed.best.spec.teeth[0] == 15
-    assert "the requirement to blame is check.teeth.drive >= 0: the least violating design reaches -2," in missed.findings[0]
+    assert "the limiting requirement is check.teeth.drive >= 0: the least violating design reaches -2," in missed.findings[0]
     assert "and 0 of the designs tried meet this one at all" in missed.findings[0]
 
 
@@ -277,7 +277,7 @@ def test_where_no_design_can_be_computed_the_reason_is_told(tmp_path, capsys):
         ({"unknowns": [{"key": "follower.motion", "lower": 1, "upper": 2}]}, "optimise.unknowns.0.key: follower.motion takes"),
         (
             {"unknowns": 2 * [{"key": "follower.prime_radius", "lower": "30 mm", "upper": "80 mm"}]},
-            "optimise.unknowns.1.key: follower.prime_radius is there twice",
+            "optimise.unknowns.1.key: follower.prime_radius occurs twice",
         ),
         ({"objectives": [{"value": "check.pressure_angel"}]}, "did you mean 'check.pressure_angle'"),
         ({"requirements": [{"value": "max_pressure_angle"}]}, "needs at_least, at_most, or both"),

@@ -239,7 +239,7 @@ def test_a_sweep_and_a_search_do_not_share_a_folder(tmp_path):
 
 def test_the_outcome_of_an_older_version_is_left_alone(tmp_path):
     (tmp_path / "history.parquet").write_bytes(b"precious")
-    with pytest.raises(InputError, match="by an older version, which cannot be gone on with; nothing was written"):
+    with pytest.raises(InputError, match="by an older version, which cannot be continued; nothing was written"):
         dw.optimise(cam(), out=tmp_path)
     assert [path.name for path in tmp_path.iterdir()] == ["history.parquet"]
 
@@ -250,7 +250,7 @@ def test_a_folder_whose_search_went_another_way_is_refused(tmp_path, undisturbed
     moved = undisturbed.table.slice(1, 8)  # rows moved up by one
     kept.add(0, moved.set_column(0, undisturbed.table.schema.field(0), [np.arange(8)]), 0.0)
     kept.close()
-    with pytest.raises(InputError, match="asks for other designs than those that were kept, from evaluation 0 on"):
+    with pytest.raises(InputError, match="computes other designs than those in the folder, from evaluation 0 on"):
         dw.optimise(spec, out=tmp_path)
 
 

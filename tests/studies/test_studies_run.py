@@ -202,5 +202,5 @@ def test_no_cases_no_rows(workers):
 
 @pytest.mark.parametrize("workers", [0, -2, 1.5, True, "all"])
 def test_a_strange_number_of_workers_is_refused(workers):
-    with pytest.raises(InputError, match="from 1 up, or None for one per core; got"):
+    with pytest.raises(InputError, match="from 1 up, or be left out for one per core; got"):
         run(chaotic, [], workers)

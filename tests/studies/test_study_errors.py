@@ -77,9 +77,9 @@ def test_nothing_that_varies():
         ("size.x", "no key 'size.x'"),
         ("", "no key ''"),
         ("bodies.arm.at.2", "bodies.arm.at has 0, 1"),
-        ("mechanism", "mechanism cannot vary: it says what the study is of"),
+        ("mechanism", "mechanism cannot vary: it states what the study is of"),
         ("format", "format cannot vary"),
-        ("units", "units cannot vary: it says what results are shown in"),
+        ("units", "units cannot vary: it states what results are shown in"),
         ("study.seed", "study.seed cannot vary"),
         ("optimise.seed", "optimise.seed cannot vary"),
         ("table", "table is a table or a file, not one value; name a key in it"),
@@ -231,7 +231,7 @@ def test_too_many_cases(monkeypatch):
 
 def test_very_many_cases_want_a_yes(monkeypatch):
     monkeypatch.setattr(sweeping, "MANY", 9)
-    with pytest.raises(InputError, match=r"^10 cases are more than 9; say --yes if you mean it, or take fewer levels or samples$"):
+    with pytest.raises(InputError, match=r"^10 cases are more than 9; give --yes to confirm, or take fewer levels or samples$"):
         dw.sweep(SPEC, LEVELS, on="serial", confirmed=False)
     assert len(dw.sweep(SPEC, LEVELS, on="serial")) == len(dw.sweep(SPEC, {"size": LEVELS["size"]}, on="serial", confirmed=False)) + 5 == 10
 
@@ -242,11 +242,11 @@ def test_very_many_cases_want_a_yes(monkeypatch):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("size", "--vary wants KEY=FROM:TO:STEPS"),
+        ("size", "--vary takes KEY=FROM:TO:STEPS"),
         ("=1 mm", "got '=1 mm'"),
         ("size=", "got 'size='"),
         ("", "KEY=+-TOLERANCE; got ''"),
-        ("size=1 mm:2 mm:3:log:5", "--vary wants KEY="),
+        ("size=1 mm:2 mm:3:log:5", "--vary takes KEY="),
         ("size=1 mm:2 mm:0", "the number of steps must be a whole number from 1 up, got '0'"),
         ("size=1 mm:2 mm:x", "whole number from 1 up, got 'x'"),
         ("size=1 mm:2 mm:-3", "got '-3'"),
@@ -254,9 +254,9 @@ def test_very_many_cases_want_a_yes(monkeypatch):
         ("size=1 mm:2 mm:", "got ''"),
         ("size=1 mm:2 mm:3:lin", "--vary size=1 mm:2 mm:3:lin: behind the steps only :log can stand, got 'lin'"),
         ("size=gauss(1 mm, 2 mm)", "no distribution is called 'gauss'; known: normal, uniform, triangular"),
-        ("size=normal(1 mm)", "normal wants (mean, sigma), got 1 numbers"),
-        ("size=uniform(1 mm, 2 mm, 3 mm)", "uniform wants (lower, upper), got 3 numbers"),
-        ("size=triangular(1 mm, 2 mm)", "triangular wants (lower, mode, upper), got 2 numbers"),
+        ("size=normal(1 mm)", "normal takes (mean, sigma), got 1 numbers"),
+        ("size=uniform(1 mm, 2 mm, 3 mm)", "uniform takes (lower, upper), got 3 numbers"),
+        ("size=triangular(1 mm, 2 mm)", "triangular takes (lower, mode, upper), got 2 numbers"),
         ("size=normal(1 m,1 m,1 m,1 m,1 m)", "got 5 numbers"),
     ],
 )
@@ -511,7 +511,7 @@ def test_another_version_of_the_program_does_not_go_on(study, monkeypatch):
 
 def test_a_worker_of_another_version_is_refused():
     task = evaluation.case_task(with_variation(SPEC, LEVELS), ("size",))._replace(version="99.1")
-    with pytest.raises(InputError, match="drivewright 99.1 asks and .* would answer; install the same version on all workers"):
+    with pytest.raises(InputError, match="drivewright 99.1, and this worker has .*; install the same version on all workers"):
         evaluation.evaluate(task, 0, {"size": np.array([1e-3])})
 
 
@@ -596,7 +596,7 @@ def full(after, monkeypatch, what):
     monkeypatch.setattr(*{"part": (Path, "write_bytes"), "force": (atomic, "force")}[what], failing)
 
 
-SAFE = r"finished before is safe\. Make room or mend the disk, and give the same"
+SAFE = r"finished before is safe\. Free space on the disk, or repair it, and give the same"
 FULL = rf"S: cannot be written: .*(No space left|disk is full).*{SAFE}"
 
 
@@ -709,7 +709,7 @@ def test_a_very_long_reason_is_cut(monkeypatch):
         ),
         (["--vary", "joint.rolling_radius=1:2:3"], 'study.vary.0.lower: unit missing: a length, e.g. "1 mm"'),
         ([], "study.vary: choose at least one parameter to vary"),
-        (["--vary", "joint.rolling_radius"], "--vary wants KEY=FROM:TO:STEPS"),
+        (["--vary", "joint.rolling_radius"], "--vary takes KEY=FROM:TO:STEPS"),
         (["--vary", "links=80,82", "--sample", "5"], "--sample 5: nothing has a distribution"),
         (["--vary", "links=80,82", "--only", "mesh"], "no analysis is called 'mesh' (did you mean 'meshing'?)"),
         (["--points", "none.csv"], "there is no file"),

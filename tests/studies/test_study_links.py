@@ -212,7 +212,7 @@ def test_no_remark_where_the_spec_agrees(text):
 @pytest.mark.parametrize(
     ("vary", "words"),
     [
-        ({"offset": linked("2 size")}, "study.vary.0.link: wants NUMBER * KEY + QUANTITY, such as"),
+        ({"offset": linked("2 size")}, "study.vary.0.link: must be NUMBER * KEY + QUANTITY, such as"),
         ({"offset": linked("2 * size-3 mm")}, "a minus behind a key needs a blank on its left"),
         ({"ratio": linked("2 * ratio-3")}, "a minus behind a key needs a blank on its left"),
         ({"offset": linked("2 * sise")}, "study.vary.0.link: this spec has no key 'sise' (did you mean 'size'?)"),
@@ -257,7 +257,7 @@ def test_relations_that_are_none(vary, words):
 
 def test_a_word_among_levels_has_no_multiple(gears, tmp_path):
     vary = {"bearings.A.radial_stiffness": ["rigid", "1e8 N/m"], "bearings.B.radial_stiffness": linked("2 * bearings.A.radial_stiffness")}
-    with pytest.raises(SpecError, match=r"study\.vary\.1\.link: .*wants numbers, but 'rigid' is among the values there"):
+    with pytest.raises(SpecError, match=r"study\.vary\.1\.link: .*takes numbers, but 'rigid' is among the values there"):
         make_plan(with_variation(gears, vary))
     with pytest.raises(SpecError, match=r"study\.vary\.0\.also\.0: .*'rigid'"):
         make_plan(with_variation(gears, {"bearings.A.radial_stiffness + -bearings.B.radial_stiffness": ["rigid"]}))
@@ -398,3 +398,16 @@ def test_one_follower_needs_no_list_and_a_relation_may_begin_with_its_sign(tmp_p
         path.write_text(GEARS + vary + text, encoding="utf-8")
         columns.append(make_plan(dw.load(path)).cases(0, 3)["gears.wheel.torque"].tolist())
     assert columns[0] == columns[1] == columns[2] == pytest.approx([-20.0, -30.0, -40.0])
+
+
+def test_a_follower_with_a_minus_cannot_be_followed():
+    vary = {"size + -offset": ["1 mm"], "parts.0.width": linked("2 * offset")}
+    with pytest.raises(SpecError, match=r"study\.vary\.1\.link: offset follows another key itself"):
+        make_plan(with_variation(SPEC, vary))
+
+
+@pytest.mark.parametrize(("width", "is_told"), [("8.0000001 mm", True), ("8.000000001 mm", False), ("0 mm", True)])
+def test_a_remark_where_the_spec_differs_by_more_than_a_part_in_a_thousand_million(width, is_told):
+    spec = SPEC.replace({"parts.right.width": width})
+    plan, _ = columns({"parts.left.width": ["1 mm"], "parts.right.width": linked("2 * parts.left.width")}, spec)
+    assert bool(plan.remarks) is is_told

@@ -42,8 +42,8 @@ def test_points_are_the_same_floats_as_levels(tmp_path, unit):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("size [mm],size [mm]\n1,2\n", "column 'size' is there twice; give it once"),
-        ("size [mm],ratio,size [m]\n1,2,3\n", "column 'size' is there twice"),
+        ("size [mm],size [mm]\n1,2\n", "column 'size' occurs twice; give it once"),
+        ("size [mm],ratio,size [m]\n1,2,3\n", "column 'size' occurs twice"),
         ("count\n100000000000000000000\n", "wants a whole number"),
         ('"si\nze [mm]"\n1\n', "has a line break in the heading"),
         ('"si\nze [mm]"\n1\n', "has a line break in the heading"),

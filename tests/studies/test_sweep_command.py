@@ -386,7 +386,7 @@ def test_many_cases_want_yes(toy, tmp_path, monkeypatch, capsys):
     monkeypatch.setattr("drivewright.studies.sweeps.MANY", 3)
     arguments = [toy, "--vary", "count=1,2,3,4", "--out", tmp_path / "S"]
     assert command(*arguments) == 2 and not (tmp_path / "S").exists()
-    assert "4 cases are more than 3; say --yes" in capsys.readouterr().err
+    assert "4 cases are more than 3; give --yes" in capsys.readouterr().err
     assert command(*arguments, "--yes") == 0
 
 
@@ -426,7 +426,7 @@ def test_ctrl_c_keeps_what_was_finished_and_the_same_command_goes_on(toy, tmp_pa
     process.send_signal(signal.SIGINT)
     out, err = process.communicate(timeout=120)
     assert process.returncode == 130 and "Traceback" not in err and out == ""
-    assert "interrupted; what was finished before is kept, and the same command goes on" in err
+    assert "interrupted; what was finished before is kept, and the same command continues" in err
     half = dw.open_study(folder)
     assert 0 < len(half) < 60 and f"{len(half)} of 60 cases" in err and not half.complete and half.counts == {"complete": len(half)}
     stamps = {name: (folder / "parts" / name).stat().st_mtime_ns for name in acknowledged(folder)}

@@ -90,7 +90,7 @@ def test_a_scheduler_that_goes_away_is_told_and_what_was_done_is_kept(tmp_path):
             cluster.close()
 
     levels = {"joint.rolling_radius": dw.linspace("1.0 mm", "1.6 mm", 4000)}
-    with pytest.raises(InputError, match="scheduler has gone away; every case that was finished before is kept"):
+    with pytest.raises(InputError, match="scheduler has stopped; every case that was finished before is kept"):
         sweep(chain(), levels, out=tmp_path / "S", on=cluster.scheduler_address, progress=away)
     assert 3 <= len(dw.open_study(tmp_path / "S")) < 4000
 
@@ -103,7 +103,7 @@ def test_nobody_at_an_address_is_told(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("on", "words"), [("local:0", "number of workers from 1 up"), ("local:x", "number of workers"), ("here", "is no place to compute")]
+    ("on", "words"), [("local:0", "number of workers from 1 up"), ("local:x", "number of workers"), ("here", "is not a place to compute")]
 )
 def test_a_place_that_is_none_is_refused(on, words):
     with pytest.raises(InputError, match=words):

@@ -273,7 +273,7 @@ def test_a_port_that_is_taken(here, capsys):
 @pytest.mark.parametrize("host", ["127.0.0.1", "0.0.0.0"])
 def test_a_token_that_could_be_guessed(capsys, token, host):
     code, said = refused(capsys, "--host", host, "--port", "0", "--token", token)
-    assert code == 2 and f"--token has {len(token)} characters; it wants at least 16" in re.sub(r"\s+", " ", said)
+    assert code == 2 and f"--token has {len(token)} characters; it needs at least 16" in re.sub(r"\s+", " ", said)
 
 
 @pytest.mark.parametrize("options", [("--host", "192.0.2.1"), ("--port", "70000"), ("--port", "-1"), ("--host", "no.such.host.invalid")])

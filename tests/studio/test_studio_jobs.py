@@ -113,7 +113,7 @@ def test_sensitivity_stays_within_limits_and_says_what_cannot_change_alone():
     cam = design("disc_cam")
     answer, _ = asked("sensitivity", cam, locks=CAM_KEPT[1:], share=0.02, on="serial")
     told = {failure["key"]: failure["text"] for failure in answer["failed"]}
-    assert "sum to 358.2 deg" in told["programme.0.angle"]
+    assert "sum to 358.2°" in told["programme.0.angle"]
     angle = next(target for target in answer["targets"] if target["name"] == "check.pressure_angle")
     assert "programme.0.angle" in angle["failed"]
     # The offset is 0: its step is 2 % of the largest length beside it, and counts as 2 per cent.
@@ -302,7 +302,7 @@ def test_a_search_without_anything_to_change_says_so():
     with pytest.raises(SpecError, match="every unknown is locked .*so nothing may change; unlock one"):
         asked("optimise", pusher, locks=keys)
     assert len(pusher.tables["optimise"]["unknowns"]) == len(keys)  # the design itself is as it was
-    with pytest.raises(SpecError, match=r"(?s)does not say what may change and what is wanted.*optimise\.unknowns"):
+    with pytest.raises(SpecError, match=r"(?s)Choose the parameters to vary and an objective.*optimise\.unknowns"):
         asked("optimise", design("four_bar"))
 
 

@@ -116,7 +116,7 @@ def test_nothing_beside_the_print_is_not_compared():
     assert (nothing.verdict, nothing.deviation, nothing.deviation_text()) == (NOT_COMPARED, None, "")
     assert (row(None).verdict, row(None).deviation_text()) == (NOT_COMPARED, "")
     page = validation.page([Source("mine", "A book", lambda: [nothing])])
-    assert "| quantity | table 1 | published table | 50.22 deg |  |  | not compared [1] |" in page
+    assert "| quantity | table 1 | published table | 50.22° |  |  | not compared [1] |" in page
     assert "- [1] From the print alone: no evidence. A mesh of others." in page
 
 
@@ -277,6 +277,6 @@ def test_page_numbers_each_remark_once():
     rows = [row(1.0, note="Odd."), row(50.22 * DEGREE), row(2.0, note="Odd.", assumed="a size")]
     page = validation.page([Source("mine", "A book", lambda: rows, ("A fault.",))])
     assert page.count("[1]") == 3 and "[2]" not in page
-    assert "| quantity | table 1 | published table | 50.22 deg | 57.2958 deg | +7.08 deg | differs, open [1] |" in page
-    assert "| 50.22 deg | 50.22 deg | +0 deg | agrees |" in page
+    assert "| quantity | table 1 | published table | 50.22° | 57.2958° | +7.08° | differs, open [1] |" in page
+    assert "| 50.22° | 50.22° | +0° | agrees |" in page
     assert "- [1] Odd." in page and "- Assumed: a size." in page and "- Erratum: A fault." in page

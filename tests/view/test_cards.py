@@ -90,3 +90,48 @@ def test_the_style_has_both_themes_and_stays_within_the_card():
     assert all(f"--{role}: {theme};" in style for role, pair in ROLES.items() for theme in pair)
     rules = re.findall(r"(?:^|\})\s*([^{}]+)\{", style)
     assert rules and all(cards.CARD in selector for rule in rules for selector in rule.split(","))
+
+
+# -- pieces of a card ----------------------------------------------------------------------------------------------------------
+
+
+def test_every_text_of_a_table_and_of_notes_is_escaped():
+    page = cards.table([("<i>", "<b>")], ("<u>", "x"), "tc") + cards.notes(["<q>"]) + cards.folded("<s>", "block")
+    assert re.findall(r"<(?:i|b|u|q|s)>", page) == []
+    assert [text in page for text in ("&lt;i&gt;", "&lt;b&gt;", "&lt;u&gt;", "&lt;q&gt;", "&lt;s&gt;")] == [True] * 5
+
+
+def test_numbers_stand_to_the_right_under_their_head_and_columns_without_a_kind_are_texts():
+    page = cards.table([("a", "1.5", "x_y", "last")], ("A", "B", "C", "D"), "tnc")
+    assert page.count('<th class="n">B</th>') == 1 and page.count('class="n"') == 2
+    assert '<td class="n">1.5</td>' in page and "<td><code>x_<wbr>y</code></td><td>last</td>" in page and "<th>D</th>" in page
+
+
+def test_signs_have_the_colours_of_their_meaning():
+    page = cards.table([("✓", "it holds"), ("✗", "it does not")])
+    assert '<td class="pass">✓</td><td>it holds</td>' in page and '<td class="fail">✗</td><td>it does not</td>' in page
+
+
+def test_what_is_empty_leaves_no_trace():
+    assert [cards.table([], ("A",)), cards.notes([]), cards.folded("All", ""), cards.beside("", "")] == [""] * 4
+    assert cards.beside("", "x") == '<div class="side">x</div>'
+
+
+def test_a_picture_brings_no_rules_for_the_page():
+    page = cards.figure('<svg xmlns="x"><style type="text/css">*{stroke: red}</style><!-- note --><path/></svg>', "a", 300)
+    assert "stroke: red" not in page and "note" not in page and "<path/>" in page and "width: 300px" in page
+
+
+@pytest.mark.parametrize(("more", "is_drawn"), [(0, True), (1, False)])
+def test_a_picture_is_drawn_up_to_the_largest_number_of_characters(more, is_drawn):
+    frame = len(cards.figure("<svg></svg>", "a", 300)) - len('<figure style="width: 300px"></figure>')
+    letters = "x" * (cards.LARGEST_FIGURE - frame + more)
+    assert bool(cards.figure(f"<svg>{letters}</svg>", "a", 300)) is is_drawn
+
+
+def test_a_page_that_is_not_dark_gets_the_light_colours():
+    rules = dict(re.findall(r"(?:^|\})\s*([^{}]+?)\s*\{([^{}]*)", cards.style_sheet()))
+    light, dark = ROLES["surface"]
+    assert f"--surface: {light};" in rules[cards.RULE]
+    (rule,) = (rule for selectors, rule in rules.items() if "vscode-dark" in selectors)
+    assert f"--surface: {dark};" in rule and f"--surface: {light};" not in rule

@@ -31,7 +31,7 @@ from drivewright.errors import InputError
 FunctionT = TypeVar("FunctionT", bound=Callable[..., Any])
 KindT = TypeVar("KindT", bound=type)
 _generics = []
-_untold = []  # what numba is told when it is imported: generics, and classes that kernels get by reference
+_untold = []  # what is registered with numba when it is imported: generics, and classes that kernels get by reference
 _warmers = []
 
 

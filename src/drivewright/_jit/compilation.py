@@ -1,4 +1,4 @@
-"""What a first run waits for, in words: which kernels are compiled, how many there usually are, and about how long it still takes."""
+"""Progress of compilation as text: which kernels are compiled, how many a kind usually needs, and about how long it still takes."""
 
 import time
 import tomllib
@@ -18,7 +18,7 @@ _work: list[Callable[[], bool]] = []  # what there is to do while another proces
 
 @contextmanager
 def watched_by(watcher: Watcher) -> Iterator[None]:
-    """Within the block the watcher is told of every kernel that Python calls for the first time."""
+    """Within the block the watcher is called for every kernel that Python calls for the first time."""
     _watchers.append(watcher)
     try:
         yield

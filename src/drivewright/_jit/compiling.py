@@ -60,7 +60,7 @@ class Linked(Lowered):
             self._final_module.link_in(library._get_module_for_linking(), preserve=True)
         for function in self._final_module.functions:
             if not function.is_declaration and function.linkage == llvm.Linkage.linkonce_odr:
-                function.linkage = "internal"  # nobody else calls it: what is called once is inlined, what never is goes
+                function.linkage = "internal"  # no other module calls it: inlined if called once, removed if never
         self._final_module.data_layout = self._codegen._data_layout
         passes, builder = self._codegen._module_pass_manager()  # numba's first round is for counts of references, which are few here
         passes.run(self._final_module, builder)

@@ -148,7 +148,7 @@ def _write(file, result):
     from numba.core.serialize import dumps
 
     library, function, environment, signature, *rest = result._reduce()
-    rest[2] = ""  # an annotated listing, which nobody reads
+    rest[2] = ""  # an annotated listing, which is not used
     code = dumps((library, function, environment, signature, *rest))
     with atomic.replacing(file) as temporary:
         temporary.write_bytes(hashlib.sha256(code).digest() + code)

@@ -1,4 +1,4 @@
-"""How kernels get a NamedTuple of arrays: as one pointer to its members, not as hundreds of loose words.
+"""How kernels get a NamedTuple of arrays: as one pointer to its members, not as hundreds of separate arguments.
 
 numba hands over a tuple by its leaves: some forty arrays of seven words each in every call, and as many in every variable that holds the
 tuple.  That is what compiling a kernel of a mechanism was spent on.  A class under `by_reference` is laid out once, where Python calls

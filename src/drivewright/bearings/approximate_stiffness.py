@@ -102,7 +102,7 @@ def _check(force, count, size, contact_angle):
     if not np.all(np.abs(contact_angle) < np.pi / 2):
         worst = np.degrees(np.max(np.abs(contact_angle)))
         raise InputError(
-            f"bearing: the contact angle must lie below 90 deg, got {worst:g} deg (the formulas want radians); "
+            f"bearing: the contact angle must lie below 90°, got {worst:g}° (the formulas take radians); "
             "a thrust bearing has no radial stiffness."
         )
 

@@ -1,4 +1,4 @@
-"""Boundary dimensions and clearance classes of metric rolling bearings by series and bore, from tables that are read when first asked."""
+"""Boundary dimensions and clearance classes of metric rolling bearings by series and bore, from tables, read at the first look-up."""
 
 import tomllib
 from functools import cache

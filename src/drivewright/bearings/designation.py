@@ -117,7 +117,7 @@ def _angle(text, suffix):
     if not found:
         raise InputError(
             f"bearing {text!r}: an angular-contact bearing needs the letters of its contact angle, which makers omit for different "
-            "angles: C 15 deg, AC or E 25 deg, A 30 deg, B 40 deg, e.g. 7208B"
+            "angles: C 15°, AC or E 25°, A 30°, B 40°, e.g. 7208B"
         )
     return ANGLES[found[1]], suffix[found.end() :]
 

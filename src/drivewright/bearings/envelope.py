@@ -81,8 +81,7 @@ def _refuse_other_angle(envelope: Envelope) -> None:
     least, most = ANGLE_LIMITS[envelope.type]
     if not least <= np.degrees(envelope.contact_angle) <= most + 1e-9:
         raise SpecError(
-            f"{np.degrees(envelope.contact_angle):.4g} deg is outside the {least} to {most} deg of {envelope.type} bearings",
-            key="contact_angle",
+            f"{np.degrees(envelope.contact_angle):.4g}° is outside the {least} to {most}° of {envelope.type} bearings", key="contact_angle"
         )
 
 

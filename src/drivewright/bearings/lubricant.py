@@ -103,8 +103,8 @@ def walther_viscosity(temperature: float, warm: float, hot: float) -> float:
     """Kinematic viscosity [m^2/s] at a temperature [K] of an oil that has `warm` at 40 and `hot` at 100 degC [m^2/s]."""
     if not warm > hot > 0 or not temperature > 0:
         raise InputError(
-            f"lubricant: needs a temperature above 0 K and a viscosity that falls from 40 to 100 degC, got {temperature:g} K and "
-            f"{1e6 * warm:g}, {1e6 * hot:g} mm^2/s."
+            f"lubricant: needs a temperature above 0 K and a viscosity that falls from 40 to 100 °C, got {temperature:g} K and "
+            f"{1e6 * warm:g}, {1e6 * hot:g} mm²/s."
         )
     low, high = (np.log10(np.log10(1e6 * each + 0.7)) for each in (warm, hot))
     slope = (low - high) / np.log10(HOT / WARM)

@@ -1,4 +1,4 @@
-"""What is told of ratings: those that are estimated from the dimensions, and those that contradict the bearing they are given for."""
+"""Findings on ratings: those that are estimated from the dimensions, and those that contradict the bearing they are given for."""
 
 from collections.abc import Iterator
 

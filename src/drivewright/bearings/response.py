@@ -1,7 +1,7 @@
-"""What every elastic support says of itself: the energy, force and stiffness that belong to a displacement.
+"""The response of an elastic support: energy, force and stiffness at a displacement.
 
 A rolling bearing, a linear spring and a table are the same kind of thing: a NamedTuple of parameters with one formula under
-@implements(response, ...).  Under a shaft, in a multibody system or alone, only this is asked of it.
+@implements(response, ...).  Under a shaft, in a multibody system or alone, only this interface is used.
 """
 
 from typing import Any

@@ -178,7 +178,7 @@ def solve(
         if len(held) or start is not None:
             raise InputError("bearing: held and start need a given force; at a given displacement there is nothing to solve.")
         return _state_of(bearing, law, _checked_vector(displacement, "displacement", "m, m, m, rad, rad"), 0)
-    return _state_of(bearing, law, *_solve_force(law, _checked_vector(force, "force", "N, N, N, N m, N m"), held, start))
+    return _state_of(bearing, law, *_solve_force(law, _checked_vector(force, "force", "N, N, N, N·m, N·m"), held, start))
 
 
 def _solve_force(law, force, held, start):
@@ -203,7 +203,7 @@ def _refuse(law, force, place):
     """Name the freedom that ran away."""
     sizes = measures(law)
     way = int(np.argmax(np.abs(place) * ([1.0] * 3 + [sizes.arm] * 2)))
-    name, unit, sign = FREEDOMS[way], "N" if way < 3 else "N m", "-" if place[way] < 0 else "+"
+    name, unit, sign = FREEDOMS[way], "N" if way < 3 else "N·m", "-" if place[way] < 0 else "+"
     raise InputError(
         f"bearing: nothing resists {sign}{name}, where {force[way]:.6g} {unit} of the force {_number_list(force)} acts: the inner ring "
         f"moves without limit. Reverse the force, hold it with held=({name!r},), or take a bearing that carries such a load."

@@ -94,7 +94,8 @@ def bearing_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     for name, table in tables.items():
         kind, _, bearing = name.partition(".")
         if kind == "elements":
-            yield Plot(name, f"Load distribution of bearing {bearing}", name, "angle", ("load",), style="polar")
+            meaning = "Load of each rolling element at its angular position, from x towards y."
+            yield Plot(name, f"Load distribution of bearing {bearing}", name, "angle", ("load",), style="polar", meaning=meaning)
             angled = ("contact_angle",) if any(table["contact_angle"].data) else ()
             columns = (*angled, "inner_pressure", "outer_pressure")
             yield Plot(f"contact.{bearing}", f"Contacts in bearing {bearing}", name, "angle", columns)

@@ -221,7 +221,7 @@ def _absent_lives(name, state, lives):
     if state.bearing.dynamic_rating is None:
         yield f"life of bearing {name!r} is absent: it has no dynamic_rating"
     elif state.bearing.contact_angle > STEEPEST:
-        yield f"basic life of bearing {name!r} is absent: a contact angle above 45 deg makes it a thrust bearing in ISO 281"
+        yield f"basic life of bearing {name!r} is absent: a contact angle above 45° makes it a thrust bearing in ISO 281"
     if contact_of(state.bearing) == "line" and not state.bearing.contact_angle and axial > SLIDING * radial:
         yield (
             f"bearing {name!r}: the axial force of {axial:.4g} N on a cylindrical roller bearing is carried by its ribs in sliding and "

@@ -1,4 +1,4 @@
-"""What keeps a follower on its cam where no spring does: a yoke, a groove, a second cam."""
+"""Form closure of a follower on its cam: a yoke, a groove, a second cam."""
 
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -34,7 +34,7 @@ def opposite_contact(cycle: Cycle, follower: TranslatingRound | TranslatingFlat,
 
 
 def crossovers(cycle: Cycle, required: Quantity) -> Any:
-    """How often per turn the force that the follower asks for changes its sign, so that the other flank or cam takes over.
+    """How often per turn the force that the motion of the follower requires changes its sign, so that the other flank or cam takes over.
 
     Of many designs a column (n, 1).
     """

@@ -19,7 +19,7 @@ Quantity: TypeAlias = Callable[[Jet, Jet], Jet]  # of the jets angle and lift
 
 
 class SampledJet(Jet):
-    """The lift at the samples of a `Cycle`: what is computed there is worth keeping, as one quantity after another is asked for."""
+    """The lift at the samples of a `Cycle`: what is computed there is worth keeping, as one quantity after another is computed."""
 
 
 class PiecewiseMotion(Protocol):

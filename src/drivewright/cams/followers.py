@@ -456,7 +456,7 @@ def _refuse_swing(psi, low, high):
     least, greatest = (extreme(np.atleast_1d(psi), axis=-1, keepdims=True) for extreme in (np.min, np.max))
     if refused := first_refused((least > low) & (greatest < high), least, greatest):
         raise DoesNotAssemble(
-            f"oscillating follower: the lever swings from {np.degrees(refused[0]):.6g} to {np.degrees(refused[1]):.6g} deg against the "
-            f"line of centres, but it drives only between {np.degrees(low):.6g} and {np.degrees(high):.6g} deg. Reduce the rise, or change "
+            f"oscillating follower: the lever swings from {np.degrees(refused[0]):.6g} to {np.degrees(refused[1]):.6g}° against the "
+            f"line of centres, but it drives only between {np.degrees(low):.6g} and {np.degrees(high):.6g}°. Reduce the rise, or change "
             "prime_radius or arm_length."
         )

@@ -1,4 +1,4 @@
-"""Forces of a cam drive: what the follower asks for, what the contact carries, what the shaft feels, what the spring must do.
+"""Forces of a cam drive: force that the motion of the follower requires, contact force, torque on the shaft, required spring force.
 
 Everything that acts on the follower is reduced to one coordinate x [m], its travel; x = reach * lift.  No friction.
 A `LoadPath` says where the load acts: on the follower itself, or at a valve that a second arm drives.

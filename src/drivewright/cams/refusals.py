@@ -1,4 +1,4 @@
-"""Refusals of one design, or of many at once: whether any is refused, the numbers of the first of them, nan for what does not exist."""
+"""Invalid designs, one or many at once: whether any is invalid, and the numbers of the first for its message; nan for missing values."""
 
 from typing import Any
 

@@ -52,7 +52,7 @@ class GuidedArm:
         if worst >= 1:
             room = self.length * (1 - np.sin(self.start))
             raise DoesNotAssemble(
-                f"valve: its lift is out of reach of the arm: {1e3 * self.length:.6g} mm long and at {np.degrees(self.start):.6g} deg at "
+                f"valve: its lift is out of reach of the arm: {1e3 * self.length:.6g} mm long and at {np.degrees(self.start):.6g}° at "
                 f"zero lift, it lifts the valve by less than {1e3 * room:.6g} mm. Lengthen valve.arm_length or lower valve.start_angle."
             )
         return height

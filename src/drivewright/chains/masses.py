@@ -1,4 +1,4 @@
-"""Masses, stiffness and damping of a chain drive as far as nobody has measured them: discs for sprockets, joints in line for strands."""
+"""Masses, stiffness and damping of a chain drive estimated where none are given: discs for sprockets, joints in line for strands."""
 
 from typing import NamedTuple
 

@@ -48,7 +48,7 @@ class Plate:
     def __post_init__(self):
         a = self.link.flank_angle
         if not 0 < a < np.pi / 4:
-            raise InputError(f"Plate: flank angle = {np.degrees(a):.4g} deg; it lies between 0 and 45 deg.")
+            raise InputError(f"Plate: flank angle = {np.degrees(a):.4g}°; it lies between 0 and 45°.")
         if not self.toe < self.crotch < 0 < self.back:
             raise InputError(
                 f"Plate: toe {self.toe * 1e3:.4g}, crotch {self.crotch * 1e3:.4g} and back {self.back * 1e3:.4g} mm; "

@@ -103,7 +103,7 @@ class RoundPins(NamedTuple):
             raise InputError(
                 f"RoundPins: turn = {self.turn:.4g} rad, back_turn = {self.back_turn:.4g} rad, rounding = "
                 f"{self.rounding:.4g}; "
-                "turn lies between 0 and pi, the others are not negative."
+                "turn lies between 0 and pi, back_turn and rounding are not negative."
             )
         reach = (2 + self.clearance) * link.radius
         if reach >= 0.5 * link.hole_pitch:
@@ -191,8 +191,8 @@ class RockerPins(NamedTuple):
         back, forward = self.limits(link)
         if forward < self.turn or back > 0:
             raise InputError(
-                f"RockerPins: the joint turns from {np.degrees(back):.4g} to {np.degrees(forward):.4g} deg only, 0 to "
-                f"{np.degrees(self.turn):.4g} deg are wanted. Take a larger back_radius, more clearance or less turn."
+                f"RockerPins: the joint turns from {np.degrees(back):.4g} to {np.degrees(forward):.4g}° only, 0 to "
+                f"{np.degrees(self.turn):.4g}° are required. Take a larger back_radius, more clearance or less turn."
             )
 
     def rod_center(self, link: Link, turn: ArrayLike) -> Floats:

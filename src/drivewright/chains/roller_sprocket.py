@@ -42,13 +42,13 @@ class RollerSprocket:
             )
         if not (0 < self.seat_angle < np.pi and self.flank_radius > 0):
             raise InputError(
-                f"RollerSprocket: seat_angle = {np.degrees(self.seat_angle):.4g} deg, flank_radius = "
+                f"RollerSprocket: seat_angle = {np.degrees(self.seat_angle):.4g}°, flank_radius = "
                 f"{self.flank_radius * 1e3:.4g} mm; "
-                "the angle lies between 0 and 180 deg, the radius is positive."
+                "the angle lies between 0 and 180°, the radius is positive."
             )
         if not self._lowest_tip < self.tip_radius < abs(self._flank_center) + self.flank_radius:
             raise InputError(
-                f"RollerSprocket: tip_radius = {self.tip_radius * 1e3:.5g} mm; the flank arcs reach from "
+                f"RollerSprocket: tip_radius = {self.tip_radius * 1e3:.5g} mm; it must lie on the flank arcs, which reach from "
                 f"{self._lowest_tip * 1e3:.5g} to "
                 f"{(abs(self._flank_center) + self.flank_radius) * 1e3:.5g} mm."
             )
@@ -159,9 +159,8 @@ def design_roller_sprocket(teeth: int, pitch: float, roller_diameter: float, spa
         raise InputError(f"roller sprocket: space = {space:.4g}; it lies between 0 (smallest tooth space) and 1 (largest).")
     if not (teeth >= 5 and 0 < roller_diameter < pitch):
         raise InputError(
-            f"roller sprocket: {teeth:g} teeth, pitch {pitch:.4g} m, roller {roller_diameter:.4g} m; at least 5 "
-            "teeth, and a roller smaller "
-            "than the pitch."
+            f"roller sprocket: {teeth:g} teeth, pitch {pitch:.4g} m, roller {roller_diameter:.4g} m; "
+            "give at least 5 teeth, and a roller smaller than the pitch."
         )
     least, greatest = (tooth_gap(teeth, roller_diameter, kind) for kind in ("least", "greatest"))
     standard = {

@@ -91,8 +91,8 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
 def _kept(arguments: list[str]) -> str:
     """What is left of an interrupted command."""
     if next((each for each in arguments if not each.startswith("-")), "") in RESUMABLE:
-        return "what was finished before is kept, and the same command goes on"
-    return "what was not written yet is lost, and the same command begins it anew"
+        return "what was finished before is kept, and the same command continues"
+    return "what was not written yet is lost, and the same command starts again"
 
 
 def _leave(code: int) -> NoReturn:

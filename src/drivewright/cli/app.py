@@ -1,4 +1,4 @@
-"""Commands.  They know the registry, the schema and the result; no kind of drive by name."""
+"""Commands.  They depend on the registry, the schema and the result, and on no kind of drive by name."""
 
 import json
 import os
@@ -146,7 +146,7 @@ def run(
     for path in specs:
         spec = _load(path, set_, units)
         with show.located(path):
-            read_letterhead(spec)  # a wrong logo is told before anything is computed
+            read_letterhead(spec)  # a wrong logo is refused before anything is computed
         with helping_hand(prepare_drawing, figures) as compute, show.progress(path.name, spec.mechanism) as step, show.located(path):
             with compiling_ahead(spec):
                 model = runner.build(spec)
@@ -163,8 +163,7 @@ def run(
 @app.command()
 def compare(
     specs: Annotated[
-        list[Path],
-        typer.Argument(help="spec files of one kind; the others are compared with the first; one alone with what --set makes of it"),
+        list[Path], typer.Argument(help="spec files of one kind; each is compared with the first; one alone with what --set makes of it")
     ],
     out: Annotated[Path | None, typer.Option("--out", help="folder to write; default out/<stem of the first spec>-compared")] = None,
     set_: SetOption = None,
@@ -310,7 +309,7 @@ def table(
     for notice in opened.notices:
         show.note(f"note: {notice}")
     if not opened.complete:
-        show.note(f"note: {len(opened)} of {len(opened.plan)} cases are there; the same sweep again goes on")
+        show.note(f"note: {len(opened)} of {len(opened.plan)} cases are computed; give the same command again to continue")
     system = show.system_of(opened.spec.units if units is None else units)
     with show.located(study):
         for form in _names(to):
@@ -418,7 +417,7 @@ def reproduce(
 @app.command()
 def studio(
     spec: Annotated[Path | None, typer.Argument(help="spec file (TOML) to begin with")] = None,
-    host: Annotated[str, typer.Option(help="address to listen at; others than this machine's own want a token")] = "127.0.0.1",
+    host: Annotated[str, typer.Option(help="address to listen at; others than this machine's own require a token")] = "127.0.0.1",
     port: Annotated[int | None, typer.Option(help="port; the first free one from 8123 unless given")] = None,
     token: Annotated[str, typer.Option(help="token for another host; a new one unless given")] = "",
     browser: Annotated[bool, typer.Option("--browser/--no-browser", help="open a browser")] = True,

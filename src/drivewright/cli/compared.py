@@ -1,4 +1,4 @@
-"""Specs run for a comparison, and what the terminal says of it."""
+"""Specs run for a comparison, and its output on the terminal."""
 
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager

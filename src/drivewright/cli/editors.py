@@ -1,7 +1,7 @@
 """A folder set up for editors that know TOML schemas: Even Better TOML of Visual Studio Code, and the taplo language server elsewhere.
 
 Schemas go to `.drivewright`, associations of the specs that are there to `.taplo.toml` and `.vscode/settings.json`.  What a person wrote
-there stays: settings are merged, and a file that cannot be merged is left alone and said what to add.
+there stays: settings are merged, and a file that cannot be merged is left alone, and the lines to add are printed.
 """
 
 import json
@@ -17,7 +17,7 @@ from drivewright.spec import read_document, schema
 
 FOLDER = ".drivewright"
 ASSOCIATIONS = "evenBetterToml.schema.associations"
-MARK = "# Written by `drivewright schema --install`, and written anew by it; rules of your own belong into another file."
+MARK = "# Written by `drivewright schema --install`, and overwritten by it; put rules of your own into another file."
 OURS = re.compile(rf"/{re.escape(FOLDER)}/[^/]+\.schema\.json$")  # addresses of schemas that this module wrote
 DEEPEST = 3  # folders below the one that is set up in which specs are looked for
 MOST = 2000  # files that are looked at

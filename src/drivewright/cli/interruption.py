@@ -31,7 +31,7 @@ def ending_signals() -> Iterator[list[int]]:
         for number in ENDING:
             if signal.getsignal(number) == signal.SIG_DFL:
                 before[number] = signal.signal(number, interrupt)
-    except ValueError:  # not the main thread: signals are somebody else's business
+    except ValueError:  # not the main thread: signals belong to the main thread
         pass
     try:
         yield received

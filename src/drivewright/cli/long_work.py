@@ -118,7 +118,7 @@ def counted(title: str, kind: str, noun: str, workers: int | None, on: str | Non
     """A callable step(done, total, what) for a command that counts; `noun` in the plural, `task` what is said at the first step.
 
     stderr says how many there are, after the first ones how long the rest takes, and then how far it is: in a bar at a terminal, in a
-    line every `EACH` seconds elsewhere.  What is compiled is said too.
+    line every `EACH` seconds elsewhere.  Compilation is reported too.
     """
     from drivewright._jit.compilation import Compilation, watched_by
 
@@ -182,7 +182,7 @@ class _Lines:
         show.note(f"{self.title}: {text}")
 
     def show(self, what: str) -> None:
-        """What is told with the next line."""
+        """Text that the next line adds."""
         self.what = what
 
     def close(self) -> None:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 MOST_REMARKS = 5  # notes of a run on one screen
 MAX_STUDY_ROWS = 12  # of a study's values
-MOST_ENDS = 3  # values whose inputs are told at both ends
+MOST_ENDS = 3  # values whose inputs are printed at both ends
 MOST_REASONS = 3  # why its cases are not complete
 LONGEST_REASON = 300  # characters
 ROUNDING = 1e-9  # of a limit: a margin that is none
@@ -98,12 +98,12 @@ def progress(title: str, kind: str = "") -> "Iterator[Progress]":
 
 def _seldom(title: str) -> "Progress":
     """step(done, total, what) that says how far it is once `SELDOM` seconds have passed since it last did, or since now."""
-    told = time.monotonic()
+    shown_at = time.monotonic()
 
     def step(done: int, total: int, what: str) -> None:
-        nonlocal told
-        if time.monotonic() - told >= SELDOM:
-            told = time.monotonic()
+        nonlocal shown_at
+        if time.monotonic() - shown_at >= SELDOM:
+            shown_at = time.monotonic()
             note(f"{title}: {', '.join(filter(None, [f'{done} of {total} done' if total else '', what]))}")
 
     return step
@@ -111,7 +111,7 @@ def _seldom(title: str) -> "Progress":
 
 @contextlib.contextmanager
 def compiling(kind: str) -> Iterator[None]:
-    """Within the block what is compiled for a kind of drive is said on stderr, line by line."""
+    """Within the block the compilation for a kind of drive is reported on stderr, line by line."""
     from drivewright._jit.compilation import watched_by
 
     lines = _Lines(kind)
@@ -128,7 +128,7 @@ class _Lines:
         from drivewright._jit.compilation import Compilation
 
         self.compilation = Compilation(kind, self._begun)
-        self.told, self.over, self.looking = -math.inf, threading.Event(), None
+        self.shown_at, self.over, self.looking = -math.inf, threading.Event(), None
         self.one_at_a_time = threading.Lock()
 
     def _begun(self) -> None:
@@ -145,8 +145,8 @@ class _Lines:
         """Say how far it is, if that is due."""
         with self.one_at_a_time:
             words, now = self.compilation.words, time.monotonic()
-            if words and max(self.compilation.seconds, self.compilation.left) > self.FIRST and now - self.told >= self.EACH:
-                self.told = now
+            if words and max(self.compilation.seconds, self.compilation.left) > self.FIRST and now - self.shown_at >= self.EACH:
+                self.shown_at = now
                 note(words)
 
     def close(self) -> None:
@@ -311,7 +311,7 @@ def advice(run: "Result[Any]") -> None:
         print(f"  to pass '{checks_by_name[each.check].display_label}': {advice_text(each, checks_by_name, run.units)}")
         print(f"      {options}")
     if run.advice_stopped:
-        note("note: the search for what to change stopped after its usual time; --advice goes on to the end")
+        note("note: the search for what to change stopped after its usual time; with --advice it runs to the end")
 
 
 def check_numbers(check: "Check", system: units.System) -> tuple[str, str, str]:

@@ -30,7 +30,9 @@ def conforming_half_angle(load: float, clearance: float, modulus: float) -> floa
         )
     wanted = modulus * clearance / load
     if _clearance(LEAST) < wanted:
-        raise InputError(f"conforming contact: a clearance of {clearance:g} m leaves no contact to speak of; take a Hertz line contact")
+        raise InputError(
+            f"conforming contact: a clearance of {clearance:g} m leaves a contact of negligible width; take a Hertz line contact"
+        )
     end: Any = brentq(lambda b: _clearance(b) - wanted, LEAST, 1.0, xtol=1e-15)
     return 2 * float(np.arctan(end))
 

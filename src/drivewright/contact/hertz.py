@@ -104,7 +104,7 @@ def relative_radii(radii1: tuple[Numbers, Numbers], radii2: tuple[Numbers, Numbe
     low, high = 0.5 * (total - difference), 0.5 * (total + difference)
     if np.any(low <= 1e-12 * np.abs(high)):
         raise InputError(
-            f"contact: radii {radii1} and {radii2} m give the least relative curvature {np.min(low):.4g} 1/m, which must be above 0. "
+            f"contact: radii {radii1} and {radii2} m give the smallest relative curvature {np.min(low):.4g} 1/m, which must be above 0. "
             "For 0 use line_contact; below 0 the bodies touch at more than one place."
         )
     return 1.0 / low, 1.0 / high

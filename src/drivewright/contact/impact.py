@@ -26,7 +26,7 @@ _BUILT_IN = {}
 
 
 class ImpactLaw(NamedTuple):
-    """`factor(e)` -> h for 0 < e <= 1; from e = `reliable` upwards the impact delivers what was asked within 10 %."""
+    """`factor(e)` -> h for 0 < e <= 1; from e = `reliable` upwards the impact gives the required restitution within 10 %."""
 
     name: str
     factor: Callable[[float], float]
@@ -50,7 +50,7 @@ def impact_law(name: str) -> ImpactLaw:
 
 
 def _law(name, reliable, source):
-    """Decorator: the formula e -> h of a built-in law, asked with e in (0, 1] only."""
+    """Decorator: the formula e -> h of a built-in law, called with e in (0, 1] only."""
 
     def keep(formula):
         def factor(restitution):
@@ -95,7 +95,7 @@ def _herbert_mcwhannell(e):
     return 6 * (1 - e) / ((2 * e - 1) ** 2 + 3)
 
 
-@_law("elastic", 0.91, "no loss, whatever is asked")
+@_law("elastic", 0.91, "no loss, whatever restitution is required")
 def _elastic(e):
     return 0.0
 
@@ -134,7 +134,7 @@ def kelvin_voigt_damping(restitution: float, stiffness: float, mass: float) -> f
     """The damping c [N s/m] with which F = max(K d + c d', 0) delivers the restitution e in a free impact of the mass m.
 
     The root of `kelvin_voigt_restitution`.  The textbooks' c = -2 ln e sqrt(K m/(pi^2 + ln^2 e)) belongs to a force that may pull until
-    the spring is relaxed; without the pull that c delivers more than was asked: 0.902 for 0.9, 0.550 for 0.5, 0.253 for 0.1.
+    the spring is relaxed; without the pull that c gives more than required: 0.902 for 0.9, 0.550 for 0.5, 0.253 for 0.1.
     """
     loss = -math.log(_bounce(restitution, "kelvin-voigt"))
     if not (stiffness > 0 and mass > 0):

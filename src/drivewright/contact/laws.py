@@ -46,7 +46,7 @@ def contact_law(wanted: str | Callable[[ContactParameters], Any], parameters: Co
     if not (isinstance(law, tuple) and hasattr(law, "_fields")) or type(law) not in formulas_of(normal_force):
         raise InputError(
             f"contact law {name!r}: its function returns a {type(law).__name__}; "
-            "it must return a NamedTuple whose class has a formula under @implements(normal_force, ...)."
+            "it must return a record whose class has a formula under @implements(normal_force, ...)."
         )
     law = _with_floats(law)
     if normal_force(law, 1.0, 0.0) != 0.0:

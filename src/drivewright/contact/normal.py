@@ -117,7 +117,7 @@ def hunt_crossley_chi(restitution: float, speed: float) -> float:
     if e > 0.9999:  # rounding would spoil the equation; the next term of the series is (1 - e)^3
         return 1.5 * (1 - e) * (2 - e) / speed
 
-    def balance(w):  # w = -ln(1 - x e): x comes too near to 1/e to be told from it when e is small
+    def balance(w):  # w = -ln(1 - x e): x comes too near to 1/e to be distinguished from it when e is small
         x = -np.expm1(-w) / e
         return x * (1 + e) - np.log1p(x) - w
 

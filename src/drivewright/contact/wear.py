@@ -46,7 +46,7 @@ def _check_history(time, angle, force, slip, bins):
             f"{time.shape}, {angle.shape}, {force.shape}, {slip.shape}."
         )
     if np.any(np.diff(time) < 0):
-        raise InputError(f"wear: time falls back after {time[np.argmax(np.diff(time) < 0)]:g} s; sort the samples.")
+        raise InputError(f"wear: time decreases after {time[np.argmax(np.diff(time) < 0)]:g} s; sort the samples.")
     if not (np.all(force >= 0) and np.all(np.isfinite(force)) and np.all(np.isfinite(slip)) and np.all(np.isfinite(angle[force > 0]))):
         raise InputError(
             "wear: forces must be finite and not below 0, slip and the angles of loaded samples finite; use 0 N where the bodies are apart."

@@ -74,6 +74,6 @@ def _refuse_standstill(jet, what):
     if np.any(still):
         place = np.broadcast_to(jet.d0, still.shape)[still][0]
         raise InputError(
-            f"{what}: the curve stands still (z' = 0) at {np.sum(still)} of {still.size} points, first at "
+            f"{what}: the curve does not move (z' = 0) at {np.sum(still)} of {still.size} points, first at "
             f"({place.real:.6g}, {place.imag:.6g}) m. A cusp or a rest has no tangent; leave those points out."
         )

@@ -98,7 +98,7 @@ def _refuse_gouge(outline, path, radius):
     if room[worst] < (1 - _GOUGE) * radius:
         x, y = places[worst] * 1e3
         raise InputError(
-            f"offset_outline: a cutter of radius {radius * 1e3:.4g} mm with its centre at ({x:.4g}, {y:.4g}) mm cuts "
+            f"a cutter of radius {radius * 1e3:.4g} mm with its centre at ({x:.4g}, {y:.4g}) mm cuts "
             f"{(radius - room[worst]) * 1e3:.3g} mm into another part of the outline. "
             f"The place is {(radius + room[worst]) * 1e3:.4g} mm wide; take a cutter of less diameter, or open it."
         )
@@ -119,7 +119,7 @@ def _dense(outline):
 
 def _too_tight(radius, place, left):
     raise InputError(
-        f"offset_outline: at ({place.real * 1e3:.4g}, {place.imag * 1e3:.4g}) mm the outline is concave towards the cutter with radius "
+        f"at ({place.real * 1e3:.4g}, {place.imag * 1e3:.4g}) mm the outline is concave towards the cutter with radius "
         f"{radius * 1e3:.4g} mm; "
         f"a cutter of radius {abs(left) * 1e3:.4g} mm cannot reach it. Take a smaller cutter, or round the place to a larger radius."
     )

@@ -1,4 +1,4 @@
-"""What an undercut profile costs: three lengths that are not the same.
+"""Loss of motion by an undercut profile, as three different lengths.
 
 The *profile gap* is the distance between the follower in its planned place and the real profile, square to it.  The *lost motion* is how
 far the follower sinks along its travel until it rests on the real profile; it slides on the way and may touch elsewhere than at the

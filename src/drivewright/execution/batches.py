@@ -173,6 +173,6 @@ def _check_executors(executors: Iterable[Executor]) -> None:
     """InputError where one of them can give nothing any more."""
     for fault in filter(None, (executor.fault() for executor in executors)):
         raise InputError(
-            f"{fault}; every case that was finished before is kept. Start it again and give the same command, or go on "
+            f"{fault}; every case that was finished before is kept. Start it again and give the same command, or continue "
             "without it (leave --on out)"
         )

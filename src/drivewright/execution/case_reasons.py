@@ -20,7 +20,7 @@ class ReasonGroup(NamedTuple):
     summary: str
 
     def text(self, longest: int | None = None) -> str:
-        """What is said of them: the message, or the summary with the first message in full; each at most so many characters."""
+        """Text for them: the message, or the summary with the first message in full; each at most so many characters."""
         if self.summary == self.first:
             return _cut(self.first, longest)
         return f"{_cut(self.summary, longest)} (the first: {_cut(self.first, longest)})"

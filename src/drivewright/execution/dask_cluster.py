@@ -44,7 +44,7 @@ class DaskExecutor:
     def fault(self) -> str:
         """Why nothing can come from it any more; empty while it works."""
         if self._client.status != "running":
-            return f"--on {self._on}: the scheduler has gone away"
+            return f"--on {self._on}: the scheduler has stopped"
         self.workers = _count_workers(self._client)
         self._last_seen = time.monotonic() if self.workers else self._last_seen
         workerless = time.monotonic() - self._last_seen

@@ -191,8 +191,8 @@ class PreparedTask:
     def __init__(self, task: CaseTask) -> None:
         if task.version != runner.versions()["drivewright"]:
             raise InputError(
-                f"drivewright {task.version} asks and {runner.versions()['drivewright']} would answer; install the same version "
-                "on all workers"
+                f"the study is computed by drivewright {task.version}, and this worker has {runner.versions()['drivewright']}; "
+                "install the same version on all workers"
             )
         self.task, self._alone = task, Lock()
         self.spec: MechanismSpec = from_document(task.tables)

@@ -1,4 +1,4 @@
-"""Who computes: this process, processes on this machine, or the workers of a Dask scheduler.  All call the same function."""
+"""Executors: this process, processes on this machine, or the workers of a Dask scheduler.  All call the same function."""
 
 import os
 import sys
@@ -100,14 +100,14 @@ def check_location(workers: int | None, on: str | None) -> None:
     if on is None:
         worker_count(workers)
     elif workers is not None:
-        raise InputError(f"--workers counts processes of this machine, and --on {on} says who computes; give one of them")
+        raise InputError(f"--workers counts processes of this machine, and --on {on} names the workers; give one of them")
     elif on.startswith("local:"):
         number = on.removeprefix("local:")
         if not number.isdecimal() or not int(number):
-            raise InputError(f"--on {brief(on)} wants a number of workers from 1 up, e.g. local:4")
+            raise InputError(f"--on {brief(on)} needs a number of workers from 1 up, e.g. local:4")
     elif on != "serial" and not on.startswith(SCHEMES):
         raise InputError(
-            f"--on {brief(on)} is no place to compute: serial, local:N for N Dask workers on this machine, or tcp://HOST:PORT of "
+            f"--on {brief(on)} is not a place to compute: give serial, local:N for N Dask workers on this machine, or tcp://HOST:PORT of "
             "a Dask scheduler; leave it out for processes on this machine"
         )
 
@@ -193,7 +193,7 @@ class ProcessExecutor:
         self._vain_starts = 0 if self.at_work else self._vain_starts + 1
         if self._vain_starts >= STARTS:
             raise InputError(
-                "a worker process does not start (its own message stands above, if it had one); mend that, or compute in this "
+                "a worker process does not start (its own message stands above, if it had one); fix that, or compute in this "
                 "process with --on serial. Every case that was finished before is kept"
             )
         self.close()

@@ -70,7 +70,7 @@ def key_kind(spec: Spec, key: str, place: str = "study.vary", given: Sequence[An
     Of a key that takes a number or a word, the values `given` for it decide.
     """
     if key.split(".")[0] in FIXED:
-        raise SpecError(f"{key} cannot vary: it says {FIXED[key.split('.')[0]]}", place)
+        raise SpecError(f"{key} cannot vary: it states {FIXED[key.split('.')[0]]}", place)
     exists, dimension = dimension_at(type(spec), key)
     if not exists or _missing_element(spec, key):
         raise SpecError(f"this spec has no key {key!r}{_missing_element(spec, key) or _nearest_keys(spec, key)}", place)

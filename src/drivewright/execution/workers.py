@@ -23,8 +23,8 @@ from drivewright.errors import DrivewrightError
 from drivewright.execution.processes import exit_with_parent, worker_environment
 
 MEMORY_SHARE = 0.4  # of the machine's memory that one process may take
-LEAST_MEMORY = 800_000_000  # bytes that it may take on the smallest machine: Python and our packages want a third of that
-PATIENCE = 60.0  # seconds that a call which nobody waits for may take to notice
+LEAST_MEMORY = 800_000_000  # bytes that it may take on the smallest machine: Python and our packages need a third of that
+PATIENCE = 60.0  # seconds that an abandoned call may take to notice
 PATIENCE_NOW = 0.3  # seconds that a call may take to clear up
 CLOSED = "the computing processes have been closed"
 PATIENCE_DEATH = 5.0  # seconds that the system may take to end a process
@@ -166,7 +166,7 @@ class Worker:
                     self._pipe.send(None)
                 await asyncio.wait([call.ended], timeout=patience)
         finally:
-            call.ended.add_done_callback(lambda future: future.exception())  # nobody waits for it any more
+            call.ended.add_done_callback(lambda future: future.exception())  # its result is no longer needed
             if not call.ended.done():
                 self.kill()
 
@@ -283,7 +283,7 @@ class WorkerPool:
             raise
 
     def _grant(self) -> None:
-        """Turns for those who wait, while there are workers."""
+        """Assign waiting calls to free workers."""
         while self._held.total() < self._limit:
             allowed = [
                 (self._held[owner], number)

@@ -94,7 +94,7 @@ def strain_at_life(life: ArrayLike, material: StrainLife, mean_stress: ArrayLike
         raise InputError(f"strain_at_life: lives must be above 0, got {np.min(life):.6g}.")
     if np.any(mean >= material.fatigue_strength):
         raise InputError(
-            f"strain_at_life: a mean stress of {np.max(mean) / 1e6:.6g} MPa leaves no strain to endure; "
+            f"strain_at_life: a mean stress of {np.max(mean) / 1e6:.6g} MPa leaves no strain amplitude; "
             f"it must stay below fatigue_strength, {material.fatigue_strength / 1e6:.6g} MPa."
         )
     elastic = (material.fatigue_strength - mean) / material.youngs_modulus * (2 * life) ** material.fatigue_strength_exponent

@@ -1,4 +1,4 @@
-"""What a material endures: the strain-life card, the uniform material law for when only the tensile strength is known, lives as text."""
+"""Fatigue of a material: strain-life card, the uniform material law for when only the tensile strength is known, lives as text."""
 
 import math
 import re
@@ -39,7 +39,7 @@ class StrainLife(Spec):
         if not c < b:
             raise SpecError(
                 f"{c:g} must lie below fatigue_strength_exponent, which is {b:g}: plastic strain falls faster with life than "
-                "elastic strain; swap the two?",
+                "elastic strain; exchange them if they were swapped",
                 key="fatigue_ductility_exponent",
             )
         return self

@@ -45,7 +45,9 @@ def plane_tensors(components: ArrayLike) -> Floats:
     """Tensors (..., 3, 3) of plane stress from (..., 3): xx, yy, xy; everything across the plane is 0."""
     components = np.asarray(components, dtype=float)
     if components.ndim < 1 or components.shape[-1] != 3:
-        raise InputError(f"plane_tensors: wants (..., 3), the last axis xx, yy, xy; got the shape {components.shape}.")
+        raise InputError(
+            f"plane_tensors: components must have the shape (..., 3), the last axis xx, yy, xy; got the shape {components.shape}."
+        )
     tensors = np.zeros((*components.shape[:-1], 3, 3))
     tensors[..., 0, 0], tensors[..., 1, 1] = components[..., 0], components[..., 1]
     tensors[..., 0, 1] = tensors[..., 1, 0] = components[..., 2]

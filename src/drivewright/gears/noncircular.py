@@ -36,8 +36,8 @@ class NonCircularPair(RollingPair):
         if not np.all(np.isfinite(probes)) or np.min(probes) <= 0:
             worst = int(np.argmin(np.where(np.isfinite(probes), probes, -np.inf)))
             raise InputError(
-                f"NonCircularPair: ratio = {probes[worst]:.4g} at driver angle {np.rad2deg(_PROBES[worst]):.4g} deg; gears that keep "
-                "rolling need a positive ratio everywhere. Raise its mean or lessen its swing."
+                f"NonCircularPair: ratio = {probes[worst]:.4g} at driver angle {np.rad2deg(_PROBES[worst]):.4g}°; gears that keep "
+                "rolling need a positive ratio everywhere. Raise its mean or reduce its swing."
             )
         self._refuse_no_period(1)
         self._refuse_open()
@@ -46,8 +46,8 @@ class NonCircularPair(RollingPair):
         miss = np.abs(self.ratio_jet(_PROBES + 2 * np.pi / repeats).d0 - self.ratio_jet(_PROBES).d0)
         if np.max(miss) > _CLOSED * np.max(self.ratio_jet(_PROBES).d0):
             raise InputError(
-                f"NonCircularPair: the ratio does not repeat after {360 / repeats:.5g} deg of the driver: it differs by {np.max(miss):.3g} "
-                f"at {np.rad2deg(_PROBES[np.argmax(miss)]):.4g} deg. A mean ratio of {self.lobes[0]}/{self.lobes[1]} needs that period."
+                f"NonCircularPair: the ratio does not repeat after {360 / repeats:.5g}° of the driver: it differs by {np.max(miss):.3g} "
+                f"at {np.rad2deg(_PROBES[np.argmax(miss)]):.4g}°. A mean ratio of {self.lobes[0]}/{self.lobes[1]} needs that period."
             )
 
     def _refuse_open(self):
@@ -56,7 +56,7 @@ class NonCircularPair(RollingPair):
         if abs(mean - n / m) > _CLOSED * mean:
             raise InputError(
                 f"NonCircularPair: the mean ratio is {mean:.9g}; the nearest fraction with up to {_LARGEST} lobes is {n}/{m}, so after {m} "
-                f"repeats the driven pitch curve fails to close by {np.rad2deg(2 * np.pi * (m * mean / n - 1)):.4g} deg. "
+                f"repeats the driven pitch curve fails to close by {np.rad2deg(2 * np.pi * (m * mean / n - 1)):.4g}°. "
                 f"Multiply the ratio by {n / m / mean:.9g}."
             )
         self._refuse_no_period(n)

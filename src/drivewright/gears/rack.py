@@ -42,7 +42,7 @@ class Rack:
 
     def __post_init__(self):
         if not 0 < self.pressure_angle < np.pi / 4:
-            raise InputError(f"Rack: pressure_angle = {self.pressure_angle:.4g} rad; it lies between 0 and pi/4 (20 deg is 0.349).")
+            raise InputError(f"Rack: pressure_angle = {self.pressure_angle:.4g} rad; it lies between 0 and pi/4 (20° is 0.349).")
         for name in ("addendum", "dedendum"):
             if not getattr(self, name) > 0:
                 raise InputError(f"Rack: {name} = {getattr(self, name):.4g} modules; it must be positive.")

@@ -1,4 +1,4 @@
-"""What cam, pin and wheel yield under one contact alone, for a lumped model whose bodies are elastic."""
+"""Compliance of cam, pin and wheel under one contact alone, for a lumped model whose bodies are elastic."""
 
 from typing import NamedTuple
 

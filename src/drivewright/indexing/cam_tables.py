@@ -142,7 +142,7 @@ def contact_count_table(angles: Floats, contacts: Sequence[CamContacts], drive: 
 def contact_map_array(angles: Floats, contacts: Sequence[CamContacts], drive: PinDrive) -> Array:
     """(angle, pin): 1 where the pin touches and is pushed forward, -1 backward, 0.5 neither way, 0 where it does not touch."""
     touching, way = contact_ways(contacts, drive)
-    names = (tuple(f"{np.degrees(angle):.6g} deg" for angle in angles), tuple(str(k) for k in range(touching.shape[1])))
+    names = (tuple(f"{np.degrees(angle):.6g}°" for angle in angles), tuple(str(k) for k in range(touching.shape[1])))
     return Array("-", ("angle", "pin"), names, np.where(touching, np.where(way == 0, 0.5, way), 0.0))
 
 
@@ -154,4 +154,4 @@ def angle_ranges(angles: Floats, mask: Bools, most: int = 6) -> str:
         f"{degrees[a]:.4g}" if b - a == 1 else f"{degrees[a]:.4g} to {degrees[b - 1]:.4g}"
         for a, b in zip(edges[::2], edges[1::2], strict=True)
     ]
-    return f"{', '.join(parts[:most])}{' ...' if len(parts) > most else ''} deg"
+    return f"{', '.join(parts[:most])}{' ...' if len(parts) > most else ''}°"

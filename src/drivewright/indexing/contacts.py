@@ -1,4 +1,4 @@
-"""What touches what: the contacts between one cam and the pins of the wheel at one position."""
+"""Contacts between one cam and the pins of the wheel at one position."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""What yields in a pin-wheel indexer, as plain data: pins, crank bearings, split shafts, their supports, gears, the wheel.
+"""The elastic parts of a pin-wheel indexer, as plain data: pins, crank bearings, split shafts, their supports, gears, the wheel.
 
 Two split shafts stand at (-spacing/2, 0) and (+spacing/2, 0); a gear on each meshes with the locked input gear on the wheel's axis,
 and their crank pins, one a cam, carry every cam in two holes.  What is None is rigid; without a gear the shafts are held where it
@@ -167,8 +167,8 @@ def _check_gear(gear: GearMesh, spacing: float) -> None:
         )
     if not 0 <= gear.pressure_angle < np.pi / 2:
         raise InputError(
-            f"drive train: the gears' pressure angle {np.degrees(gear.pressure_angle):.4g} deg must lie from 0 to below 90 deg "
-            "(it is taken in radians); 20 deg is usual."
+            f"drive train: the gears' pressure angle {np.degrees(gear.pressure_angle):.4g}° must lie from 0 to below 90° "
+            "(it is taken in radians); 20° is usual."
         )
 
 

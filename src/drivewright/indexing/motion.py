@@ -98,7 +98,7 @@ def refuse_stations(pins: int, stations: int) -> None:
     fitting = [str(number) for number in (pins - pins % least, pins + -pins % least) if number >= 3]
     dividing = ", ".join(str(number) for number in range(1, pins + 1) if pins % number == 0)
     raise InputError(
-        f"stations = {stations} does not divide pins = {pins}: a step of {360 / least:.4g} deg would pass {pins / least:.4g} pins, but it "
+        f"stations = {stations} does not divide pins = {pins}: a step of {360 / least:.4g}° would pass {pins / least:.4g} pins, but it "
         "must pass a whole number. "
         f"Take {' or '.join(fitting)} pins, or stations from {dividing}."
     )
@@ -139,16 +139,14 @@ def index_motion_of_rows(rows: TableLaw, divisions: int) -> IndexMotion:
     if rows.lift_unit == "m":
         raise InputError("the lift in the table is a length, but the wheel turns; give the wheel's angle: lift [deg].")
     if abs(first) > JOINT * step:
-        raise InputError(f"the wheel's angle in the table starts at {np.degrees(first):.9g} deg; start it at 0, the angle in the dwell.")
+        raise InputError(f"the wheel's angle in the table starts at {np.degrees(first):.9g}°; start it at 0, the angle in the dwell.")
     if abs(last - step) > ROWS * step:
         raise InputError(
-            f"the wheel's angle in the table ends at {np.degrees(last):.9g} deg, but a step of {divisions} stations is "
-            f"{np.degrees(step):.9g} deg. Scale the column, or change stations."
+            f"the wheel's angle in the table ends at {np.degrees(last):.9g}°, but a step of {divisions} stations is "
+            f"{np.degrees(step):.9g}°. Scale the column, or change stations."
         )
     if span > TURN * (1 + JOINT):
-        raise InputError(
-            f"the table ends at an input angle of {np.degrees(span):.9g} deg; a step takes at most one turn of the input, 360 deg."
-        )
+        raise InputError(f"the table ends at an input angle of {np.degrees(span):.9g}°; a step takes at most one turn of the input, 360°.")
     law_of_step = MotionLaw(rows.name, rows.function.scaled(height=1 / last))
     return IndexMotion(law_of_step, divisions, min(span, TURN))
 

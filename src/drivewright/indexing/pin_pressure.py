@@ -21,7 +21,7 @@ FORCE_COLUMNS = {
     "pressure": ("Pa", "Hertz pressure"),
 }
 """Unit and label of every column that a table of forces on pins or rollers may have."""
-WIDEST = 0.1  # half-width of a line contact over its relative radius, up to which it is small against the bodies, as Hertz's theory wants
+WIDEST = 0.1  # half-width of a line contact over its relative radius, up to which it is small against the bodies, as Hertz's theory assumes
 
 
 def relative_width(pressure: float, modulus: float) -> float:

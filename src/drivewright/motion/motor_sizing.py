@@ -1,4 +1,4 @@
-"""What a motor has to deliver over a repeated cycle: rms and peak torque, speed and power, and the inertia that it feels.
+"""What a motor has to deliver over a repeated cycle: rms and peak torque, speed and power, and the reflected inertia.
 
 The samples run over one whole cycle, the last one being the first a period later; they may be uneven, and two at one time are a jump.
 Means over time are by the trapezoidal rule, sum of w_i f_i with w_i = (t_{i+1} - t_{i-1})/2 over the period: exact to rounding for

@@ -20,7 +20,7 @@ from drivewright._typing import ArrayLike, Complexes, Floats, Ints, Numbers
 from drivewright.errors import InputError
 from drivewright.numerics.roots import bracketed_roots
 
-HIGHEST_ORDER = 6  # smoother than this is not told apart
+HIGHEST_ORDER = 6  # higher orders of continuity are not distinguished
 CLOSURE = 1e-9  # difference of two numbers that are meant to be the same, as part of their size
 SLACK = 1e-12  # an argument this far outside, relative to the whole interval, is rounding and is moved to the end
 
@@ -69,7 +69,7 @@ class Piecewise:
 
     def __call__(self, x: ArrayLike) -> Motion:
         x = np.asarray(x, dtype=float)
-        # At a break the piece to its right speaks.
+        # At a break the piece to its right is evaluated.
         return self.on_piece(np.clip(np.searchsorted(self.breaks, x, side="right") - 1, 0, self.count - 1), x)
 
     def on_piece(self, k: int | Ints, x: Numbers) -> Motion:

@@ -36,7 +36,7 @@ class Segment:
         if not isinstance(self.law, MotionLaw):
             raise InputError(f"segment: its law is {self.law!r}; give a MotionLaw, the name of one, or 'dwell'.")
         if not (math.isfinite(self.angle) and self.angle > 0):
-            raise InputError(f"segment {self.law.name!r}: its angle is {math.degrees(self.angle):.9g} deg; it must be positive and finite.")
+            raise InputError(f"segment {self.law.name!r}: its angle is {math.degrees(self.angle):.9g}°; it must be positive and finite.")
         if not math.isfinite(self.rise):
             raise InputError(f"segment {self.law.name!r}: its rise is {self.rise}; it must be finite.")
         self._refuse_rise()
@@ -177,14 +177,14 @@ def _refuse_angles(segments, cycle):
     if not segments:
         raise InputError("programme: it has no segment; give at least one.")
     if not (math.isfinite(cycle) and cycle > 0):
-        raise InputError(f"programme: its cycle is {math.degrees(cycle):.9g} deg; it must be positive and finite.")
+        raise InputError(f"programme: its cycle is {math.degrees(cycle):.9g}°; it must be positive and finite.")
     total = math.fsum(segment.angle for segment in segments)
     missing = math.degrees(cycle - total)
     if abs(cycle - total) > CLOSURE * cycle:
-        remedy = f"add a dwell of {missing:.9g} deg or lengthen a segment" if missing > 0 else "shorten a segment"
+        remedy = f"add a dwell of {missing:.9g}° or lengthen a segment" if missing > 0 else "shorten a segment"
         raise InputError(
-            f"programme: the angles of its segments sum to {math.degrees(total):.9g} deg, {abs(missing):.9g} deg "
-            f"{'less' if missing > 0 else 'more'} than the cycle of {math.degrees(cycle):.9g} deg; {remedy}."
+            f"programme: the angles of its segments sum to {math.degrees(total):.9g}°, {abs(missing):.9g}° "
+            f"{'less' if missing > 0 else 'more'} than the cycle of {math.degrees(cycle):.9g}°; {remedy}."
         )
 
 
@@ -195,9 +195,9 @@ def _refuse_tables(segments, levels, unit):
             continue
         if abs(span - segment.angle) > CLOSURE * segment.angle:
             raise InputError(
-                f"programme, segment {number}: its table ends at {math.degrees(span):.9g} deg, but the segment spans "
-                f"{math.degrees(segment.angle):.9g} deg; make the last angle of the table and the segment's angle equal, over a whole turn "
-                "by the first lift once more at its end."
+                f"programme, segment {number}: its table ends at {math.degrees(span):.9g}°, but the segment spans "
+                f"{math.degrees(segment.angle):.9g}°; make the last angle of the table and the segment's angle equal, over a whole turn "
+                "by repeating the first lift at the end."
             )
         first = float(segment.motion_law(0.0).s)
         if abs(first - level) > CLOSURE * np.max(np.abs([first, *levels])):
@@ -212,17 +212,17 @@ def _does_not_close(segments, gap, unit):
     """What an open cycle is off by, the rises that make it so, and a rise that would close it."""
     way = "above" if gap > 0 else "below"
     rises = [(number, segment.rise) for number, segment in enumerate(segments, 1) if segment.rise]
-    told = f"programme: the lift ends {_lift(abs(gap), unit)} {way} its start, and a closed cycle must end where it starts"
+    complaint = f"programme: the lift ends {_lift(abs(gap), unit)} {way} its start, and a closed cycle must end where it starts"
     if not rises:
-        return f"{told}; change the last lift of its table."
+        return f"{complaint}; change the last lift of its table."
     given = ", ".join(_lift(rise, unit) for _, rise in rises)
     number, rise = rises[-1]
     if math.isclose(rise, gap):
-        return f"{told}: its rises are {given}; as a dwell segment {number} closes it."
-    return f"{told}: its rises are {given}; with {_lift(rise - gap, unit)} in segment {number} it closes."
+        return f"{complaint}: its rises are {given}; as a dwell segment {number} closes it."
+    return f"{complaint}: its rises are {given}; with {_lift(rise - gap, unit)} in segment {number} it closes."
 
 
 def _lift(value, unit):
-    """A lift in the unit people read, in SI where nobody said whether it is a length or an angle."""
+    """A lift in the unit people read, in SI where it is not known whether it is a length or an angle."""
     factor, shown = display(unit) if unit else (1.0, "(SI)")
     return f"{value * factor:.9g} {shown}"

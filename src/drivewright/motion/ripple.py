@@ -1,4 +1,4 @@
-"""Do the rows of a table carry enough digits?  A spline goes through every one of them, rounding included.
+"""Whether the rows of a table carry enough digits: a spline passes through every one of them, rounding included.
 
 The last printed digit says how far each row may be off, evenly within half a step: rms q/sqrt(12).  `rounding` is what that makes of the
 jerk; `ripple` asks the rows themselves:

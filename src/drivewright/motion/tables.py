@@ -144,10 +144,10 @@ def missing_rows(angle: Floats) -> Iterator[str]:
     if not len(wide) or np.mean(np.abs(step - usual) <= ROUNDED * usual) < EVEN:
         return
     degrees = np.degrees(angle)
-    places = [f"{degrees[k]:.6g} to {degrees[k + 1]:.6g} deg" for k in wide[:MOST_NAMED]]
+    places = [f"{degrees[k]:.6g} to {degrees[k + 1]:.6g}°" for k in wide[:MOST_NAMED]]
     more = f" and {len(wide) - len(places)} more" if len(wide) > len(places) else ""
     yield (
-        f"rows of the table are missing from {', '.join(places)}{more}: elsewhere there is one every {math.degrees(usual):.4g} deg. "
+        f"rows of the table are missing from {', '.join(places)}{more}: elsewhere there is one every {math.degrees(usual):.4g}°. "
         "The lift there is that of the spline, not measured; give the missing rows, or check the motion there"
     )
 
@@ -165,8 +165,8 @@ def _refuse_rows(rows):
     refuse_disorder(np.degrees(rows.angle), rows.lift, rows.what, rows.places, "the angle in deg")
     if rows.angle[0] != 0:
         raise InputError(
-            f"{rows.what}, {rows.places[0]}: the angle starts at {math.degrees(rows.angle[0]):.9g} deg; "
-            f"it is counted from the start of the segment, so start at 0: take {math.degrees(rows.angle[0]):.9g} deg off every angle."
+            f"{rows.what}, {rows.places[0]}: the angle starts at {math.degrees(rows.angle[0]):.9g}°; "
+            f"it is counted from the start of the segment, so start at 0: take {math.degrees(rows.angle[0]):.9g}° off every angle."
         )
 
 

@@ -23,7 +23,7 @@ Motion
 Results
 `observe`       poses, rates, forces and powers at given states (`observed`); `record` those of a run; `measures` peaks and impact load.
 `reactions`     forces in the joints; `wrenches` what joints can transmit.
-`analyses`      what is asked of a simulated mechanism, as answers with values and tables.
+`analyses`      analyses of a simulated mechanism, as answers with values and tables.
 `drawing`, `link_plates`  outlines of bodies and plates for their manufacture.
 `warm`          compiles the kernels ahead of time.
 """

@@ -240,7 +240,7 @@ def _drives_apart(expanded, tree, system, q, work):
     for name, driven in zip(names[1:], others, strict=True):
         off = alone.coordinates.q[driven.coordinate] - work.coordinates.q[driven.coordinate]
         if abs(off) > CLOSED * system.sizes[driven.coordinate]:
-            how = f"{np.degrees(off):.4g} deg" if driven.coordinate in turning else f"{1e3 * off:.4g} mm"
+            how = f"{np.degrees(off):.4g}°" if driven.coordinate in turning else f"{1e3 * off:.4g} mm"
             places.append(f"joint {name!r} is {how} away from the start of its drive")
     return (
         f"the drives of joints {' and '.join(map(repr, names))} conflict at the start: with {names[0]!r} at the start of its drive, "
@@ -255,7 +255,7 @@ def _does_not_close(expanded, system, work):
     pair = [k for k in range(len(system.rows)) if system.rows[k].joint == row.joint]
     miss = np.linalg.norm(work.row_columns[0][pair])
     bodies = " and ".join(repr(name) for name in dict.fromkeys(joint.bodies))
-    how = f"{1e3 * miss:.4g} mm" if row.ex or row.ey or row.kind == DISTANCE else f"{np.degrees(miss):.4g} deg"
+    how = f"{1e3 * miss:.4g} mm" if row.ex or row.ey or row.kind == DISTANCE else f"{np.degrees(miss):.4g}°"
     return (
         f"joint {joint.name!r} does not close: a gap of {how} remains between bodies {bodies} at best. Check the lengths and axes, or "
         "give start angles closer to the intended assembly"

@@ -1,4 +1,4 @@
-"""Bodies and the points on them: frozen descriptions that know no solver.
+"""Bodies and the points on them: frozen descriptions, independent of any solver.
 
 Every body has a frame of its own; `Marker` is a point in that frame.  Angles count counter-clockwise.  SI units.
 The reserved body "ground" does not move; its frame is the world.

@@ -62,7 +62,7 @@ def lift_curve(file: Path) -> tuple[Curve, bool]:
     rows = read_table(file)
     if rows.lift_unit is None or not math.isclose(rows.angle[-1] - rows.angle[0], TURN, rel_tol=1e-9):
         raise SpecError(
-            f"the angle covers {math.degrees(rows.angle[-1] - rows.angle[0]):.6g} deg; give the cam's lift over 360 deg", file=str(file)
+            f"the angle covers {math.degrees(rows.angle[-1] - rows.angle[0]):.6g}°; give the cam's lift over 360°", file=str(file)
         )
     return _curve(rows.angle, _spline(file, rows.angle, rows.lift, 5, "periodic").c[::-1].T, TURN), rows.lift_unit == "rad"
 

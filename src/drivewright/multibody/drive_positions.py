@@ -1,4 +1,4 @@
-"""Where the drives of a mechanism stand, in words."""
+"""Positions of the drives of a mechanism as text."""
 
 import numpy as np
 
@@ -13,5 +13,5 @@ def drive_positions(assembly: Assembly, system: System, work: Work) -> list[str]
         value = driven.sign * work.coordinates.q[driven.coordinate]
         turning = any(link.turn == driven.coordinate for link in assembly.tree.links)
         angle, way = round(float(np.degrees(value)), 6) % 360, round(1e3 * float(value), 9) + 0.0  # no 360.00 deg, no -0 mm of rounding
-        positions.append(f"{drive.joint!r} at {angle:.2f} deg" if turning else f"{drive.joint!r} at {way:.4g} mm")
+        positions.append(f"{drive.joint!r} at {angle:.2f}°" if turning else f"{drive.joint!r} at {way:.4g} mm")
     return positions

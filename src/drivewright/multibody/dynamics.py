@@ -162,8 +162,8 @@ def validity_of_split(system: System, work: Work) -> float:
 
 @inner
 def contact_event(system: System, work: Work, index: int, t: float, y: Floats) -> None:
-    """A pin touches: remember the speed of approach.  It lets go, or is compressed anew without having let go: forget it.  Or a joint with
-    friction begins, or ceases, to slide.
+    """A pin comes into contact: store the speed of approach.  It loses contact, or is compressed again while in contact: discard it.  Or a
+    joint with friction begins, or ceases, to slide.
 
     y (states,) as in `loads.apply_forces`.
     """

@@ -1,4 +1,4 @@
-"""Friction that locks: joints press themselves fast, so that no force of the drives moves the mechanism.
+"""Self-locking friction: joint forces grow with the drive force, so that no force of the drives moves the mechanism.
 
 With all friction at the share s of what it is, the balance of `forces.sliding_friction` has a solution from s = 0 up to where its Jacobian
 becomes singular.  A share below 1 says how much less friction would let the mechanism move, and the Jacobian there, which joint it is.

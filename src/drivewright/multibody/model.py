@@ -1,4 +1,4 @@
-"""What a planar multibody system consists of: frozen descriptions that know no solver."""
+"""What a planar multibody system consists of: frozen descriptions, independent of any solver."""
 
 from dataclasses import dataclass
 

@@ -1,6 +1,6 @@
 """The record of a run: motion of chosen points, pins with play, energy and powers, over all recorded states.
 
-A run of a hundred turns has a million states; they are observed in chunks and only what is asked for is kept.
+A run of a hundred turns has a million states; they are observed in chunks and only what is required is kept.
 """
 
 from collections.abc import Mapping

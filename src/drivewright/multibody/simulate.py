@@ -67,7 +67,7 @@ class Leg(NamedTuple):
 
 @dataclass(frozen=True)
 class Run:
-    """A motion to the time `until` that was asked for: stretches one after the other, the impacts (time, number of the pin, speed of
+    """A motion up to the given time `until`: stretches one after the other, the impacts (time, number of the pin, speed of
     approach), with `advice` why it ended before, and the singular positions on the way."""
 
     assembly: Assembly
@@ -206,7 +206,7 @@ def _leg(system, t, y, end):
 
 
 def stops_at_folds(system: System, settings: Settings) -> bool:
-    """Whether a run ends in a singular position: where it was told to, or where ideal joints rub, whose forces have no limit there."""
+    """Whether a run ends in a singular position: where that was requested, or where ideal joints rub, whose forces have no limit there."""
     return settings.singular == "stop" or len(joints_with_friction(system)) > 0
 
 

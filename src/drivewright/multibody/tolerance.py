@@ -95,8 +95,8 @@ def _at_drive_angle(assembly, angle):
             start = system.driven[0].start
             stop = np.degrees(start + continuation.reached * (angle - start))
             raise DoesNotAssemble(
-                f"tolerances: the mechanism does not close beyond {stop:.2f} deg of the drive, on the way from "
-                f"{np.degrees(start):.2f} to {np.degrees(angle):.2f} deg. Give an angle within its range"
+                f"tolerances: the mechanism does not close beyond {stop:.2f}° of the drive, on the way from "
+                f"{np.degrees(start):.2f} to {np.degrees(angle):.2f}°. Give an angle within its range"
             )
     return system, work_at_state(system, 0.0 if angle is None else 1.0, y)
 

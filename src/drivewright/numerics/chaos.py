@@ -105,8 +105,8 @@ def _random_direction(scales, rng):
 
 def _left(growth, cycles):
     return SolverError(
-        f"largest_exponent: after {cycles} cycles the state or its twin is no longer finite, or so large that the separation drowns in "
-        "its rounding. Start nearer to the attractor, wrap an angle that grows, or correct the scales.",
+        f"largest_exponent: after {cycles} cycles the state or its twin is no longer finite, or so large that the separation is "
+        "below its rounding error. Start nearer to the attractor, wrap an angle that grows, or correct the scales.",
         partial=_running_mean(growth),
     )
 

@@ -1,4 +1,4 @@
-"""What an ensemble of runs says about a statistic: its estimate, a 95 % interval, and whether it had settled.
+"""A statistic of an ensemble of runs: its estimate, a 95 % interval, and whether it had settled.
 
 A chaotic run gives one draw of a distribution.  Its statistic is taken over windows of equal length (a turn, a revolution of the chain)
 in several runs, the members, that start differently and share nothing: `samples` (members, windows).  Windows of one member that follow

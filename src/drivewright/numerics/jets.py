@@ -194,6 +194,6 @@ def _refuse_standstill(x):
     still = slope == 0
     if np.any(still):
         raise InputError(
-            f"jet: the new variable stands still (x' = 0) at {np.sum(still)} of {still.size} points, first at x = {value[still][0]:.6g}. "
-            "A derivative by x does not exist there; leave those points out or keep the old variable."
+            f"jet: the new variable does not change (x' = 0) at {np.sum(still)} of {still.size} points, "
+            f"first at x = {value[still][0]:.6g}. A derivative by x does not exist there; leave those points out or keep the old variable."
         )

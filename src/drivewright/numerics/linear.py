@@ -1,4 +1,4 @@
-"""Which directions a matrix does not see, which of its columns are the most independent, and its inverse in least squares: by NumPy alone.
+"""Null space of a matrix, its most independent columns, and its inverse in least squares: by NumPy alone.
 
 scipy.linalg has the like; it takes as long to import as everything else in a small run of a mechanism.
 """

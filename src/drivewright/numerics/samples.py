@@ -1,4 +1,4 @@
-"""What a random sample says about a number: an estimate with its confidence interval, of cases drawn independently of each other.
+"""Estimates from a random sample: a value with its confidence interval, of cases drawn independently of each other.
 
 The intervals hold the true number with probability `LEVEL`; those of mean and standard deviation take the number to be normally
 distributed.  Formulas: Hahn & Meeker, Statistical Intervals (recalled), held by simulation in the tests of `studies.statistics`.

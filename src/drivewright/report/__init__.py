@@ -31,5 +31,6 @@ svgout           SVG drawings of flat parts in true millimetres, for laser cutte
 tabular          tables as CSV and Excel files in the units people read, with the unit of every column in its header
 thumbnails       the pictures that stand for a design: its scene, still and moving, or a plot of its run
 worked_examples  the worked examples: their specs, what each answers, and the pictures that stand for them
+value_groups     the values of a report under the analyses that computed them
 words            English texts of a report in another language
 """

@@ -19,8 +19,9 @@ from drivewright.report.form import ReportForm
 from drivewright.report.letterhead import read_letterhead
 from drivewright.report.localised import localised
 from drivewright.report.paper_figures import paper_svg
+from drivewright.report.value_groups import grouped_values
 from drivewright.report.words import Words, translated, words_of
-from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table
+from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
 from drivewright.units import Scale, System
@@ -37,11 +38,12 @@ LARGEST_ARRAY = 400  # entries: a larger one is only named; result.json has it
 
 
 class Picture(NamedTuple):
-    """A figure as SVG text, under the file name it gets."""
+    """A figure as SVG text, under the file name it gets; `meaning` is a sentence on what it shows, "" where the title is enough."""
 
     name: str
     title: str
     svg: str
+    meaning: str = ""
 
 
 class Views(NamedTuple):
@@ -82,6 +84,7 @@ class Sketch(NamedTuple):
     title: str
     draw: Callable[..., Any]
     arguments: tuple[Any, ...]
+    meaning: str = ""
 
 
 def pictures(result: Result[Any], seen: Views, compute: Map = map, language: str = "en", paper: bool = False) -> tuple[Picture, ...]:
@@ -97,11 +100,17 @@ def _sketches(result, seen):
         yield Sketch(f"scene-{frame.name}", sentence(frame.label), draw_scene, (scene, frame.name, [scene_phase(scene)], GHOSTS, system))
     for plot in drawable(result, seen.plots):
         try:
-            yield Sketch(f"plot-{plot.name}", plot.title, draw_panels, (panels(result, plot), _marks(result, plot, scene)))
+            yield Sketch(f"plot-{plot.name}", plot.title, draw_panels, (panels(result, plot), _marks(result, plot, scene)), caption(plot))
         except Exception as error:
             yield failing_sketch(f"plot-{plot.name}", plot.title, error)
     for drawing in seen.drawings:
         yield Sketch(f"drawing-{drawing.name}", sentence(drawing.title), draw_drawing, (drawing, system))
+
+
+def caption(plot: Plot) -> str:
+    """The sentence on what a plot shows, with its full stop."""
+    text = sentence(plot.meaning)
+    return text if not text or text.endswith(".") else f"{text}."
 
 
 def failing_sketch(name: str, title: str, error: Exception) -> Sketch:
@@ -118,10 +127,10 @@ def draw_sketch(spec: SpecLike, sketch: Sketch, told_in: tuple[str, str] = ("en"
 
     `spec` is what the reason speaks of; `told_in` are a language and a kind of drive, whose words are used."""
     words = words_of(*told_in)
-    sketch = sketch._replace(title=words(sketch.title))
+    sketch = sketch._replace(title=words(sketch.title), meaning=words(sketch.meaning))
     try:
         figure = localised(sketch.draw(*sketch.arguments), words, told_in[0])
-        return Picture(sketch.name, sketch.title, paper_svg(figure) if paper else svg(figure))
+        return Picture(sketch.name, sketch.title, paper_svg(figure) if paper else svg(figure), sketch.meaning)
     except Exception as error:  # one figure that fails must not cost the others
         return Picture(sketch.name, sketch.title, _instead(f"This figure is missing: {failure_reason(spec, error)}"))
 
@@ -182,13 +191,24 @@ def content(
         "warnings": [words(each) for each in result.warnings],
         "cite": f"Drivewright {program()}, {result.mechanism}: {result.title}, digest {result.digest[:12]}.",
     }
-    return first | translated(summary(result, headlines, words) | _behind_page_one(result, remarks, form), words)
+    numbers = summary(result, headlines, words)
+    groups = {"groups": grouped_values(result, numbers["values"])}
+    return first | translated(numbers | groups | _behind_page_one(result, remarks, form), words)
 
 
 def _behind_page_one(result: Result[Any], remarks: Sequence[str], form: ReportForm) -> Content:
     """What comes after the first page; of that a short report has its warnings alone."""
     if form.detail == "short":
-        return {"values": [], "arrays": [], "tables": [], "findings": list(result.warnings), "spec": "", "sources": [], "provenance": []}
+        return {
+            "values": [],
+            "groups": [],
+            "arrays": [],
+            "tables": [],
+            "findings": list(result.warnings),
+            "spec": "",
+            "sources": [],
+            "provenance": [],
+        }
     return {
         "arrays": [_array(name, array, result.units) for name, array in result.arrays.items()],
         "tables": [_table(table, result.units if form.detail == "full" else None) for table in result.tables.values()],
@@ -241,12 +261,28 @@ def verdict(passed: Sequence[bool], outcome: str, undecided: int = 0, warnings: 
 
 
 def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Content]:
-    """The values of those names; unless given the first of the mechanism's headline values, or of all; those that the run has."""
+    """The values of those names; unless given the first of the mechanism's headline values, or of all; those that the run has.
+
+    What a pattern such as "*.max_acceleration" finds is left out where it is zero: a slider does not turn."""
     if names is None:
         known = registry.is_known(result.mechanism)
         mechanism = registry.mechanism(result.mechanism) if known else None
-        names = registry.key_values(mechanism, result.values, MOST_HEADLINES) if mechanism else list(result.values)[:MOST_HEADLINES]
+        names = registry.key_values(mechanism, _telling(result, mechanism), MOST_HEADLINES) if mechanism else _first(result)
     return [_value(result, name) for name in names]
+
+
+def _first(result: Result[Any]) -> list[str]:
+    """The first names of the values of a kind of drive that is not known here."""
+    return list(result.values)[:MOST_HEADLINES]
+
+
+def _telling(result: Result[Any], mechanism: registry.Mechanism[Any, Any]) -> dict[str, Value]:
+    """The values that are not zero, or that the headline asks for by their full names."""
+    return {name: value for name, value in result.values.items() if name in mechanism.headline or not _is_zero(result, value)}
+
+
+def _is_zero(result: Result[Any], value: Value) -> bool:
+    return value.value == 0 or result.is_noise(value)
 
 
 def _value(result: Result[Any], name: str) -> Content:

@@ -55,7 +55,7 @@ def export(
 
 def _refuse_unknown(formats: Sequence[str]) -> None:
     if not formats:
-        raise InputError(f"export wants at least one format of {', '.join(FORMATS)}")
+        raise InputError(f"export needs at least one format of {', '.join(FORMATS)}")
     for name in formats:
         if name not in FORMATS:
             raise UnknownName("export format", name, FORMATS)
@@ -75,7 +75,7 @@ def _refuse_bad_geometry(result: Result[Any]) -> None:
 def _failures(result: Result[Any]) -> list[str]:
     """The failed geometry checks in words."""
     return [
-        f"{check.name} = {quantity(check.value, check.unit, system=result.units)}, "
+        f"{check.display_label}: {quantity(check.value, check.unit, system=result.units)}, "
         f"limit {check.sense} {quantity(check.limit, check.unit, system=result.units)} ({check.message})"
         for check in result.checks
         if check.geometry and not check.ok

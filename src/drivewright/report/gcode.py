@@ -112,7 +112,7 @@ def _profile(drawing):
     profiles = drawing.on("profile")
     if len(profiles) != 1 or not profiles[0].closed:
         raise InputError(
-            f"G-code of drawing {drawing.name!r} wants one closed outline on layer 'profile'; there are {len(profiles)}"
+            f"G-code of drawing {drawing.name!r} needs one closed outline on layer 'profile'; there are {len(profiles)}"
             f"{', not closed' if len(profiles) == 1 else ''}"
         )
     profile = outlines.normalised(profiles[0], f"drawing {drawing.name!r}")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from drivewright.atomic import write_text
 from drivewright.errors import InputError
-from drivewright.report.content import Picture, Views, content
+from drivewright.report.content import Picture, Views, caption, content
 from drivewright.report.form import ReportForm
 from drivewright.report.letterhead import Letterhead, read_letterhead
 from drivewright.report.names import file_name
@@ -67,7 +67,9 @@ def packed_views(result: Result[Any], seen: Views, language: str = "en", scene: 
     words = words_of(language, result.mechanism)
     plots = pack_plot_groups(result, scene, seen.plots)
     numbers = {figure.name: words("Figure *", figure.number) for figure in numbered_figures(result, seen)}
+    captions = {plot.name: caption(plot) for plot in seen.plots}
     for plot in plots["plots"] if plots else ():
+        plot["panels"][0]["meaning"] = captions[plot["name"]]
         for panel in plot["panels"]:
             panel["figure"] = numbers[f"plot-{plot['name']}"]
     spoken = {} if language == "en" else {english: words(english) for english in player_texts()}
@@ -183,4 +185,5 @@ def embedded(picture: Picture) -> "dict[str, str | Markup]":
     from markupsafe import Markup
 
     data = re.sub(r"\s+", " ", picture.svg).replace("%", "%25").replace("#", "%23").replace("&", "&amp;").replace('"', "%22")
-    return {"name": picture.name, "title": picture.title, "source": Markup(f"data:image/svg+xml;charset=utf-8,{data}")}
+    source = Markup(f"data:image/svg+xml;charset=utf-8,{data}")
+    return {"name": picture.name, "title": picture.title, "meaning": picture.meaning, "source": source}

@@ -1,4 +1,4 @@
-"""Names of files that no file system minds."""
+"""Names of files that are valid on all file systems."""
 
 import re
 

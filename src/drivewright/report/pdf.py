@@ -122,7 +122,7 @@ def _entry(number: int, picture: Picture, widest: float, tallest: float) -> dict
     """What the template wants to know of a figure."""
     size = size_of(picture.svg)
     width = min(widest, LARGEST_SCALE * size.width, tallest * size.width / size.height)
-    return {"number": number, "file": f"{number}.svg", "title": picture.title, "width": width}
+    return {"number": number, "file": f"{number}.svg", "title": picture.title, "meaning": picture.meaning, "width": width}
 
 
 def compile_template(name: str, data: Mapping[str, Any], folder: Path) -> bytes:

@@ -50,8 +50,9 @@ function createPanel(packed, cycle, clock, theme) {
   const dots = series.map(one => element("div", {class: "dw-dot", style: `--chip: var(--${one.role})`}));
   cover.append(...dots);
   const number = packed.figure ? [element("span", {class: "dw-plot-figure"}, packed.figure)] : [];
+  const meaning = packed.meaning ? [element("span", {class: "dw-plot-meaning"}, packed.meaning)] : [];
   const node = element("div", {class: "dw-plot"}, element("div", {class: "dw-plot-head"}, element("span", {class: "dw-plot-title", title}, ...number, title),
-    element("span", {class: "dw-plot-values"}, ...readouts)), element("div", {class: "dw-plot-area"}, canvas, cover));
+    element("span", {class: "dw-plot-values"}, ...readouts), ...meaning), element("div", {class: "dw-plot-area"}, canvas, cover));
   const surface = fitCanvas(canvas, () => { draw(); show(); });
   const unwatch = watchVisible(node, now => { visible = now; draw(); show(); });
   const inner = () => ({w: surface.width - MARGIN.left - MARGIN.right, h: surface.height - MARGIN.top - MARGIN.bottom});

@@ -17,6 +17,7 @@ from drivewright.labels import key_in_words
 # A text with its unit, its factor or its value behind it: "lift [mm]", "deflection × 20", "cam angle 90°".
 PARTED = re.compile(r"(?s)(.+?)(\s\[[^\]]*\]|\s[×x]\s?[\d.]+|\s[−-]?\d[\d.]*\s?(?:°|[a-zA-Zµ/·²³]{1,8})?)")
 SENTENCES = re.compile(r"(?<=[a-z)])(: |; |\. )(?=[A-Za-z'])")  # where a text of several sentences is parted
+WIDE = {": ": "：", "; ": "；", ". ": "。"}  # marks between sentences, behind a Chinese one
 TEXTS = ("title", "label", "meaning", "convention", "message", "undecided", "hint", "text", "axes")  # keys of content that hold words
 TYPED = "--only "  # what stands behind it is typed as it is
 LISTS = ("findings", "warnings")  # keys that hold lists of sentences
@@ -51,18 +52,29 @@ class Words:
         """The text, or its parts, as far as they are known."""
         if not self._books or not text:
             return text
+        parted = PARTED.fullmatch(text)
+        if parted and (parted[2].endswith("]") or self._known_exactly(parted[1])):  # before a pattern takes the unit for one of its parts
+            return self._known_exactly(text) or self._translated(parted[1]) + parted[2]
         if found := self._find(text):
             return found
-        if parted := PARTED.fullmatch(text):
+        if parted:
             return self._translated(parted[1]) + parted[2]
+        return self._sentences(text)
+
+    def _sentences(self, text: str) -> str:
+        """The text, each sentence of it in the language that is known."""
         pieces = SENTENCES.split(text)
-        return text if len(pieces) == 1 else "".join(self._find(piece) or piece for piece in pieces)
+        told = [self._find(piece) or piece for piece in pieces]
+        return "".join(WIDE.get(piece, piece) if _is_wide(told[n - 1]) else piece for n, piece in enumerate(told))
 
     def _find(self, text: str) -> str | None:
         """The translation, None where there is none."""
         if text not in self._known:
-            self._known[text] = self._exact(text) or self._exact(_other_case(text)) or self._fitting(text)
+            self._known[text] = self._known_exactly(text) or self._fitting(text)
         return self._known[text]
+
+    def _known_exactly(self, text: str) -> str | None:
+        return self._exact(text) or self._exact(_other_case(text))
 
     def _exact(self, text: str) -> str | None:
         return next((book[text] for book in self._books if text in book), None)
@@ -73,11 +85,16 @@ class Words:
                 if parts := shape.fullmatch(text) or shape.fullmatch(_other_case(text)):
                     literals = english.split("*")
                     told = [
-                        part if literal.endswith(TYPED) else self._find(part) or part
+                        part if literal.endswith(TYPED) else self._find(part) or self._sentences(part)
                         for literal, part in zip(literals, parts.groups(), strict=False)
                     ]
                     return _filled(book[english], told)
         return None
+
+
+def _is_wide(text: str) -> bool:
+    """Whether a text ends with a Chinese character."""
+    return "\u3000" < text[-1:] < "\uff00"
 
 
 def _other_case(text: str) -> str:

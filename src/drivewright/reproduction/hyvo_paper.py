@@ -187,7 +187,7 @@ def pin_stress() -> "Drawn":
         mises = rolling.equivalent(rolling.line_stresses(0.0, depth), hyvo_model.POISSON, "mises")
         stress = np.asarray(mises) * float(contact.pressure) / 1e6
         curves = [Curve("von Mises stress below the line of contact", depth * float(contact.half_width) * MICRO, stress)]
-        stated = [Stated(f"greatest stress printed, {printed:.2f} MPa", y=printed), Stated("yield stress, 835 MPa", y=835.0)]
+        stated = [Stated(f"maximum stress printed, {printed:.2f} MPa", y=printed), Stated("yield stress, 835 MPa", y=835.0)]
         if 6 * float(contact.half_width) * MICRO > 138.0:
             stated.append(Stated("element of the paper: 138 µm", 138.0))
         charts.append(Chart("Von Mises stress [MPa]", curves, stated, name, from_zero=True))
@@ -202,7 +202,7 @@ def loaded(name: str) -> Result[Any]:
 
 
 def plate_in_time() -> "Drawn":
-    """Fig. 22: greatest stress of a plate as it goes round."""
+    """Fig. 22: maximum stress of a plate as it goes round."""
     curves = []
     for label, name in (("group 3", "paper-load"), ("control group", "classical")):
         table = loaded(name).tables["plate_history"]

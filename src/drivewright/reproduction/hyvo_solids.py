@@ -61,7 +61,7 @@ class Design(NamedTuple):
 
 
 class Point(NamedTuple):
-    """Greatest stresses [Pa] of plate and pins and their shortest lives [pulls, revolutions]; nan where elements cannot carry them."""
+    """Maximum stresses [Pa] of plate and pins and their shortest lives [pulls, revolutions]; nan where elements cannot carry them."""
 
     plate: float
     pin: float
@@ -116,7 +116,7 @@ def _life(model: ChainModel, history: SolidHistory, body: str, repeated: bool = 
 
 @cache
 def runs_of(name: str, clearance: float = USUAL) -> tuple[Floats, ...]:
-    """Greatest stress of plate and pin [Pa], and their lives [revolutions], in each run: four arrays."""
+    """Maximum stress of plate and pin [Pa], and their lives [revolutions], in each run: four arrays."""
     each = design(name)
     return tuple(np.array([_running(each, running_loads(name, number), clearance) for number in range(len(each.revolutions))]).T)
 
@@ -165,11 +165,11 @@ def _means(quantity: str, clearance: float = USUAL) -> list[running.Interval]:
 
 
 def _running_rows(body: str, common: dict[str, Any]) -> Iterator[Row]:
-    """Greatest stress of a body in the running chain, one row a design."""
+    """Maximum stress of a body in the running chain, one row a design."""
     beside = "" if body == "plate" else " Beside the rolling contact, whose own stress is Hertz's."
     for (name, printed), ours in zip(PRINTED_STRESSES[body].items(), _means(body), strict=True):
         yield Row(
-            f"greatest stress of a {body} as a solid, {name}, running",
+            f"maximum stress of a {body} as a solid, {name}, running",
             rounded(f"{printed} MPa", "Pa"),
             ours.value,
             "Pa",
@@ -177,7 +177,7 @@ def _running_rows(body: str, common: dict[str, Any]) -> Iterator[Row]:
             low=ours.low,
             high=ours.high,
             note=f"{_order(body)}{beside}",
-            reading_of=f"greatest stress of {_one(body)}, {name}",
+            reading_of=f"maximum stress of {_one(body)}, {name}",
             **common,
         )
 
@@ -186,7 +186,7 @@ def _quotient_row(body: str, words: str, clearance: float) -> Row:
     """Stress of the new chain over that of the classical one, both running with the same fit."""
     ours = running.ratio(*_means(body, clearance))
     return Row(
-        f"greatest stress of a {body} as a solid, group 3 over control, running, {words}",
+        f"maximum stress of a {body} as a solid, group 3 over control, running, {words}",
         Printed("below 1", *BELOW_ONE),
         ours.value,
         "-",
@@ -194,7 +194,7 @@ def _quotient_row(body: str, words: str, clearance: float) -> Row:
         low=ours.low,
         high=ours.high,
         note=_order(body),
-        reading_of=f"greatest stress of {_one(body)}, group 3 over control",
+        reading_of=f"maximum stress of {_one(body)}, group 3 over control",
         **_common(clearance),
     )
 
@@ -208,13 +208,13 @@ def _pulled_rows(body: str, common: dict[str, Any]) -> Iterator[Row]:
         (f"{USUAL:g} um of clearance, control {CLEARANCES[-1]:g} um", usual[0], at_rest("control group", CLEARANCES[-1])),
     ):
         yield Row(
-            f"greatest stress of a {body} as a solid, group 3 over control, both pulled by 200 N, {words}",
+            f"maximum stress of a {body} as a solid, group 3 over control, both pulled by 200 N, {words}",
             Printed("below 1", *BELOW_ONE),
             getattr(upper, body) / getattr(under, body),
             "-",
             where=SECTIONS[body],
             note=_order(body),
-            reading_of=f"greatest stress of {_one(body)}, group 3 over control",
+            reading_of=f"maximum stress of {_one(body)}, group 3 over control",
             **common,
         )
 
@@ -266,14 +266,14 @@ def _over_clearance(field: str, scale: float) -> list[Curve]:
 
 
 def map_of_stress() -> "Drawn":
-    """Greatest stress of plate and pin over clearance and seat, both chains pulled alike."""
+    """Maximum stress of plate and pin over clearance and seat, both chains pulled alike."""
     stated = [Stated(f"{name} as printed, {stress:.0f} MPa", y=stress) for name, stress in PLATE_STRESSES.items()]
     pins = [Stated(f"{name} as printed, {stress:.0f} MPa", y=stress) for name, stress in PIN_STRESSES.items()]
     charts = [
         Chart("Stress of the plate [MPa]", _over_clearance("plate", MEGA), stated, "Both plates pulled by 200 N", from_zero=True),
         Chart("Stress of the pin [MPa]", _over_clearance("pin", MEGA), pins, "Pins, beside their rolling contact", from_zero=True),
     ]
-    return chart_figure("Greatest stress over the fit of the pins", CLEARANCE_LABEL, charts, height=3.4)
+    return chart_figure("Maximum stress over the fit of the pins", CLEARANCE_LABEL, charts, height=3.4)
 
 
 def map_of_life() -> "Drawn":
@@ -286,7 +286,7 @@ def map_of_life() -> "Drawn":
 
 
 def map_of_running() -> "Drawn":
-    """Greatest stress and shortest life of plate and pin over the clearance, running under the paper's load case."""
+    """Maximum stress and shortest life of plate and pin over the clearance, running under the paper's load case."""
     charts = [
         Chart("Stress of the plate [MPa]", _while_running("plate", MEGA), title="Plates, running", from_zero=True),
         Chart("Stress of the pin [MPa]", _while_running("pin", MEGA), title="Pins, running", from_zero=True),
@@ -307,7 +307,7 @@ def _while_running(quantity: str, scale: float = 1.0) -> list[Curve]:
 
 
 def map_of_load() -> "Drawn":
-    """Greatest stress of plate and pin over the pull."""
+    """Maximum stress of plate and pin over the pull."""
     curves = [
         [
             Curve(name, np.array(PULLS), np.array([getattr(at_rest(name, USUAL, None, force), body) / MEGA for force in PULLS]), "both")
@@ -316,7 +316,7 @@ def map_of_load() -> "Drawn":
         for body in ("plate", "pin")
     ]
     charts = [Chart("Stress of the plate [MPa]", curves[0], from_zero=True), Chart("Stress of the pin [MPa]", curves[1], from_zero=True)]
-    return chart_figure("Greatest stress over the pull of the strand", "Pull on a plate [N]", charts, columns=2, height=3.0)
+    return chart_figure("Maximum stress over the pull of the strand", "Pull on a plate [N]", charts, columns=2, height=3.0)
 
 
 @cache

@@ -116,7 +116,7 @@ def test_and_model() -> "Drawn":
 
 
 def stated_of_test() -> list[Stated]:
-    """What the text says of the measured curve."""
+    """Statements of the text about the measured curve."""
     return [Stated("mean as printed, 747.39", y=747.39), Stated("lowest as printed, about 50°", 50.0), Stated("highest, about 145°", 145.0)]
 
 

@@ -50,7 +50,7 @@ def assembly_rows(folder: Path) -> Iterator[Row]:
     softer = mean / float(np.nanmean(table["lumped_bonded"].data))
     common: dict[str, Any] = {"pinned": OPEN, "unit": "N m/rad", "inputs": numbers.DATA}
     note = (
-        f"{numbers.NOT_FOLLOWING}bodies that yield only lower the stiffness, here to {softer:.2f} of that of the lumped model, which is a "
+        f"{numbers.NOT_FOLLOWING}elastic bodies only lower the stiffness, here to {softer:.2f} of that of the lumped model, which is a "
         "fifth of the print already."
     )
     yield Row(
@@ -66,7 +66,7 @@ def assembly_rows(folder: Path) -> Iterator[Row]:
     )
     shape = (
         f"{numbers.NOT_FOLLOWING}solids in contact keep the lumped curve's shape, {np.nanmax(fixed) / np.nanmin(fixed):.1f} times stiffer "
-        "in the dwell than near 90 deg: contacts that change in number cannot make up for bearings that yield."
+        "in the dwell than near 90 deg: contacts that change in number cannot make up for elastic bearings."
     )
     for name, printed, ours in (
         ("mean stiffness", about("about 1020 N m/arcmin", 1020 / PER_ARCMIN, 45 / PER_ARCMIN), float(np.nanmean(fixed))),

@@ -157,7 +157,7 @@ def own_flexibility(moved: MovedMass, lengths: Floats, stiffness: float) -> Floa
     return closed_form.flexibility(stations, (0.0, moved.span), (stiffness, stiffness), shaft_model.EI)[:, 0, 0]
 
 
-EQUATIONS = {"pressure-roller": 16, "rubber-roller-r1": 17}  # that say what yielding bearings add
+EQUATIONS = {"pressure-roller": 16, "rubber-roller-r1": 17}  # that say the contribution of the bearings
 
 
 def rigid_and_elastic(preset: str, folder: Path) -> "Drawn":
@@ -177,7 +177,7 @@ def rigid_and_elastic(preset: str, folder: Path) -> "Drawn":
     levels = np.array([1e7, 3e7, 1e8, 1e9])
     relative = {mass: np.asarray(study[f"flexibility.{mass}.{mass}"], float) for mass in SHAFTS[preset]}
     shares = [Curve(f"{mass} under its own load", levels / 1e6, each[:-1] / each[-1], "both") for mass, each in relative.items()]
-    title = f"Bearings rigid and yielding, {TITLES[preset]}"
+    title = f"Rigid and elastic bearings, {TITLES[preset]}"
     with styled():
         figure = new_figure(9.2, title)
         axes = figure.subplots(3, 1)

@@ -130,7 +130,7 @@ def _holds(support, freedom):
 def _mount(beam, support, basis, start, first):
     """x, y averaged over the support's width, z and the tilts at its middle; less the ring's where the seat yields."""
     rows, node, freedoms = np.zeros((5, len(basis))), beam.node(support.position), _ring_freedoms(support)
-    rows[range(5), FREEDOMS * node + np.arange(5)] = 1.0  # of six: nothing here feels the turning
+    rows[range(5), FREEDOMS * node + np.arange(5)] = 1.0  # of six: nothing here depends on the rotation
     if support.width > beams.POINT * beam.shaft.length:
         ends = support.position - support.width / 2, support.position + support.width / 2
         even = beams.uniform_load(beam, *ends)
@@ -210,7 +210,7 @@ def refuse_unbalanced(model: ShaftSystem, force: Floats) -> None:
             f"{'right' if way > 0 else 'left'}; give a bearing an axial_stiffness, or reverse a rolling bearing (carries)"
         )
     if abs(torque) > 1e-9 * np.abs(nodes[:, TWIST]).sum():
-        raise InputError(f"shaft: the torques do not balance: their sum is {torque:.6g} N m; add the torque of the driven or driving end")
+        raise InputError(f"shaft: the torques do not balance: their sum is {torque:.6g} N·m; add the torque of the driven or driving end")
 
 
 # -- regularisation --------------------------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""Whether forces and moments balance, summed from the loads as they were given: no element, no unknown of the solver is asked."""
+"""Whether forces and moments balance, summed from the loads as they were given: independent of the elements and unknowns of the solver."""
 
 from collections.abc import Sequence
 

@@ -45,7 +45,7 @@ class Beam(NamedTuple):
 
 
 def beam(shaft: Shaft, places: Iterable[float] = ()) -> Beam:
-    """The `Beam` of a shaft with nodes at every step, support, station and at the further `places`; InputError beyond all numbers."""
+    """The `Beam` of a shaft with nodes at every step, support, station and at the further `places`; InputError where it overflows."""
     z = _nodes(shaft, places)
     pieces = _pieces(shaft, z[:-1], z[1:])
     with np.errstate(all="ignore"):
@@ -55,8 +55,8 @@ def beam(shaft: Shaft, places: Iterable[float] = ()) -> Beam:
         first = int(np.argmax(wrong))
         left, right, diameter = 1e3 * z[first], 1e3 * z[first + 1], 1e3 * pieces[first, 1]
         raise InputError(
-            f"shaft: from {left:.6g} to {right:.6g} mm, with a diameter of {diameter:.6g} mm, its bending is beyond all "
-            "numbers; check the units of diameters, bores and Young's modulus"
+            f"shaft: from {left:.6g} to {right:.6g} mm, with a diameter of {diameter:.6g} mm, the flexibility overflows; "
+            "check the units of diameters, bores and Young's modulus"
         )
     return Beam(shaft, z, pieces, flexibility, slip)
 
@@ -68,7 +68,7 @@ def _nodes(shaft, places):
     if wanted.min() < -near or wanted.max() > shaft.length + near:
         off = wanted.min() if wanted.min() < -near else wanted.max()
         raise InputError(
-            f"shaft: a place at {1e3 * off:.6g} mm is off the shaft, which runs from 0 to {1e3 * shaft.length:.6g} mm; "
+            f"shaft: a place at {1e3 * off:.6g} mm lies outside the shaft, which runs from 0 to {1e3 * shaft.length:.6g} mm; "
             "move it, or make the shaft longer"
         )
     z = np.unique(np.clip(wanted, 0.0, shaft.length))

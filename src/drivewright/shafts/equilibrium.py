@@ -93,8 +93,9 @@ def _refuse_pinned(model, load, multipliers):
         if abs(held) > LEFT * np.abs(load).max(initial=0):
             what = "axial forces" if freedom == AXIAL else "torques"
             raise InputError(
-                f"shaft: the {what} on it do not balance: {held:.6g} {'N' if freedom == AXIAL else 'N m'} are left that nothing "
-                "takes; a preload by a spring needs a bearing that holds the shaft against it"
+                f"shaft: the {what} on it do not balance: no support carries the remaining "
+                f"{held:.6g} {'N' if freedom == AXIAL else 'N·m'}; "
+                "a preload by a spring needs a bearing that holds the shaft against it"
             )
 
 

@@ -69,7 +69,7 @@ def _safeties(name: str, where: str, fatigue: float, static: float) -> dict[str,
 
 def haigh_table(rows: Sequence[SectionStrength], strength: Strength) -> Table:
     """`haigh`: stress amplitude over mean stress, a column each for the weakest section, other notches and smooth places, their points
-    apart, and for the lower one of the Goodman line of the least endurance limit and the yield line."""
+    apart, and for the lower one of the Goodman line of the lowest endurance limit and the yield line."""
     limit = min(row.endurance_limit for row in rows)
     goodman, langer = _border(limit, strength)
     weakest, *others = sorted(rows, key=lambda row: row.safety)
@@ -102,7 +102,7 @@ def haigh_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     if "haigh" in tables:
         names = tuple(column.name for column in tables["haigh"].columns[1:])
         meaning = (
-            "von Mises stress amplitude over mean stress at the notches: below the Goodman line of the least endurance limit the life is "
+            "von Mises stress amplitude over mean stress at the notches: below the Goodman line of the lowest endurance limit the life is "
             "infinite, below the yield line nothing yields in the first revolution"
         )
         yield Plot("haigh", "Haigh diagram of the sections", "haigh", "mean", names, meaning=meaning)

@@ -1,4 +1,4 @@
-"""Flexibility and stiffness at the stations of a shaft, and who contributes what.
+"""Flexibility and stiffness at the stations of a shaft, and the contributions of the parts.
 
 delta_ij is the displacement of station i by a unit force at station j, both in one direction across the shaft:
 delta_ij = int M_i M_j/EI + int V_i V_j/(kappa G A) + int N_i N_j/EA + sum over the supports of m_i' C m_j + u_i' K u_j (the

@@ -1,4 +1,4 @@
-"""A shaft on its supports as plain data: it knows no solver.
+"""A shaft on its supports as plain data, independent of any solver.
 
 z runs along the axis from the left end, y is up, x completes the right-handed frame.  Six displacements a place: x, y, z and the
 rotations about x, y, z; all lengths in metres.

@@ -14,6 +14,7 @@ SURFACE = Plot(
     equal=True,
     style="mesh",
     reference=("rest_z", "rest_y"),
+    meaning="Dashed: outline of the undeformed shaft.",
 )
 
 
@@ -28,7 +29,8 @@ def shaft_plots(result: Result[Any], places: tuple[tuple[float, str], ...] = ())
     rigid = tuple(f"{name}.rigid" for name in stations)
     yield Plot("diagram", "Deflections and forces along the shaft", "diagram", "z", tuple(columns), places=places)
     yield Plot("stress", "Stress along the shaft", "diagram", "z", ("stress",), places=places)
-    yield Plot("unit_load", "Unit-force deflection; dashed: rigid", "unit_load", "z", stations, reference=rigid, places=places)
+    beside = "Dashed: on rigid bearings."
+    yield Plot("unit_load", "Unit-force deflection", "unit_load", "z", stations, reference=rigid, places=places, meaning=beside)
     parts = _labels(result, "flexibility.shares")
     yield Plot("shares", "Flexibility contributions", "shares", "entry", parts, style="bars")
     if "modes" in result.tables:

@@ -112,8 +112,8 @@ def _refuse_immense(frequency, damping, circulatory):
     for what, size in (("damping", frequency * np.abs(damping).max()), ("cross-coupling", np.abs(circulatory).max())):
         if not size < IMMENSE:
             raise InputError(
-                f"shaft: the {what} of its bearings is {size:.2g} times the stiffness of a mode, and the other digits are "
-                "lost; check the unit, or declare that bearing rigid"
+                f"shaft: the {what} of its bearings is {size:.2g} times the stiffness of a mode, so that all digits of the "
+                "latter are lost; check the unit, or declare that bearing rigid"
             )
 
 

@@ -10,6 +10,7 @@ from drivewright.shafts.unbalance import RESONANCE, Orbits, Unbalance
 from drivewright.shafts.whirl import Campbell, CriticalSpeed, WhirlModes
 
 LAG = ".lag"  # behind the name of a part
+BACKWARD = "Dashed: backward whirl."  # caption of plots with both senses
 SENSES = ((True, "forward", "with the shaft"), (False, "backward", "against the shaft"))
 HERTZ = 1 / (2 * np.pi)
 
@@ -111,7 +112,7 @@ def moment_values(unbalances: Sequence[Unbalance]) -> dict[str, Value]:
 
 
 def resonance_finding(orbits: Orbits) -> str:
-    """What is said where `Orbits` at one speed are `resonant`."""
+    """The finding where `Orbits` at one speed are `resonant`."""
     return (
         f"the unbalance response at {orbits.speeds[0] * 30 / np.pi:.6g} rpm is absent: the speed is a natural frequency that no support "
         f"damps (response over {RESONANCE:.0f} times that at rest); give the bearings a radial_damping, or change the speed"
@@ -145,12 +146,11 @@ def rotor_plots(tables: Mapping[str, Table], speed: float | None, places: tuple[
     at = ((speed, "operating speed"),) if speed else ()
     if "campbell" in tables:
         ahead, back = _branches(tables["campbell"])
-        yield Plot(
-            "campbell", "Campbell diagram; dashed: backward", "campbell", "speed", (*ahead, "synchronous"), reference=back, places=at
-        )
+        curves = (*ahead, "synchronous")
+        yield Plot("campbell", "Campbell diagram", "campbell", "speed", curves, reference=back, places=at, meaning=BACKWARD)
     if "whirl_shapes" in tables:
         ahead, back = _branches(tables["whirl_shapes"])
-        yield Plot("whirl_shapes", "Whirl shapes; dashed: backward", "whirl_shapes", "z", ahead, reference=back, places=places)
+        yield Plot("whirl_shapes", "Whirl shapes", "whirl_shapes", "z", ahead, reference=back, places=places, meaning=BACKWARD)
     if "unbalance_response" in tables:
         names = [column.name for column in tables["unbalance_response"].columns[1:]]
         amplitudes, lags = (tuple(name for name in names if name.endswith(LAG) == lag) for lag in (False, True))

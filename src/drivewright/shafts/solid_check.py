@@ -170,7 +170,7 @@ def _refuse(sections: Floats, modulus: float, poisson: float, bands: Sequence[Ba
     if not (np.isfinite(modulus) and modulus > 0 and -1 < poisson < 0.5):
         raise InputError(f"solid check: modulus {modulus:g} Pa and Poisson's ratio {poisson:g}; a solid needs E > 0 and -1 < nu < 0.5")
     if max_size is not None and not max_size > 0:
-        raise InputError(f"solid check: max_size {MM * max_size:g} mm; elements need a positive size, or None for half the diameter")
+        raise InputError(f"solid check: max_size {MM * max_size:g} mm; elements need a positive size, or be left out for half the diameter")
     if len(bands) < 2:
         raise InputError(f"solid check: {len(bands)} bearing; it needs two or more, since bands hold mean displacements but no tilt")
     if not len(stations):
@@ -193,7 +193,9 @@ def _refuse(sections: Floats, modulus: float, poisson: float, bands: Sequence[Ba
             raise InputError(f"solid check: the bands at {MM * left.position:g} and {MM * right.position:g} mm overlap; make them narrower")
     for station in stations:
         if not -SAME <= station <= length + SAME:
-            raise InputError(f"solid check: a station at {MM * station:g} mm is off the shaft of 0 ... {MM * length:g} mm; move it onto it")
+            raise InputError(
+                f"solid check: a station at {MM * station:g} mm lies outside the shaft of 0 ... {MM * length:g} mm; move it onto the shaft"
+            )
 
 
 # -- the mesh of a quarter -----------------------------------------------------------------------------------------------------

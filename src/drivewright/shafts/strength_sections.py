@@ -51,7 +51,7 @@ def refuse_impossible_notch(shaft: Shaft, notch: Notch) -> None:
     length = getattr(notch, "length", 0.0)
     for place in (notch.position, notch.position + length) if length else (notch.position,):
         if not -SAME * shaft.length <= place <= shaft.length * (1 + SAME):
-            raise InputError(f"ends at {place * 1e3:.4g} mm, off the shaft, which ends at {shaft.length * 1e3:.4g} mm; make it shorter")
+            raise InputError(f"ends at {place * 1e3:.4g} mm, beyond the shaft, which ends at {shaft.length * 1e3:.4g} mm; make it shorter")
     outer, bore = section_at(shaft, notch.position)
     _check_net(notch, net_diameter(notch, outer), bore)
     if isinstance(notch, RectangularGroove) and notch.radius > min(notch.depth, notch.width / 2):

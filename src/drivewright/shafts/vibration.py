@@ -153,7 +153,7 @@ def _null_space(rows):
 
 
 def modes(equilibrium: ShaftEquilibrium, count: int) -> tuple[Modes, Modes]:
-    """(bending, axial): the lowest `Modes` at rest, told apart by where most of the mass moves.
+    """(bending, axial): the lowest `Modes` at rest, distinguished by where most of the mass moves.
 
     Bending in one plane where the supports are round: every mode comes twice then.  A shaft that nothing holds along its axis has no
     axial modes.

@@ -48,7 +48,7 @@ def cad_solid(part: Part, tolerance: float = TOLERANCE) -> EngineObject:
         shape = shape.Rotate(occ.Axis((0, 0, 0), occ.Z), np.degrees(angle)).Move(occ.Vec(MM * x, MM * y, 0.0))
         for body in shape.solids:  # after the last operation: names do not survive one
             body.name = part.name
-            body.faces.col = tuple(c**2.2 for c in COLOURS.get(part.colour, COLOURS["steel"]))  # the kernel wants linear light
+            body.faces.col = tuple(c**2.2 for c in COLOURS.get(part.colour, COLOURS["steel"]))  # the kernel takes linear colours
     return shape
 
 
@@ -178,8 +178,8 @@ def _grooved(occ: Any, grooved: Grooved, name: str, tolerance: float) -> EngineO
             left, chips = body - tool, body * tool
             if len(left.solids) != 1 or abs(left.mass + chips.mass - body.mass) > 1e-4 * body.mass or not chips.mass > 0:
                 raise InputError(
-                    f"{label}: the CAD kernel cut {chips.mass:.6g} mm^3 from a blank of {body.mass:.6g} mm^3 and left "
-                    f"{left.mass:.6g} mm^3 in {len(left.solids)} pieces; look for walls that cross or miss the body"
+                    f"{label}: the CAD kernel cut {chips.mass:.6g} mm³ from a blank of {body.mass:.6g} mm³ and left "
+                    f"{left.mass:.6g} mm³ in {len(left.solids)} pieces; look for walls that cross or miss the body"
                 )
             body = left.solids[0]
         return body.Move(occ.Vec(*(MM * float(c) for c in (*grooved.start, grooved.z)))).solids[0]
@@ -195,7 +195,7 @@ def outline_face(occ: Any, outline: Outline, name: str, tolerance: float = TOLER
         wanted = MM**2 * outline_area(outline)
         if abs(face.mass - wanted) > 1e-4 * wanted:
             raise InputError(
-                f"{name}: the CAD kernel made a face of {face.mass:.6g} mm^2 of an outline of {wanted:.6g} mm^2; "
+                f"{name}: the CAD kernel made a face of {face.mass:.6g} mm² of an outline of {wanted:.6g} mm²; "
                 "look for nearly touching or very short pieces"
             )
     return face

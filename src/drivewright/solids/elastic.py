@@ -22,7 +22,7 @@ from drivewright.steps import note_step
 
 MM = 1e-3  # metres in a millimetre
 EXTRA_ORDER = 6  # of integration beyond the elements' own, for a strip that is narrower than they are
-LOOSE = 1e-4  # a rigid motion with so small a part in what the springs feel is not held: meshes are symmetric to about 1e-7 only
+LOOSE = 1e-4  # a rigid motion with so small a share in the spring forces is not held: meshes are symmetric to about 1e-7 only
 
 
 class Response(NamedTuple):

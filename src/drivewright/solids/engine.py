@@ -1,4 +1,4 @@
-"""The door to Netgen and NGSolve (extra `fe`): loaded when first needed, with the real reason where they are not."""
+"""Import of Netgen and NGSolve (extra `fe`): loaded when first needed, with the cause where the import fails."""
 
 import atexit
 import importlib
@@ -76,5 +76,5 @@ def _answer_call(call: Callable[[], T], answer: Future[T]) -> None:
     with _one_call:
         try:
             answer.set_result(call())
-        except BaseException as error:  # whoever waits must hear of any end
+        except BaseException as error:  # the waiting thread must receive any error
             answer.set_exception(error)

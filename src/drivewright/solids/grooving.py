@@ -21,7 +21,7 @@ def check_grooves(grooved: Grooved, name: str) -> None:
     for number, walls in enumerate(grooved.grooves):
         size = np.shape(walls)
         if len(size) != 4 or size[0] != 2 or size[3] != 3 or min(size[1:3]) < 4:
-            raise InputError(f"{name}: groove {number} is an array {size}; it wants (2, n, m, 3) with n and m at least 4.")
+            raise InputError(f"{name}: groove {number} is an array {size}; it must have the shape (2, n, m, 3) with n and m at least 4.")
         if not np.isfinite(walls).all():
             raise InputError(f"{name}: groove {number} has points that are not finite.")
 

@@ -1,4 +1,4 @@
-"""Outlines made ready for a file: pieces without waste, joined exactly, counter-clockwise, free of crossings."""
+"""Outlines made ready for a file: pieces without zero-length parts, joined exactly, counter-clockwise, free of crossings."""
 
 from typing import TYPE_CHECKING
 

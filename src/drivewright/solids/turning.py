@@ -81,7 +81,7 @@ def checked_rings(rings: Sequence[Sequence[float]] | Floats, name: str) -> Float
         if not (np.isfinite(rings[number]).all() and length > 0 and min(start, end) > bore >= 0):
             raise InputError(
                 f"{name}: ring {number} has length {1e3 * length:g} mm, diameters {1e3 * start:g} and {1e3 * end:g} mm, bore "
-                f"{1e3 * bore:g} mm; it wants a positive length and both diameters larger than a bore of 0 or more"
+                f"{1e3 * bore:g} mm; it must have a positive length and both diameters larger than a bore of 0 or more"
             )
     for number, ((*_, end, bore), (_, start, _, next_bore)) in enumerate(zip(rings[:-1], rings[1:], strict=True)):
         if max(bore, next_bore) >= min(end, start):

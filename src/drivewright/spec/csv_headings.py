@@ -82,7 +82,7 @@ def _plain(name):
 
 
 class CsvColumn(NamedTuple):
-    """Where a wanted column stands, its heading as written, and what it holds with its factor to SI; nan while no unit is said."""
+    """Where a wanted column stands, its heading as written, and what it holds with its factor to SI; nan while no unit is given."""
 
     place: int
     heading: str
@@ -152,10 +152,10 @@ def _column(header, each, place, units, file):
             return CsvColumn(place, cell.strip(), *_unit(unit, kinds, each, file))
         except UnitError:
             continue
-    if not (said := own or below):
+    if not (unit_text := own or below):
         why = ", as its bracket is not closed" if OPEN_BRACKET.search(cell) else ""
         raise UnitError(f"has no unit{why}; write '{each.heading}'", key=f"column '{each.name}'", file=file)
-    return CsvColumn(place, cell.strip(), *_unit(said, kinds, each, file))
+    return CsvColumn(place, cell.strip(), *_unit(unit_text, kinds, each, file))
 
 
 def unit_in_brackets(cell: str) -> str | None:
@@ -209,5 +209,7 @@ def no_column(wanted: Sequence[Wanted], header: Sequence[str], line: int, text: 
 
 def says_units(cells: Sequence[str], places: Sequence[int]) -> bool:
     """Whether a row has units alone at these places: a row below the headings."""
-    said = [cells[place].strip().strip("[](){}<>").strip() for place in places if place < len(cells)]
-    return len(said) == len(places) and all(unit and re.search("[A-Za-z°µμ]", unit) and not re.match(r"[+\-.\d]", unit) for unit in said)
+    unit_texts = [cells[place].strip().strip("[](){}<>").strip() for place in places if place < len(cells)]
+    return len(unit_texts) == len(places) and all(
+        unit and re.search("[A-Za-z°µμ]", unit) and not re.match(r"[+\-.\d]", unit) for unit in unit_texts
+    )

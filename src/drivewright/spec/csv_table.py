@@ -1,4 +1,4 @@
-"""Tables of numbers in CSV files, whoever wrote them: one reader for the data files of all drives.
+"""Tables of numbers in CSV files from any program: one reader for the data files of all drives.
 
 * separators: comma, semicolon, tab or blanks, by the header; "sep=;" in the first line is heeded
 * decimal sign: point, or comma where the comma does not separate columns; what may be a sign of thousands is refused
@@ -6,7 +6,7 @@
   are passed over, headings in a comment line (as numpy writes them) are found
 * comments: lines that begin with #, % or //; quotes and byte-order marks
 
-Whatever cannot be read is told with file, line, the text found, and what to write.
+An error names file, line and text of what cannot be read, and what to write instead.
 """
 
 import csv
@@ -115,12 +115,12 @@ def _lines(text, file):
 
 def _with_header(lines, notes, groups, file):
     """(separator, header, rows below it), by the first separator with which a line has a column of each group."""
-    said = re.fullmatch(r'\s*"?sep=(.)"?\s*', lines[0][1], re.IGNORECASE) if lines else None
-    lines = lines[1:] if said else lines
-    for separator in (said[1],) if said else SEPARATORS:
+    declared = re.fullmatch(r'\s*"?sep=(.)"?\s*', lines[0][1], re.IGNORECASE) if lines else None
+    lines = lines[1:] if declared else lines
+    for separator in (declared[1],) if declared else SEPARATORS:
         rows = list(_rows(lines[:SEARCHED], separator, file))
         for place, row in enumerate(rows, 1):
-            if _has_all(row, groups) and (separator != " " or said or _as_wide(row, rows[place : place + 1])):
+            if _has_all(row, groups) and (separator != " " or declared or _as_wide(row, rows[place : place + 1])):
                 below = [each for each in lines if each[0] > row.end]
                 return separator, row, list(_rows(below, separator, file))
         for note in _rows(notes[:SEARCHED], separator, file):
@@ -142,11 +142,11 @@ def _no_header(lines, groups, file):
     """What to say of a file in which no line has the wanted headings: of the line that looks most like them."""
     example = ",".join(group[0].heading for group in groups)
     if not lines:
-        return f"is empty; the first line wants the columns, e.g. {example}"
+        return f"is empty; the first line must name the columns, e.g. {example}"
     first = next((number for number, (_, text) in enumerate(lines[:SEARCHED]) if _has_numbers_alone(text, file)), len(lines))
     if first == 0:
         line, text = lines[0]
-        return f"line {line}: {brief(text)} has numbers alone; the first line wants the columns with their units, e.g. {example}"
+        return f"line {line}: {brief(text)} has numbers alone; the first line must name the columns with their units, e.g. {example}"
     separator = _separator(lines[min(first, len(lines) - 1)][1])
     above = list(_rows(lines[:first], separator, file)) if first < len(lines) else list(_rows(lines[:1], _separator(lines[0][1]), file))
     header = max(above, key=lambda row: (len(row.cells) > 1, _columns_in(row, groups), not _in_brackets(row.cells), row.line))
@@ -229,6 +229,6 @@ def _refuse_longer(header, rows, separator, columns, file):
             hint = "; where the comma is the decimal sign, separate the columns by semicolons" if separator == "," else ""
             raise SpecError(
                 f"line {row.line}: {used} cells between {between}s, but the headings of line {header.line} are "
-                f"{width}{hint}; a text that has the separator in it wants quotes",
+                f"{width}{hint}; put a text that contains the separator in quotes",
                 file=file,
             )

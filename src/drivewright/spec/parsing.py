@@ -108,7 +108,7 @@ def change_key(tables: dict[str, Any], change: str) -> dict[str, Any]:
     """Apply "dotted.key=value" as from the command line to raw tables.  The value is TOML, or else text; none at all removes the key."""
     key, equals, text = change.partition("=")
     if not equals or not all(step.strip() for step in key.split(".")):
-        raise SpecError(f"--set wants key=value with a dotted key, got {brief(change)}")
+        raise SpecError(f"--set takes key=value with a dotted key, got {brief(change)}")
     key = ".".join(step.strip() for step in key.split("."))
     return set_key(tables, key, read_value(text)) if text.strip() else remove_key(tables, key)
 

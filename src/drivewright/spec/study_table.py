@@ -34,12 +34,16 @@ class Vary(Spec):
         None, description='instead of all below: follows another key, "-2 * KEY" or "0.5 * KEY + 3 mm"', examples=["-2 * loads.0.force"]
     )
     values: tuple[PlainValue, ...] = Field((), description="its levels, one by one")
-    lower: RelativeBound | None = Field(None, description='least level, or where the distribution ends; "-5 %" from the own value')
-    upper: RelativeBound | None = Field(None, description='greatest level, or where the distribution ends; "+5 %" from the own value')
+    lower: RelativeBound | None = Field(
+        None, description='lowest level, or lower end of the distribution; "-5 %": below the value of the spec'
+    )
+    upper: RelativeBound | None = Field(
+        None, description='highest level, or upper end of the distribution; "+5 %": above the value of the spec'
+    )
     steps: Integer | None = Field(None, ge=1, le=100_000_000, description="number of levels from lower to upper")
     spacing: Literal["linear", "logarithmic"] = Field("linear", description="of the levels")
     distribution: Literal["normal", "uniform", "triangular"] | None = Field(
-        None, description="normal where sigma or tolerance is given, else uniform from lower to upper, unless said"
+        None, description="normal where sigma or tolerance is given, else uniform from lower to upper"
     )
     mean: Bound | None = Field(None, description="of a normal distribution; the spec's own value unless given")
     sigma: RelativeBound | None = Field(
@@ -65,4 +69,4 @@ class Study(Spec):
     every_analysis: Flag = Field(False, description="run every analysis, also those on request")
     values: tuple[Text, ...] = Field((), description="values and checks (as check.NAME) to keep; all unless given")
     points: DataFile | None = Field(None, description="CSV or Parquet file of cases, a column per key: key [unit]")
-    vary: tuple[Vary, ...] = Field((), description="what varies")
+    vary: tuple[Vary, ...] = Field((), description="parameters that vary")

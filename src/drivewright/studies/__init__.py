@@ -2,7 +2,7 @@
 
 `sweep` computes the cases, `open_study` reads those of a folder, `analyse_study` says what came out; `optimise` searches the best design;
 `verify` computes a case once more on an independent route; `advise` says what to change so that a failed check passes.
-What varies is said with `linspace`, `geomspace`, `uniform`, `normal`,
+What varies is stated with `linspace`, `geomspace`, `uniform`, `normal`,
 `triangular`, `tolerance` and `linked`.
 
 adjustable        the dimensions of a design that may be changed to make it pass

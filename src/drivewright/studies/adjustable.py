@@ -1,4 +1,4 @@
-"""The dimensions of a design that may be changed to mend it: the unknowns of its [optimise] table, or what its kind calls adjustable."""
+"""The dimensions of a design that may be changed to correct it: the unknowns of its [optimise] table, or what its kind calls adjustable."""
 
 import math
 from collections.abc import Iterator, Mapping

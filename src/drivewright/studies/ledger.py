@@ -27,7 +27,7 @@ TABLES = {
     },
     "remarks": {"text": "text primary key"},
 }
-ELSEWHERE = {  # reasons of SQLite that lie outside the file: a disk that is full or away, somebody else at work, no right, no memory
+ELSEWHERE = {  # reasons of SQLite that lie outside the file: a full or missing disk, a lock of another process, no permission, no memory
     sqlite3.SQLITE_PERM,
     sqlite3.SQLITE_BUSY,
     sqlite3.SQLITE_LOCKED,
@@ -86,7 +86,7 @@ def parts_of(ledger: sqlite3.Connection) -> list[Part]:
     stop = 0
     for part in parts:
         if not (isinstance(part.first, int) and isinstance(part.count, int) and part.count > 0 and part.first >= stop):
-            raise LedgerDamaged(f"is damaged (the cases of its part {part.name!r} make no sense)")
+            raise LedgerDamaged(f"is damaged (the cases of its part {part.name!r} are inconsistent)")
         if part.name != part_name(part.first, part.count):
             raise LedgerDamaged(f"is damaged (its part {part.name!r} has another name than its cases)")
         stop = part.first + part.count
@@ -94,7 +94,7 @@ def parts_of(ledger: sqlite3.Connection) -> list[Part]:
 
 
 def identity_of(ledger: sqlite3.Connection) -> dict[str, str]:
-    """What the study is, {what: text}; empty where nobody has said so yet."""
+    """What the study is, {what: text}; empty where it is not stated yet."""
     return dict(ledger.execute("select key, value from identity"))
 
 

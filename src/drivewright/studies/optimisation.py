@@ -180,7 +180,7 @@ def _place(out, spec, method):
         return Memory()
     if (Path(out) / HISTORY).is_file() and not is_study(out):
         raise InputError(
-            f"{out}: holds the outcome of a search ({HISTORY}) by an older version, which cannot be gone on with; nothing was "
+            f"{out}: holds the outcome of a search ({HISTORY}) by an older version, which cannot be continued; nothing was "
             "written. Remove the folder, or give another --out"
         )
     return Folder(out, spec, {"spec": spec.digest(), "search": method, "drivewright": versions()["drivewright"]})
@@ -284,7 +284,7 @@ def _blame(problem, reached, values):
     uncertain = f" with an interval to {_shown(end, unit, system)}, all of which has to meet it" if end != reached[name][0] else ""
     wanted, best = (_shown(each, unit, system) for each in (limit, reached[name][0]))
     return (
-        f"no feasible design after {count} evaluations; the requirement to blame is {name} {sense} {wanted}: the least "
+        f"no feasible design after {count} evaluations; the limiting requirement is {name} {sense} {wanted}: the least "
         f"violating design reaches {best}{uncertain}, and {alone} of the designs tried meet this one at all. "
         "Relax it or widen the bounds of the unknowns."
     )

@@ -188,8 +188,8 @@ def cases_of(parts: Iterable[Part]) -> str:
 
 def reasons_of(damaged: Mapping[Part, str]) -> str:
     """The first damaged parts by name, each with its cases and what is wrong with it."""
-    told = [f"{part.name}, {part.cases}: {reason}" for part, reason in list(damaged.items())[:TOLD]]
-    return "; ".join(told) + (f"; and {len(damaged) - TOLD} more" if len(damaged) > TOLD else "")
+    reasons = [f"{part.name}, {part.cases}: {reason}" for part, reason in list(damaged.items())[:TOLD]]
+    return "; ".join(reasons) + (f"; and {len(damaged) - TOLD} more" if len(damaged) > TOLD else "")
 
 
 def data_digest(table: pa.Table) -> str:

@@ -138,7 +138,7 @@ def make_plan(spec: MechanismSpec) -> Plan:
 
 
 def _readings(variables):
-    """What is said of numbers with a unit of another kind, also in what follows another key."""
+    """Notices about numbers with a unit of another kind, also in what follows another key."""
     for each in variables:
         yield from each.readings
         for link in each.links:

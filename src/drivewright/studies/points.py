@@ -21,7 +21,7 @@ def read_points(spec: MechanismSpec, file: str | Path) -> dict[Variable, NDArray
     columns = _from_parquet(file) if Path(file).suffix.lower() in (".parquet", ".pq") else _from_csv(file)
     for number, (key, *_) in enumerate(columns):
         if key in [earlier for earlier, *_ in columns[:number]]:
-            raise SpecError(f"column '{key}' is there twice; give it once", file=str(file))
+            raise SpecError(f"column '{key}' occurs twice; give it once", file=str(file))
     if not columns or not len(columns[0][2]):
         raise SpecError("has no cases; give a line of keys and a line for each case", file=str(file))
     return dict(_read(spec, *column, file) for column in columns)

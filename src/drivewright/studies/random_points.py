@@ -18,7 +18,7 @@ from drivewright.studies.variables import Variable
 
 HELD = 2_000_000  # numbers of a plan's points that are kept in memory; of more, blocks are made as they are read
 BLOCK = 65_536  # rows of such a block
-KEPT = 4  # blocks that are not made anew when they are read again
+KEPT = 4  # blocks that are kept for the next reading
 ROUNDS = 4  # of the mixing of a permutation
 
 

@@ -1,4 +1,4 @@
-"""A key that follows another one: "-2 * gears.pinion.torque", "0.5 * segments.0.length + 3 mm"; read by hand, in one form."""
+"""A key that follows another one: "-2 * gears.pinion.torque", "0.5 * segments.0.length + 3 mm"; parsed by our own code, in one form."""
 
 import re
 from collections.abc import Sequence
@@ -69,7 +69,7 @@ class Link:
         """SpecError where the other key has a value that no number of this one follows from."""
         if self.text and column.dtype.kind not in "iuf":
             word = next((each for each in column.tolist() if isinstance(each, str)), column[0])
-            raise SpecError(f"{self.key} = {self.text}: wants numbers, but {brief(word)} is among the values there; take it out", place)
+            raise SpecError(f"{self.key} = {self.text}: takes numbers, but {brief(word)} is among the values there; take it out", place)
         values = self.factor * column + self.offset if self.text and self.kind.name == "integer" else np.zeros(0)
         off = np.abs(values - np.round(values)) > WHOLE * np.maximum(np.abs(values), 1)
         if np.any(off):
@@ -95,7 +95,7 @@ def formula_link(spec: MechanismSpec, key: str, text: str, place: str) -> tuple[
     """(key that it follows, `Link`) of a key and the text of its relation."""
     found = relation(text)
     if found is None:
-        raise SpecError(f"wants {HOW}; got {brief(text)}{_minus_hint(text)}", f"{place}.link")
+        raise SpecError(f"must be {HOW}; got {brief(text)}{_minus_hint(text)}", f"{place}.link")
     kind, source = key_kind(spec, key, f"{place}.key"), _source_kind(spec, found.source, f"{place}.link")
     _refuse_other_kind(key, kind, found.source, source, f"{place}.link")
     if not 0 < abs(found.factor) < LARGEST:

@@ -7,7 +7,7 @@ from drivewright.errors import SpecError
 from drivewright.spec import MechanismSpec, document, load
 from drivewright.spec.differences import flat_tables, is_same_entry
 
-TOLD = 8  # differences that are told
+TOLD = 8  # differences that are listed
 UNSEEN = ("spec", "plan", "study")  # parts of an identity that the keys tell better
 UNTOLD = ("title", "units")  # keys that change no number
 PROGRAM = "drivewright"  # the part of an identity that is the program's version

@@ -1,4 +1,4 @@
-"""What a random sample says about a number: location, spread, percentiles and yield, each with its confidence interval.
+"""Statistics of a random sample: location, spread, percentiles and yield, each with its confidence interval.
 
 Everything is a function of plain arrays; nan stands for a case that has no such number, is left out, and counted.  The intervals hold the
 true number with probability `LEVEL`, for cases drawn independently of each other; those of mean and standard deviation also take the

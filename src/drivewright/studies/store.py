@@ -1,4 +1,4 @@
-"""What keeps the parts of a study, or of a search, as they are done: a folder (`study_folder`), or nothing but memory."""
+"""Storage of the parts of a study, or of a search, as they are done: a folder (`study_folder`), or nothing but memory."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class Memory:
         self.seconds += seconds
 
     def remark(self, texts: Iterable[str]) -> None:
-        """Keep what is to be said of the study."""
+        """Keep the notices about the study."""
         self._remarks = tuple(dict.fromkeys((*self._remarks, *texts)))
 
     def remarks(self) -> tuple[str, ...]:

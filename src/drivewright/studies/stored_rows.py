@@ -22,7 +22,7 @@ SLICE = 200_000  # rows of a table in memory that are looked at together
 
 
 class StoredRows:
-    """Rows of many parts; what is asked for is read and its checksum verified each time, one part after another."""
+    """Rows of many parts; requested rows are read and their checksum is verified each time, one part after another."""
 
     def __init__(self, parts_folder: Path, parts: Sequence[Part]) -> None:
         self._folder, self._parts = parts_folder, tuple(parts)

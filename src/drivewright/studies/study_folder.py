@@ -1,4 +1,4 @@
-"""The folder in which a study lives: `study.toml`, a ledger (SQLite) and `parts/` (Parquet).
+"""The folder of a study: `study.toml`, a ledger (SQLite) and `parts/` (Parquet).
 
 A part is written under a temporary name, forced to the disk, renamed, and only then entered in the ledger with its size and checksum.
 At every start all parts are checked: a damaged one is computed again, and one that no ledger names is kept where it proves what it is,
@@ -79,7 +79,7 @@ class Folder:
         if known and known != identity:
             if self._claimed_study() != self._study:
                 self._refuse(describe_differences(self.folder / SPEC, spec, known, identity))
-            damage, known, named = "is damaged (it says of another study than the parts)", {}, []
+            damage, known, named = "is damaged (it describes another study than the parts)", {}, []
         unnamed, rejected = self._unnamed_parts(named)
         is_rebuilt = not known and bool(unnamed or rejected or damage)
         if is_rebuilt and not unnamed and (differences := differing_keys(self.folder / SPEC, spec, "plan" in identity)):
@@ -213,7 +213,7 @@ class Folder:
             self._ledger.executemany("insert into parts (first, count, name, seconds, size, sha256) values (?, ?, ?, ?, ?, ?)", rows)
 
     def remark(self, texts: Iterable[str]) -> None:
-        """Keep what is to be said of the study."""
+        """Keep the notices about the study."""
         with self._to_disk(), self._ledger:
             self._ledger.executemany("insert or ignore into remarks values (?)", [(text,) for text in texts])
 
@@ -249,8 +249,8 @@ class Folder:
         except (OSError, sqlite3.Error) as error:
             reason = getattr(error, "strerror", None) or error
             raise InputError(
-                f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. Make room or mend the disk, "
-                "and give the same command again"
+                f"{self.folder}: cannot be written: {reason}; every case that was finished before is safe. "
+                "Free space on the disk, or repair it, and give the same command again"
             ) from None
 
 

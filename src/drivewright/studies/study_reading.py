@@ -48,7 +48,7 @@ def read_study(folder: str | Path) -> KeptStudy:
     except LedgerDamaged as damage:
         raise InputError(
             f"{folder}: its {LEDGER} {damage}; the parts are there: `drivewright sweep {folder / SPEC} --out {folder}` makes a new "
-            "ledger of those that are whole, and goes on"
+            "ledger of those that are intact, and continues"
         ) from None
     except (OSError, sqlite3.Error) as error:
         raise InputError(f"{folder}: cannot be read: {error}") from None

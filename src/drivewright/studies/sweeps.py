@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
 Progress: TypeAlias = Callable[[int, int, str], object]  # (done, total, what became of them)
-MANY = 200_000  # cases that want a confirmation
+MANY = 200_000  # cases above which a confirmation is required
 
 
 def sweep(
@@ -60,7 +60,7 @@ def sweep(
         spec = with_plan_of(spec, _with_study(out))
     plan = make_plan(spec)
     if len(plan) > MANY and not confirmed:
-        raise InputError(f"{len(plan)} cases are more than {MANY}; say --yes if you mean it, or take fewer levels or samples")
+        raise InputError(f"{len(plan)} cases are more than {MANY}; give --yes to confirm, or take fewer levels or samples")
     task = case_task(spec, plan.keys)
     kept = Folder(out, spec, study_identity(spec, plan)) if out is not None else Memory()
     with closing(kept):

@@ -1,4 +1,4 @@
-"""How to say what varies: from Python, and as on the command line."""
+"""Statement of what varies: from Python, and as on the command line."""
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -77,7 +77,7 @@ def _entry(keys: str, what: Mapping[str, Any]) -> Vary:
 
 
 def with_options(spec: SpecT, texts: Iterable[str] = (), points: str | Path | None = None, **settings: Any) -> SpecT:
-    """A spec whose [study] is what the command line asks for: `texts` as in `parse_variation`, a file of points, settings that are not
+    """A spec whose [study] is that of the command line: `texts` as in `parse_variation`, a file of points, settings that are not
     None."""
     given = {name: value for name, value in settings.items() if value is not None}
     if points is not None:
@@ -125,7 +125,7 @@ def parse_variation(text: str) -> tuple[str, Any]:
     """(key, what) of "key=from:to:steps" and the other ways of the command line."""
     key, equals, given = (part.strip() for part in text.partition("="))
     if not equals or not key or not given:
-        raise SpecError(f"--vary wants {HOW}; got {brief(text)}")
+        raise SpecError(f"--vary takes {HOW}; got {brief(text)}")
     if _is_relation(given):
         return key, linked(given)
     if form := re.fullmatch(r"(\w+)\s*\((.*)\)", given):
@@ -138,7 +138,7 @@ def parse_variation(text: str) -> tuple[str, Any]:
     if len(parts) in (3, 4):
         return key, _range(parts, text)
     if len(parts) > 1:
-        raise SpecError(f"--vary wants {HOW}; got {brief(text)}")
+        raise SpecError(f"--vary takes {HOW}; got {brief(text)}")
     return key, [read_value(part) for part in given.split(",") if part.strip()]
 
 
@@ -160,7 +160,7 @@ def _distribution(name: str, numbers: Sequence[Bound], text: str) -> Variation:
     if name not in FORMS:
         raise SpecError(f"--vary {text}: no distribution is called {name!r}; known: {', '.join(FORMS)}")
     if not LEAST[name] <= len(numbers) <= len(FORMS[name]):
-        raise SpecError(f"--vary {text}: {name} wants ({', '.join(FORMS[name][: LEAST[name]])}), got {len(numbers)} numbers")
+        raise SpecError(f"--vary {text}: {name} takes ({', '.join(FORMS[name][: LEAST[name]])}), got {len(numbers)} numbers")
     return {"distribution": name, **dict(zip(FORMS[name], numbers, strict=False))}
 
 

@@ -1,4 +1,4 @@
-"""Who may talk to the studio, and how much: hosts, origins, a token, counted bytes.  Plain ASGI, for pages and websockets alike."""
+"""Access to the studio and its limits: hosts, origins, a token, counted bytes.  Plain ASGI, for pages and websockets alike."""
 
 import asyncio
 import hmac

@@ -63,7 +63,7 @@ def serve(
         raise MissingExtra("drivewright studio", "studio", error) from None
     if token and (len(token) < LEAST_TOKEN or not token.isascii() or not token.isprintable()):
         raise InputError(
-            f"studio: --token has {len(token)} characters; it wants at least {LEAST_TOKEN} printable ASCII characters. "
+            f"studio: --token has {len(token)} characters; it needs at least {LEAST_TOKEN} printable ASCII characters. "
             "Leave it out, and a new one is made"
         )
     listening = _listening(host, port)
@@ -212,7 +212,7 @@ def _pictures():
 
 
 async def _warmed(resources):
-    """Load what the first message and the first drawing need, before they are asked for; it is no garbage to look through again."""
+    """Load what the first message and the first drawing need, before they are needed, and exclude it from garbage collection."""
 
     async def warm(pool, function, *arguments):
         async with pool.worker() as worker:

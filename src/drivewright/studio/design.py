@@ -67,5 +67,5 @@ class Design:
 
 
 def _not_here() -> SpecError:
-    # The same words whether the file exists or not: a page learns nothing of the disk.
+    # The same words whether the file exists or not: a page gets no information about the disk.
     return SpecError("there is no such data file here; open the spec together with the data files that it names")

@@ -76,13 +76,13 @@ def _check_value(value):
 
 @contextmanager
 def in_words() -> Iterator[None]:
-    """What a message asks wrongly, in one line."""
+    """What is wrong with a message, in one line."""
     try:
         yield
     except DrivewrightError:
         raise
     except ODD as error:
-        raise InputError(f"the page asked for something odd: {brief(str(error))}") from None
+        raise InputError(f"the page sent an unexpected request: {brief(str(error))}") from None
 
 
 def edit(send: object, document: Document, kept: bytes, change: str, arguments: Mapping[str, Any]) -> Edited:

@@ -23,7 +23,7 @@ ABSENT = object()  # where a key is not said
 
 @dataclass(frozen=True, eq=False)
 class FieldInfo:
-    """What does not change about a field: all that its spec class says of it.  `items`: of each entry of a list or of a `Named`."""
+    """What does not change about a field: all that its spec class states.  `items`: of each entry of a list or of a `Named`."""
 
     name: str
     hint: str

@@ -13,7 +13,7 @@ from drivewright.studio.sliders import Limits, slider, typical
 from drivewright.units import split
 
 Form: TypeAlias = dict[str, Any]  # {"groups": [...]}, plain data
-BESIDE_THE_FORM = ("mechanism", "format")  # keys of every spec that nobody changes in a form
+BESIDE_THE_FORM = ("mechanism", "format")  # keys of every spec that a form does not change
 
 
 def form(design: Design, labels: Mapping[str, str] | None = None, old: Form | None = None) -> Form:
@@ -178,7 +178,7 @@ def _field(info, value, key, label, zh, given, optional, slid=None):
     }
 
 
-# Most fields of a form are those of the form before: these are the same objects, and nobody changes them.
+# Most fields of a form are those of the form before: these are the same objects, and are not changed.
 _kept = lru_cache(maxsize=16384, typed=True)(_field)
 
 

@@ -1,4 +1,4 @@
-"""Wrong tokens cost time: the more of them came from an address, the longer the next one waits; with time that falls again."""
+"""Delay after wrong tokens: it grows with their number from one address, and decays over time."""
 
 import time
 

@@ -54,5 +54,5 @@ def unpacked(fragment: str) -> str:
     except (ValueError, zlib.error):
         text = ""
     if not text:
-        raise InputError("the design in this address is damaged; ask for the file, or for the address once more")
+        raise InputError("the design in this address is damaged; request the file, or the address again")
     return limited(text)

@@ -1,4 +1,4 @@
-"""One tab of the browser: what the page says changes the document, and the page hears what became of it.
+"""One tab of the browser: messages of the page change the document, and the page receives the outcome.
 
 Nothing of NiceGUI is in here: `send(message)` reaches the page, `receive(message)` takes what comes from it.  Messages are worked off one
 after another, and whatever reads or changes a design does so in a worker process: the server's loop only hands on.
@@ -13,7 +13,7 @@ from typing import Any
 from drivewright import registry
 from drivewright.errors import DrivewrightError, InputError, SpecError, brief
 from drivewright.execution.workers import WorkerDied, WorkerFault
-from drivewright.report.dimension_drawings import drawing_files
+from drivewright.report.dimension_drawings import drawing_files, fitting_drawings
 from drivewright.report.folder import file_name
 from drivewright.report.worked_examples import cards, preset_pictures
 from drivewright.studio import editing, translations
@@ -72,7 +72,7 @@ class Session:
             arguments = editing.checked_message(message)
         except InputError as error:
             return self._refuse(error)
-        if arguments.get("what") == "cancel":  # which waits for nobody
+        if arguments.get("what") == "cancel":  # which does not wait in the queue
             self.computations.cancel(str(arguments.get("name", "")))
         elif arguments.get("what") in tuple(ACTIONS):
             self._inbox.put(arguments)
@@ -308,6 +308,7 @@ class Session:
             "toml": design.toml(),
             "files": self.files,
             "settled": list(settled),
+            "drawings": fitting_drawings(design.kind, design.tables),
         }
         if edited.fields is not None:
             self.send({"what": "values", "fields": edited.fields, **common})

@@ -65,7 +65,7 @@ class Tabs:
         """An event of a page, {client_id, args}: its only argument is a message in JSON."""
         page = event.get("client_id") if isinstance(event, dict) else None
         session = self._sessions.get(page) if isinstance(page, str) else None
-        if session is None or page not in self._sio.rooms(socket):  # a socket speaks for its own page only
+        if session is None or page not in self._sio.rooms(socket):  # a socket acts for its own page only
             return
         arguments = event.get("args") if isinstance(event, dict) else None
         session.read(arguments[0] if isinstance(arguments, list) and arguments and isinstance(arguments[0], str) else "")

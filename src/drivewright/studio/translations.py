@@ -32,7 +32,7 @@ def texts(kind: str | None = None) -> dict[str, str]:
 
 
 def _introduction(kind):
-    """What the page says of a kind before a design of it is open: its name, its summary, its presets."""
+    """Texts about a kind before a design of it is open: its name, its summary, its presets."""
     known = registry.mechanism(kind)
     texts = _brought(kind).get("texts", {})
     return _presets(kind) | {english: texts[english] for english in (_words_of_name(kind), known.summary) if english in texts}

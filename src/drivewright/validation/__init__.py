@@ -1,4 +1,4 @@
-"""Published sources, one file each: the world's numbers beside ours.
+"""Published sources, one file each: published numbers beside ours.
 
 A plug-in adds a `Source` of its own under the entry point group `drivewright.validation`.
 
@@ -20,7 +20,7 @@ shaft_bearings      rolling bearings of the shaft paper: which kind is the stiff
 shaft_equations     equations (1) to (21) of the shaft paper, each evaluated for its data, beside the beam of the presets
 shaft_model         the shafts of the pipe-lining machine as printed: data of Table 1, and what runs of the presets give for them
 shaft_paper         the shafts of a pipe-lining machine of Li, Zhang and Chen
-source              a published source: the world's numbers beside ours, each with a verdict that is computed
+source              a published source: its numbers beside ours, each with a verdict that is computed
 """
 
 from collections.abc import Callable, Iterable
@@ -108,7 +108,7 @@ __all__ = [
 def rows_of(
     chosen: Iterable[Source], progress: Callable[[int, int, str], object] = lambda done, total, name: None
 ) -> dict[str, tuple[Row, ...]]:
-    """{name: rows} of sources, computed side by side; `progress` is told (done, total, sources that are computed)."""
+    """{name: rows} of sources, computed side by side; `progress` is called with (done, total, sources that are computed)."""
     named = {source.name: source for source in chosen}
     if len(named) == 1:
         return {name: source.rows() for name, source in named.items()}

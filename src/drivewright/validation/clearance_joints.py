@@ -115,7 +115,9 @@ def _links() -> Iterator[Row]:
     for (inertia, play, damping, k_d, rms, pinned), (ours, level, sampled) in zip(LINKS, outcomes, strict=True):
         name = f"r = {play} mm, {damping} N m s/rad, inertia about {inertia}"
         coarse_sampling = Explanation(
-            f"The other program saw {COARSE} samples of each turn and missed the tops of the peaks; so does ours then.", sampled
+            f"The other program sampled each turn at {COARSE} points and missed the tops of the peaks; sampled like that, ours gives "
+            f"the same value.",
+            sampled,
         )
         yield Row(
             f"K_d, {name}", rounded(k_d, "-"), ours, pinned=pinned, explanation=coarse_sampling if pinned == EXPLAINED else None, **common

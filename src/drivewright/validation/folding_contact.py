@@ -89,7 +89,7 @@ def dry_rows(folder: Path) -> Iterator[Row]:
 
 
 def _trends(tables: dict[int, dict[str, list[float]]]) -> Iterator[Row]:
-    """What section 3 says of its table: K_d grows with the play at every speed, and not with the speed everywhere."""
+    """Statements of section 3 about its table: K_d grows with the play at every speed, and not with the speed everywhere."""
     common: dict[str, Any] = {"unit": "-", "pinned": AGREES, "kind": "published table", "where": "section 3", "assumed": CONTACT}
     fastest, slowest = (tables[speed] for speed in (max(tables), min(tables)))
     over_play = [_quotient(table, -1, table, 0) for table in tables.values()]

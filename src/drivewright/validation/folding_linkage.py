@@ -71,12 +71,13 @@ LINKS = (
     "knife's angular acceleration; c_theta = 0.1 N m s/rad"
 )
 NO_READING = (
-    "No reading of Table 1 gives it. The peak at the knife's edge is 16.2 times less; of all orders of the lengths, radii, components and "
-    "usual factors of units that were tried none with a sense meets the digits. 8388 m/s^2, 855 times "
-    "gravity's, are unlikely for such a machine, too."
+    "No reading of Table 1 gives the printed value. The peak at the knife's edge is 16.2 times less; of all orders of the lengths, radii, "
+    "components and usual factors of units that were tried none with a physical meaning gives the digits. An acceleration of 8388 "
+    "m/s^2, 855 times that "
+    "of gravity, is also unlikely for such a machine."
 )
 NO_DAMPING = (
-    "The damping that was used is not known: 0.1 N s/rad has the unit of no rotary damping, and read as 0.1 N m s/rad it freezes the "
+    "The damping that was used is not known: 0.1 N s/rad has the unit of no rotary damping, and read as 0.1 N m s/rad it locks the "
     "links. Neither that nor any other constant gives the table."
 )
 NOT_A_TARGET = (
@@ -189,7 +190,7 @@ def _ideal() -> Iterator[Row]:
         )
     first, last = printed_acceleration(10800), printed_acceleration(41400)
     ratio = Printed("8.3880/0.5708", last.low / first.high, last.high / first.low)
-    note = "Any acceleration at constant speed grows with its square: this says nothing of the mechanism."
+    note = "Every acceleration grows with the square of a constant speed, so the ratio does not test the mechanism."
     only: dict[str, Any] = {"pinned": NOT_COMPARED, "basis": PRINT_ONLY, "note": note}
     yield Row("ideal acceleration, 41400 over 10800 r/h", ratio, (41400 / 10800) ** 2, "-", **only, **common)
 
@@ -235,7 +236,7 @@ def _text() -> Iterator[Row]:
     yield Row("peak acceleration at 32400 r/h, r = 0.10 mm", peak, product, "m/s^2", note="K_d times the ideal peak of Table 2.", **common)
     near = "influence of the play below 10 000 r/h, K_d at 10800 r/h and 0.40 mm"
     small = Printed("very small: 1 within 10 %", 0.9, 1.1)
-    yield Row(near, small, float(TABLE[10800][-1]), "-", note="The text beside its own table, at the nearest speed.", **common)
+    yield Row(near, small, float(TABLE[10800][-1]), "-", note="The text is compared with its own table, at the nearest speed.", **common)
     allowed = rounded("28000 rev/h", "rad/s")
     note = "Nothing to compare it with: no criterion is printed."
     yield Row("crank speed allowed with r = 0.20 mm", allowed, None, "rad/s", note=note, **common)
@@ -243,7 +244,7 @@ def _text() -> Iterator[Row]:
         column = [float(row[1 + PLAYS.index(play)]) for row in TABLE.values()]
         text = f"about {low:.4f}" if low == high else f"{low:.4f} to {high:.4f}"
         name = f"largest K_d of the column r = {play} mm"
-        yield Row(name, Printed(text, low, high), max(column), "-", note="The text beside its own table.", **common)
+        yield Row(name, Printed(text, low, high), max(column), "-", note="The text is compared with its own table.", **common)
 
 
 # -- equation 2 ----------------------------------------------------------------------------------------------------------------

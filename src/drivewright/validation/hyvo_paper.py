@@ -93,7 +93,7 @@ def _table() -> Iterator[Row]:
     yield Row("hole pitch A, control group", rounded("8.16 mm", "m"), None, "m", note=note, **common)
     best = np.degrees(np.arcsin(pin_offset(CLASSICAL_RADIUS) / (CLASSICAL_RADIUS * MM)))
     note = (
-        "Nothing to compare it with: the control group is said to have 'the optimal parameter values', and not what they are optimal for. "
+        "Nothing to compare it with: the paper gives the control group 'the optimal parameter values' without stating the criterion. "
         f"With e = R sin(gamma) it deviates on both sprockets; without deviation on the driver gamma would be {best:.3f} deg."
     )
     yield Row("angle gamma, control group", rounded("3.667 deg", "rad"), None, "rad", note=note, **common)
@@ -156,7 +156,7 @@ def _radii() -> Iterator[Row]:
         **common,
     )
     note = (
-        "'Unconditionally' is for this pitch and these teeth, and says no more than delta_p2 < delta12. For z1 = z2, delta12 is 0 and "
+        "'Unconditionally' holds for this pitch and these teeth and means delta_p2 < delta12, no more. For z1 = z2, delta12 is 0 and "
         f"r10 is p/(2 cos(pi/z)): {meshing.boundary_radius(8.0, 40, 40):.4f} mm for 8 mm and 40 teeth."
     )
     yield Row(
@@ -169,8 +169,8 @@ def _radii() -> Iterator[Row]:
     )
     not_monotone = Explanation(
         "At r10 the deviations on the driven sprocket are equal, no more: there p'' has its greatest value between the two "
-        "seats. p'' of a matched chain grows up to the driver's seat below p/(2 cos(pi/z1)). So read ours is "
-        "the printed value.",
+        "seats. p'' of a matched chain grows up to the driver's seat below p/(2 cos(pi/z1)). Under that reading our "
+        "value is the printed one.",
         float(meshing.boundary_radius(P, Z1, Z2)),
     )
     yield Row(
@@ -186,10 +186,11 @@ def _radii() -> Iterator[Row]:
 # -- section 5 -----------------------------------------------------------------------------------------------------------------
 
 
+ELASTIC = "elastic joints and teeth"
 ROUTES = {
     "straight strands": lambda radius: rigid_closure(radius, "straight"),
     "strands in equilibrium": rigid_closure,
-    "joints and teeth that yield": elastic_equilibrium,
+    ELASTIC: elastic_equilibrium,
 }
 
 
@@ -198,7 +199,7 @@ def _distances() -> Iterator[Row]:
     first, last = rigid_closure(1.0, "straight").mean, rigid_closure(1.6).mean
     truncated = Explanation(
         f"Cut off, not rounded, it is the mean of the rigid drive of group 1. Those of all groups lie from {1e3 * first:.4f} "
-        f"to {1e3 * last:.4f} mm, and that of hinges (r1 = 0) is 219.0540 mm. How it was chosen is not said.",
+        f"to {1e3 * last:.4f} mm, and that of hinges (r1 = 0) is 219.0540 mm. How it was chosen is not stated.",
         float(np.floor(first * 1e6) * 1e-6),
     )
     yield Row(
@@ -221,14 +222,14 @@ def _distances() -> Iterator[Row]:
         "assumed": MASSES,
         "note": (
             "Does not follow from the data given: masses, friction, damping and its exponents, and the driven sprocket are not printed. At "
-            f"rest the rigid drive has {1e3 * rigid_closure(CLASSICAL_RADIUS).mean:.4f} mm and yielding adds the rest. Most of a running "
+            f"rest the rigid drive has {1e3 * rigid_closure(CLASSICAL_RADIUS).mean:.4f} mm and elasticity adds the rest. Most of a running "
             "deviation is compliance, a choice of the model."
         ),
     }
     distance = rest.centre_distance
     for name, printed, ours in (
-        ("greatest centre distance", "219.136037", distance.max()),
-        ("least centre distance", "219.115892", distance.min()),
+        ("maximum centre distance", "219.136037", distance.max()),
+        ("minimum centre distance", "219.115892", distance.min()),
         ("fluctuation", "0.020145", rest.fluctuation),
         ("mean centre distance", "219.1256", rest.mean),
     ):
@@ -253,10 +254,8 @@ ELASTIC_NOTE = (
     "True of rigid drives alone. With joints and teeth of the paper's stiffness, at rest under the paper's force, the order is the "
     "opposite: 2.5 um for group 1, 2.1 um for group 7; the control group lies between them, at 2.4 um."
 )
-RUNNING_NOTE = (
-    "True of plates without elasticity at rest. What running chains do, which the claim is about, the page of the paper computes."
-)
-AT_REST = "True at rest. What running chains do, which the claim is about, the page of the paper computes."
+RUNNING_NOTE = "True of plates without elasticity at rest. The claim is about running chains; the page of the paper computes those."
+AT_REST = "True at rest. The claim is about running chains; the page of the paper computes those."
 
 
 def _trends() -> Iterator[Row]:
@@ -273,10 +272,10 @@ def _trends() -> Iterator[Row]:
 
 
 def _fluctuations(route: str, groups: Floats, control: float, common: dict[str, Any]) -> Iterator[Row]:
-    elastic = "yield" in route
+    elastic = route == ELASTIC
     common = common | {"where": "Fig. 11", "pinned": EXPLAINED, "note": "" if elastic else RUNNING_NOTE, "idealised": True}
     for name, claim, ours, stiff in (
-        ("least growth of the fluctuation from group to group, in um", GROWS, np.diff(groups).min() * 1e6, _least_fluctuation_growth()),
+        ("minimum growth of the fluctuation from group to group, in um", GROWS, np.diff(groups).min() * 1e6, _least_fluctuation_growth()),
         ("largest fluctuation of groups 1 to 7 over control", SMALLER, groups.max() / control, _fluctuation_ratio()),
     ):
         yield Row(
@@ -301,7 +300,7 @@ def _deviations(route: str, groups: Floats, control: float, common: dict[str, An
     line = np.linspace(groups[0], groups[-1], len(groups))
     common = common | {"where": "Figs. 12, 13", "pinned": EXPLAINED, "note": AT_REST, "idealised": True}
     for name, claim, ours in (
-        ("least growth of the running deviation from group to group, in um", GROWS, np.diff(groups).min() * 1e6),
+        ("minimum growth of the running deviation from group to group, in um", GROWS, np.diff(groups).min() * 1e6),
         ("largest running deviation of groups 1 to 7 over control", SMALLER, groups.max() / control),
         (
             "departure of the running deviation from a straight line, over its range",
@@ -318,8 +317,10 @@ ERRATA = (
     "Eq. (29) is the derivative with e held; by (21) e grows with r1, and the slope of delta_p2 is 4.1374e-4 instead of 8.5288e-4.",
     "Section 4.3: pp1'' = 9.563499 mm is cut off; it rounds to 9.563500 mm.",
     "Section 4.3: 'unconditionally' true is r1 < r10 for this pitch and these teeth; for equal tooth numbers delta12 is 0.",
-    "The pin offset e has no effect on any motion, seat, force or tooth, it says where a line called pitch line is drawn. All groups "
-    "change r1 and e together, so that the experiment cannot tell them apart. What counts is r1 and the flank's distance from the pin.",
+    "The pin offset e has no effect on any motion, seat, force or tooth, it only sets where the line called pitch line is drawn. All "
+    "groups "
+    "change r1 and e together, so that the experiment cannot separate their effects. The quantities that matter are r1 and the flank's "
+    "distance from the pin.",
     "A pitch that varies does not take away the polygonal action: the strand rises and falls by 0.2139 to 0.2153 mm on 35 teeth for any r1 "
     "from 0 to 7.4 mm, as that of a roller chain does.",
     "The fluctuation depends on the number of links more than on r1. With 81 or 83 instead of 82 links the trend turns round: rigid, with "
@@ -331,9 +332,10 @@ ERRATA = (
     "Section 5.3: 'proved to be linear' is the closure of rigid plates, where the mean grows by 2.5 um per mm of radius.",
     "The control group has another measure in place of e, the angle 3.667 deg, and counts it from another place.",
     "Section 6.1: the elements of the pin are nine times as wide as half the contact; 1415 MPa of the small pins against 570 MPa of the "
-    "classical ones are not seen. By Tresca the small pins begin to yield at 1390 MPa.",
+    "classical ones are not resolved. By Tresca the small pins begin to yield at 1390 MPa.",
     "Section 6.2: 303.13 and 468.66 MPa of the plates cannot be computed: neither plate is drawn. The plate of group 3 that we drew has "
-    "223 MPa in its crotch under 200 N, and the start from 0 to 2000 rpm in 0.01 s adds to that: the numbers are those of a drawing.",
+    "223 MPa in its crotch under 200 N, and the start from 0 to 2000 rpm in 0.01 s adds to that: the numbers depend on a drawing that "
+    "is not given.",
     "Section 6: lives of plates have no unit. The exponents that stresses and lives imply are 5.98 for plates and 3.30 for pins.",
     "Conclusion 2: p'' grows strictly up to the seat for r1 < 4.7817 mm; at r10 = 5.0548 mm it only deviates by delta12.",
     "Conclusion 3: 'much smaller' fluctuations are those of rigid plates. With the paper's contact stiffness, at rest, groups 1 to 7 fall "

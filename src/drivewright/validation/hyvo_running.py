@@ -136,7 +136,7 @@ def running_rows(folder: Path) -> Iterator[Row]:
     ):
         agreed: dict[str, Any] = common | {"pinned": AGREES}
         largest, verdict = ratio(max(values), other), OPEN if name == "fluctuation" else AGREES
-        agreed["reading_of"] = f"least growth of the {name} from group to group, in um"
+        agreed["reading_of"] = f"minimum growth of the {name} from group to group, in um"
         yield _row(f"{name} of group 7 over group 1, running", grows, ratio(values[-1], values[0]), "-", place, **agreed)
         quantity = f"largest {name} of groups 1 to 7 over control, running"
         claim = f"largest {name} of groups 1 to 7 over control"
@@ -144,7 +144,7 @@ def running_rows(folder: Path) -> Iterator[Row]:
 
 
 def plate_rows(folder: Path) -> Iterator[Row]:
-    """Section 6.2: greatest stress and least life of the plates under the paper's load case."""
+    """Section 6.2: maximum stress and least life of the plates under the paper's load case."""
     common: dict[str, Any] = {
         "kind": "other code",
         "inputs": "F1 = 200 N, F0 = 50 N, 2000 rpm, 1 x 2, 2 mm",
@@ -155,9 +155,9 @@ def plate_rows(folder: Path) -> Iterator[Row]:
     stress = [mean_of_cases(study[STRESS]) for study in (new, control)]
     lives = [mean_of_cases(study[LIFE], logarithmic=True) for study in (new, control)]
     for (name, printed), ours in zip(PLATE_STRESSES.items(), stress, strict=True):
-        yield _row(f"greatest stress of the plate, {name}", rounded(f"{printed} MPa", "Pa"), ours, "Pa", "section 6.2", **common)
+        yield _row(f"maximum stress of the plate, {name}", rounded(f"{printed} MPa", "Pa"), ours, "Pa", "section 6.2", **common)
     below = Printed("below 1", *BELOW_ONE)
-    yield _row("greatest stress of the plate, group 3 over control", below, ratio(*stress), "-", "section 6.2", **common)
+    yield _row("maximum stress of the plate, group 3 over control", below, ratio(*stress), "-", "section 6.2", **common)
     for name, text, ours, of in (
         ("group 3", "1.64e9", lives[0], "plate, new chain"),
         ("control group", "1.21e8", lives[1], "plate, classical chain"),

@@ -98,16 +98,17 @@ def _measured() -> Iterator[Row]:
     ours, best = indexer_result(), indexer_result(*LARGEST)["stiffness.mean"] * ARCMIN
     why = (
         f"{NOT_FOLLOWING}with the printed bearings the stiffness is bounded by them: rigid shafts and gears and the widest "
-        f"spacing that the cam leaves (122 mm) give a mean of {best:.0f} N m/arcmin. Inputs differ strongly, or the load or its unit does."
+        f"spacing that the cam leaves (122 mm) give a mean of {best:.0f} N m/arcmin. Either the inputs, or the load or its unit, differ "
+        f"strongly from those printed."
     )
     yield Row("mean torsional stiffness", _per_arcmin("747.39"), ours["stiffness.mean"], "N m/rad", note=why, **common)
     near = (
-        "Nearness of the numbers means nothing beside a mean that is five times ours; whether the whole range or half of it is meant is "
-        "not said."
+        "The two numbers are close by chance, for the printed mean is five times ours; whether the whole range or half of it is meant is "
+        "not stated."
     )
     yield Row("variation over the index period", _per_arcmin("186.49"), ours["stiffness.range"], "N m/rad", note=near, **common)
     shape = (
-        f"{NOT_FOLLOWING}all normals pass through the pitch point e/phi' away, so bearings that yield make the drive softest where phi' is "
+        f"{NOT_FOLLOWING}all normals pass through the pitch point e/phi' away, so elastic bearings make the drive softest where phi' is "
         "largest, at 90 deg, alike on both sides of it while pins pull as well as push. Contact in one direction alone breaks the symmetry."
     )
     lowest, highest = (about(f"about {at} deg", np.radians(at), np.radians(5)) for at in (50, 145))
@@ -135,7 +136,7 @@ def _constant() -> Iterator[Row]:
         "assumed": ASSUMED + "; bearings of 480 and 170 N/um, the means of eqs. (5), (6) under the loads of this torque",
         "note": (
             f"{NOT_FOLLOWING}constant bearings give K ~ r_p^2, r_p = e/phi': {stiffer:.1f} times stiffer in the dwell than at 90 deg. A "
-            "curve that follows the number of contacts needs bearings that hardly yield at all."
+            "curve that follows the number of contacts needs almost rigid bearings."
         ),
     }
     highest = about("90 deg", np.radians(90), np.radians(5))
@@ -269,7 +270,7 @@ def _support_loads(equilibrium: Any, lengths: Any, first: Any, second: Any, gear
     span = lengths.span
     printed = [complex(each[0]) for each in statics.support_loads_printed(first, second, np.array([gear.imag]), lengths)]
     outward = gear.real * (a + span) / span
-    sign = "The first line lacks a minus sign, and the gear's separating force is left out: so changed ours is the printed value."
+    sign = "The first line lacks a minus sign, and the gear's separating force is left out: with both changes our value is the printed one."
     swapped = "b1 stands where b2 belongs, true only where both are equal: with the two exchanged ours is the printed value."
     separating = "The gear's separating force is left out: without it ours is the printed value."
     shift = ((first.imag * (b1 + c) + second.imag * b1) - (first.imag * (b2 + c) + second.imag * b2))[0] / span
@@ -339,7 +340,7 @@ def _test() -> Iterator[Row]:
     angle = "The motor turns at 0.5 deg/s and a model is kept every 9 s: 4.5 deg, both printed."
     turned: dict[str, Any] = counted | {"unit": "rad", "where": "section 1.2", "note": angle}
     yield Row("input angle between two models", rounded("4.5 deg", "rad"), np.radians(0.5 * 9), **turned)
-    mesh: dict[str, Any] = {"where": "section 3.3.2", "note": "A mesh of the authors; ours has another purpose.", **counted}
+    mesh: dict[str, Any] = {"where": "section 3.3.2", "note": "The mesh is that of the authors; ours serves another purpose.", **counted}
     yield Row("elements of the mesh", rounded("109971", "-"), None, **mesh)
     yield Row("nodes of the mesh", rounded("507651", "-"), None, **mesh)
 
@@ -364,7 +365,7 @@ ERRATA = (
     'Section 3.3.1: "No Separation" lets pins pull. With equal motion and dwell the cams hold the wheel in one direction '
     "only from 0 to 31 deg and from 149 to 180 deg; the model cannot show it.",
     "A NU207E of 35 mm bore with 10 mm eccentricity leaves at most 15 mm for a shaft through a separate sleeve, the 61904 "
-    "wants 20 mm; the crank must be one piece with its shaft.",
+    "needs 20 mm; the crank must be one piece with its shaft.",
     "41 measuring points in section 2.2, 40 in section 4 (4.5 deg apart over 180 deg there are 41).",
     "Eq. (6) is that of angular-contact ball bearings; it is applied to a 61904, a deep-groove ball bearing, with a contact angle of 0.",
 )

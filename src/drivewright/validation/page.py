@@ -1,5 +1,6 @@
 """The sources as one page of Markdown, for the documentation."""
 
+import re
 from collections.abc import Iterable, Iterator
 
 from drivewright.validation.source import Row, Source
@@ -15,9 +16,29 @@ itself does not print. `drivewright reproduce` shows the five papers that the pa
 """
 
 
+UNITS = (
+    (r"(?<=\d) deg\b", "°"),
+    (r"(?<=[\d.]) ?um\b|\bum\b", lambda found: found[0].replace("um", "µm")),
+    (r"\burad\b", "µrad"),
+    (r"\bN m s/rad", "N·m·s/rad"),
+    (r"\bN s/rad", "N·s/rad"),
+    (r"\bN m\b", "N·m"),
+    (r"\bkg mm\^2", "kg·mm²"),
+    (r"\bkg m\^2", "kg·m²"),
+    (r"\b(mm?|s|N/m)\^(\d)(?![.\d])", lambda found: found[1] + "⁰¹²³⁴⁵⁶⁷⁸⁹"[int(found[2])]),
+)
+
+
 def page(sources: Iterable[Source]) -> str:
     """Markdown with a table per source, its assumptions and its errata."""
-    return "\n".join([HEADER, *(line for source in sources for line in _section(source))])
+    return with_printed_units("\n".join([HEADER, *(line for source in sources for line in _section(source))]))
+
+
+def with_printed_units(text: str) -> str:
+    """The text with its units as a book prints them: µm, N·m, m/s², °."""
+    for unit, printed in UNITS:
+        text = re.sub(unit, printed, text)
+    return text
 
 
 def _section(source: Source) -> Iterator[str]:

@@ -37,7 +37,7 @@ WANTED_ANGLES = (  # what seedlings need [deg]
     ("5 to 25 deg", 5.0, 25.0),
     ("60 to 80 deg", 60.0, 80.0),
 )
-LAW = "rod by the 3-4-5 polynomial over the carrier angle, as Fig. 2 was not to be had; l = m l1 = 56 mm"
+LAW = "rod by the 3-4-5 polynomial over the carrier angle, as Fig. 2 was not available; l = m l1 = 56 mm"
 CAMS = f"{LAW}; rod at the needle"
 MIRRORED = f"{LAW}; mirrored, the rod on the far side of the planet axis"
 DRIVES = "the 'rise' of the return cam is the phase in which it drives"
@@ -105,13 +105,13 @@ def _needle(turned: Result[Any]) -> Iterator[Row]:
     calibrated: dict[str, Any] = {"pinned": NOT_COMPARED, "basis": CALIBRATED}
     yield Row("push angle", rounded("67.82 deg", "rad"), turned["needle.push_angle"], **calibrated, **common)
     yield Row("take angle", rounded("17.6 deg", "rad"), take_angle, pinned=OPEN, note=missing, **common)
-    rest = "The push angle in it is calibrated, so that it says the same as the take angle."
+    rest = "The push angle in it is calibrated, so that it adds nothing to the take angle."
     yield Row("push minus take angle", rounded("50.22 deg", "rad"), between, note=rest, **calibrated, **common)
     take, push = (Printed(text, *np.radians(ends)) for text, *ends in WANTED_ANGLES)
     wide = about("about 55 deg", np.radians(55), np.radians(5))  # as wide as the paper takes it, which calls its own 50.22 deg that
-    yield Row("take angle within what seedlings need", take, take_angle, pinned=AGREES, **common)
-    yield Row("push angle within what seedlings need", push, turned["needle.push_angle"], **calibrated, **common)
-    yield Row("difference of the angles within what seedlings need", wide, between, note=rest, **calibrated, **common)
+    yield Row("take angle within the range for seedlings", take, take_angle, pinned=AGREES, **common)
+    yield Row("push angle within the range for seedlings", push, turned["needle.push_angle"], **calibrated, **common)
+    yield Row("difference of the angles within the range for seedlings", wide, between, note=rest, **calibrated, **common)
 
 
 def _pressure_angles(turned: Result[Any], interior: Result[Any]) -> Iterator[Row]:
@@ -161,7 +161,8 @@ def _curvature(turned: Result[Any]) -> Iterator[Row]:
     radius, other = (result["cam.return.min_convex_radius"] for result in (turned, parabolic))
     unchecked = Explanation(
         "The paper does not check curvature: the roller of 6 mm is larger than the sharpest convex radius of the pitch curve, "
-        f"{1e3 * radius:.2f} mm, and undercuts the cam. Of the laws without a jump of velocity only the parabolic one spares both cams.",
+        f"{1e3 * radius:.2f} mm, and undercuts the cam. Of the laws without a jump of velocity only the parabolic one undercuts neither "
+        f"cam.",
         other / roller,
     )
     fit = implied(">= 1", 1.0, float("inf"))
@@ -193,19 +194,19 @@ def _lever(turned: Result[Any]) -> Iterator[Row]:
 
 
 ERRATA = (
-    "phi01 and phi02: the root belongs nowhere in the fraction; as printed the main arm would rest at 88.6 deg instead of 48.5.",
+    "phi01 and phi02: the root does not belong in the fraction; as printed the main arm would rest at 88.6 deg instead of 48.5.",
     "alpha0 is called acute in Table 1 and is 104 deg in section 2.1: one symbol with two values, which describe nearly the same arm only "
     "when they are measured from different lines.",
     "S is not repeated for the second set; the angle of the needle in the arm, the gate, the plant spacing, speed and direction of travel "
     "are missing.",
     "l has no value; l = m l1 = 56 mm is the only consistent reading. Eq. (1) assumes a radial slot and a rod square to it at zero lift.",
-    "O'E is declared the y' axis, eq. (3) puts E on -y', and eq. (10) measures along x'; the arctan there wants two arguments.",
+    "O'E is declared the y' axis, eq. (3) puts E on -y', and eq. (10) measures along x'; the arctan there needs two arguments.",
     "Eq. (5) is garbled. Eqs. (6) and (7) give the left normal, which points inwards only for one sense of travel, and phi is negative in "
     "Table 1.",
     "r_f in the text is r_i in Table 1. The 'base circle' radii are pitch radii, and r02 is the largest pitch radius of the return cam.",
     "h is the height of the tip's track, not the stroke of the rod. The 'rise' of the return cam is not defined.",
     "50.22 deg is presented as meeting 'about 55 deg', from which it is 4.8 deg away. Undercut, force and play are not examined.",
-    "The ADAMS run compares static tracks of needle tip and rod end only; it says nothing on dynamics, play or force.",
+    "The ADAMS run compares static tracks of needle tip and rod end only; it does not cover dynamics, play or force.",
 )
 
 source = Source(

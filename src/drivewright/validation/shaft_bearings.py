@@ -25,7 +25,8 @@ BEARINGS = {
 }
 INNER_OF_SHAFTS = "inner geometries of the size of a 61804, inclined bearings back to back without preload"
 INNER = (
-    "inner geometries of the size of a 61804, nobody's bearings but the first; no clearance, rings parallel, 500 N radially; without "
+    "assumed inner geometries of the size of a 61804, of which only the first is a catalogue bearing; no clearance, rings parallel, 500 "
+    "N radially; without "
     "an axial load the rings keep their axial place"
 )
 
@@ -112,7 +113,9 @@ def _stiffest() -> Iterator[Row]:
     taper = bearings.bearing("hypothetical-TRB-20x32x7")
     alike = taper.replace(**ROLLERS)
     plain, claim = stiffness_ratio(0.0, alike), Printed("highest support stiffness: above 1", *ABOVE_ONE)
-    loaded = Explanation("The claim holds for equal rollers and no axial load. With it, all of a tapered bearing's rollers carry.", plain)
+    loaded = Explanation(
+        "The claim holds for equal rollers and no axial load. With it, all rollers of a tapered bearing carry load.", plain
+    )
     longer = Explanation("The claim holds for equal rollers. A tapered bearing of the same size may have more and longer ones.", plain)
     common: dict[str, Any] = {
         "unit": "-",

@@ -43,7 +43,7 @@ def rows() -> Iterator[Row]:
     yield from _pressure_roller()
     yield from _rubber_roller()
     yield from _lines()
-    yield from _yielding()
+    yield from _elastic_bearings()
     yield _equation_21()
 
 
@@ -57,7 +57,7 @@ def _section() -> Iterator[Row]:
 
 def _pressure_roller() -> Iterator[Row]:
     common: dict[str, Any] = {"kind": "closed form", "inputs": DATA, "assumed": READING, "pinned": AGREES}
-    own = "The formula belongs to a force at this mass alone, whatever the text says of one force P."
+    own = "The formula belongs to a force at this mass alone, although the text speaks of one force P."
     slope, moment = (value_per_newton("pressure-roller", "m1", name) for name in ("bearings.A.slope", "shaft.max_moment"))
     yield Row("slope at A, force at m1, in urad/N", slope_of_formula(L1 * L2 / (3 * EI)), 1e6 * slope, "-", where="eq. (1)", **common)
     yield Row("moment at A over the force at m1, in m", evaluated("0.0565", "-"), moment, "-", where="eq. (2)", **common)
@@ -177,10 +177,10 @@ def _lines_of_rubber_roller(common: dict[str, Any]) -> Iterator[Row]:
         )
 
 
-# -- bearings that yield, eqs. (15) to (21) ------------------------------------------------------------------------------------
+# -- elastic bearings, eqs. (15) to (21) ----------------------------------------------------------------------------------------
 
 
-def _yielding() -> Iterator[Row]:
+def _elastic_bearings() -> Iterator[Row]:
     common: dict[str, Any] = {"kind": "closed form", "inputs": DATA, "assumed": READING, "unit": "m/N"}
     reactions = {
         "A, force at m1": (1 + L1 / L2, "pressure-roller", "m1", "A"),
@@ -197,7 +197,7 @@ def _yielding() -> Iterator[Row]:
         number = 16 if preset == "pressure-roller" else 17
         own, rigid = own_flexibility(mass), own_flexibility(mass, np.inf)
         yield Row(
-            f"what yielding bearings add at {mass}",
+            f"contribution of the bearings at {mass}",
             flexibility_of_formula(printed),
             own - rigid,
             where=f"eq. ({number})",
@@ -215,8 +215,8 @@ LITERAL = {  # eqs. (16), (17) for the printed data: mu are magnitudes of the re
     "m4": (L8 / SPAN - (L6 + L7) / (L6 + L7) * (L8 + L7) / SPAN) / STIFFNESS,
 }
 LITERAL_REMARK = (
-    "Wrong signs: with the magnitudes of our reactions and x from the first mass, as printed, ours is the printed value. Bearings that "
-    "yield add squares of their reactions over their stiffness, so never a negative flexibility under the load itself."
+    "Wrong signs: with the magnitudes of our reactions and x from the first mass, as printed, ours is the printed value. Elastic "
+    "bearings add squares of their reactions over their stiffness, so never a negative flexibility under the load itself."
 )
 
 
@@ -233,7 +233,7 @@ def _sums(common: dict[str, Any]) -> Iterator[Row]:
         **common,
     )
     yield Row(
-        "flexibility of m2 on bearings that yield",
+        "flexibility of m2 on elastic bearings",
         flexibility_of_formula(rigid + LITERAL["m2"]),
         own_flexibility("m2"),
         where="eq. (19)",
@@ -245,7 +245,7 @@ def _sums(common: dict[str, Any]) -> Iterator[Row]:
     beam = -(l6**2) * (l5 + l6) / (3 * EI)  # m4 overhangs D by l6 on a span l5, its force up
     old = float(flexibility("rubber-roller-r2", np.inf)[1, 1])
     yield Row(
-        "flexibility of m4 on bearings that yield",
+        "flexibility of m4 on elastic bearings",
         flexibility_of_formula(beam + LITERAL["m4"]),
         own_flexibility("m4"),
         where="eq. (20)",

@@ -39,10 +39,10 @@ from drivewright.validation.source import (
 
 LITERAL_NOTE = (
     "Eqs. (16), (17) to the letter, reactions as magnitudes and x from the first mass, give the printed trend, by wrong signs: "
-    "bearings that yield add squares of their reactions over their stiffness, so to the flexibility of every mass under its load."
+    "elastic bearings add squares of their reactions over their stiffness, so to the flexibility of every mass under its load."
 )
-BESIDE_ITSELF = "Not even the printed eqs. (16), (17), which are wrong, give this trend: the paper beside itself."
-HISTORICAL_NOTE = "The printed eqs. (16), (17), which are wrong, give this trend: the paper beside itself."
+BESIDE_ITSELF = "Not even the printed eqs. (16), (17), which are wrong, give this trend: the paper is compared with itself."
+HISTORICAL_NOTE = "The printed eqs. (16), (17), which are wrong, give this trend: the paper is compared with itself."
 
 
 def rows() -> Iterator[Row]:
@@ -68,7 +68,7 @@ def clamped_flexibility(preset: str) -> Floats:
 
 SUPPORTS_NOTE = (
     "Finite elements with fixed supports are another shaft than the beam on simple supports that they are to confirm. Whether they "
-    "were clamped cannot be told: none of their numbers is printed, and there are four bearings in two shafts, not three."
+    "were clamped cannot be determined: none of their numbers is printed, and there are four bearings in two shafts, not three."
 )
 
 
@@ -130,7 +130,7 @@ def _conclusion() -> Iterator[Row]:
     common["note"] = "This conclusion is right at every mass for springs at fixed places, and contradicts the trends of section 5.3."
     for mass in CLAIMS:
         yield Row(
-            f"flexibility of {mass}, bearings twice as stiff over as they are",
+            f"flexibility of {mass}, bearing stiffness doubled over nominal",
             Printed("reduced: below 1", *BELOW_ONE),
             own_flexibility(mass, 2 * STIFFNESS) / own_flexibility(mass),
             "-",
@@ -150,7 +150,8 @@ ERRATA = (
     "continuous, so all the constants of a shaft are two, C1 = C3 = C5 = C7 and C2 = C4 = C6 = C8.",
     "Eqs. (11) to (14) have the opposite signs of (7) to (10), F_D down where F_C is up, and F2 against F1. Their l4, l5, l6 with x from "
     "m3 contradict the prose (l5 to l8 from the left end) and put m4 outside D.",
-    "Eqs. (16), (17): the ratio has a meaning for x from the bearing, not from the first mass; (16) must begin with the yielding of A, not "
+    "Eqs. (16), (17): the ratio has a meaning for x from the bearing, not from the first mass; (16) must begin with the displacement of "
+    "A, not "
     "of B; with magnitudes it holds for a load on the left overhang only; the span of (17) is l7 + l8. Right, with signs: "
     "z(x) = w_A + (w_B - w_A)(x - x_A)/L.",
     "Eqs. (19), (20) inherit all this; (20) is called mu_m4 and described as the segment from m3 to D.",
@@ -159,8 +160,8 @@ ERRATA = (
     "spring of section 3.",
     "Section 5.2 sends the reader to sections 2.1 and 2.2 for the method of 3.1 and 3.2; section 5.3 puts the gearbox on the "
     "pressure-roller shaft, while m3 belongs to the other one.",
-    "Section 5.3: three of the four trends contradict mechanics and conclusion (3). What may fall when bearings yield is the cross "
-    "flexibility: that of m1 and m2 goes from +50.5 to -82.1 nm/N.",
+    "Section 5.3: three of the four trends contradict mechanics and conclusion (3). With elastic bearings only the cross "
+    "flexibility may fall: that of m1 and m2 goes from +50.5 to -82.1 nm/N.",
     "The cylindrical roller bearing is the stiffest for equal rollers without axial load, not in general. A bearing has no stiffness at a "
     "'unit force' that would hold at another load, and cylindrical and tapered bearings of 20 x 32 x 7 mm are in no catalogue known to us.",
     "A uniform shaft of the least diameter is an estimate on the safe side, not the stepped shaft.",

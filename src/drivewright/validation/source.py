@@ -1,4 +1,4 @@
-"""A published source: the world's numbers beside ours, each with a verdict that is computed."""
+"""A published source: its numbers beside ours, each with a verdict that is computed."""
 
 import math
 import re

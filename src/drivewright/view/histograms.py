@@ -21,7 +21,7 @@ MOST_BINS = 100
 TAILS = (5.0, 95.0)  # percentiles that are marked
 ENOUGH = 20  # values from which on percentiles mean something
 CONSTANT = 1e-9  # a spread so small beside the values is rounding
-APART = 1.5  # a limit farther off than so many times the range of the samples is told, not drawn
+APART = 1.5  # a limit farther off than so many times the range of the samples is written, not drawn
 
 
 def draw_histogram(shown: Sequence[Panel]) -> "Figure":

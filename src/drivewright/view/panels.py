@@ -24,7 +24,7 @@ from drivewright.view.text import axis_label, number, quantity, sentence, shown_
 
 REACH = 8.0  # a panel with a limit shows at most so many times the limit: beyond it (a pole of a radius) the line leaves the panel
 DECADES = 6  # powers of ten that a logarithmic axis shows at most
-MOST_GROUPS = 20  # kinds of points that are told apart
+MOST_GROUPS = 20  # kinds of points that are distinguished
 SMALL_LENGTHS = {"mm": (1e6, "µm"), "inch": (1e3 / 0.0254, "mil")}  # {system: (factor, unit)}
 STANDING = ("map", "histogram", "ranked")  # styles whose x is no quantity that a cursor could run along
 

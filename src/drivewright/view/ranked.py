@@ -1,4 +1,4 @@
-"""What matters most: lying bars, the longest on top."""
+"""Ranked contributions: horizontal bars, the longest on top."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING

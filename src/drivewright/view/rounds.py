@@ -1,4 +1,4 @@
-"""A quantity round a circle: what each place around a bearing carries."""
+"""A quantity around a circle: the load at each position around a bearing."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, cast

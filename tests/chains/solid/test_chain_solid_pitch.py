@@ -179,8 +179,8 @@ def test_what_is_borne_is_the_greatest_over_bodies_and_instants():
 def test_a_fit_that_bears_beyond_the_condensed_seat_is_refused():
     narrow = solid()._replace(fit=Fit(0.0, 0.0, np.radians(40)))
     assert len(with_fit(narrow, Fit(5e-6, 0.0, np.radians(30)))) == 2
-    for fit, words in ((Fit(0.0, 0.0), "needs all round"), (Fit(0.0, 0.0, np.radians(50)), "needs 50 deg to either side")):
-        with pytest.raises(InputError, match=f"condensed with a bearing seat of 40 deg to either side.* {words}; condense it"):
+    for fit, words in ((Fit(0.0, 0.0), "needs all round"), (Fit(0.0, 0.0, np.radians(50)), "needs 50° to either side")):
+        with pytest.raises(InputError, match=f"condensed with a bearing seat of 40° to either side.* {words}; condense it"):
             with_fit(narrow, fit)
 
 

@@ -64,8 +64,8 @@ def test_follower(follower, words):
         (ROLLER, "18 deg", ("programme.0.rise", "must be a length")),
         ({**LEVER, "arm_length": "30 mm"}, "18 deg", ("pivot_distance 80 mm", "arm_length 30 mm", "50 to 110 mm", "prime_radius 40 mm")),
         ({**LEVER, "prime_radius": "140 mm"}, "18 deg", ("20 to 140 mm", "not between")),
-        (LEVER, "160 deg", ("lever swings", "180 deg", "Reduce the rise")),
-        (LEVER, "-40 deg", ("lever swings", "0 and 180 deg")),
+        (LEVER, "160 deg", ("lever swings", "180°", "Reduce the rise")),
+        (LEVER, "-40 deg", ("lever swings", "0 and 180°")),
         ({**ROLLER, "face": "flat"}, "-41 mm", ("face 1 mm beyond the cam's centre", "base radius")),
         (ROLLER, "-60 mm", ("takes the roller's centre to -20 mm", "prime_radius")),
         ({**LEVER, "face": "flat", "pivot_distance": "38 mm"}, "5 deg", ("base radius 40 mm", "pivot_distance 38 mm", "pivot away")),
@@ -81,7 +81,7 @@ def test_programme(tmp_path):
     rows = zip(range(0, 361, 60), (0, 1, 2, 3, 2, 1, 0), strict=True)
     (tmp_path / "lift.csv").write_text("angle [deg],lift [mm]\n" + "\n".join(f"{a},{s}" for a, s in rows))
     cases = [
-        (segments()[:2], ("sum to 270 deg", "90 deg less")),
+        (segments()[:2], ("sum to 270°", "90° less")),
         (
             [*segments()[:2], {"angle": "90 deg", "law": "cycloidal", "rise": "1 mm"}],
             ("programme: the lift ends 1 mm above its start", "20 mm, -20 mm, 1 mm; as a dwell segment 3"),
@@ -91,7 +91,7 @@ def test_programme(tmp_path):
         ([*segments()[:2], {"angle": "90 deg", "law": "dwell", "b": 0.25}], ("programme.2.b", "dwell has no parameters")),
         ([{"angle": "360 deg", "law": "table"}], ("programme.0.law", "either a file")),
         ([{"angle": "360 deg", "law": "table", "file": "none.csv"}], ("programme.0.file", "there is no file")),
-        ([{"angle": "300 deg", "law": "table", "file": "lift.csv"}, {"angle": "60 deg", "law": "dwell"}], ("360 deg", "300 deg")),
+        ([{"angle": "300 deg", "law": "table", "file": "lift.csv"}, {"angle": "60 deg", "law": "dwell"}], ("360°", "300°")),
         ([{"angle": "-90 deg", "law": "dwell"}], ("programme.0.angle", "greater than 0 deg")),
         ([], ("programme", "at least 1")),
     ]

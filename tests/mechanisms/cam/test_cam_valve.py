@@ -200,7 +200,7 @@ def test_jump_speed_names_the_place_where_the_force_vanishes():
     check = result.check("jump_speed")
     assert not check.ok and check.value == result["spring.jump_speed"] < 340
     degrees = np.degrees(result["spring.jump_speed.at"])
-    assert f"leaves the cam at {check.value * 30 / np.pi:.5g} rpm, at cam angle {degrees:.1f} deg" in check.message
+    assert f"leaves the cam at {check.value * 30 / np.pi:.5g} rpm, at cam angle {degrees:.1f}°" in check.message
     assert any("leaves the cam" in finding and "cam angle" in finding for finding in result.findings)
     at_jump = build(spec({"inertia": "1e-5 kg m^2"}, valve=VALVE, **{**loads, "drive": {"speed": f"{check.value} rad/s"}}))
     lowest = at_jump.cycle.minimum(at_jump.required)

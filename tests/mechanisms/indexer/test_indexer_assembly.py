@@ -122,7 +122,7 @@ def test_tables_and_findings():
     assert np.isnan(by_name["assembly"]["unilateral"].data[:2]).all() and np.isfinite(by_name["assembly"]["bonded"].data).all()
     forces = by_name["assembly_pins"]["force"].data
     assert answer.values["assembly.pins.max_force"].value == forces.max() and forces.min() > 0
-    assert answer.findings[0].startswith("assembly: no stiffness at 2 of 9 input angles (0, 22.5 deg): no contact without a gap")
+    assert answer.findings[0].startswith("assembly: no stiffness at 2 of 9 input angles (0, 22.5°): no contact without a gap")
     assert {plot.name for plot in tables.assembly_plots(by_name)} == set(by_name)
 
 

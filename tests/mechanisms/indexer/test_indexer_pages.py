@@ -34,7 +34,7 @@ def test_the_page_shows_the_numbers_of_its_example(result):
 @pytest.mark.golden
 def test_the_text_shows_other_designs():
     eight = dw.run(dw.load(EXAMPLE, ["stations=8"]), ("drive",))
-    assert f"{eight['drive.peak_torque']:.2f} N m" in PAGE
+    assert f"{eight['drive.peak_torque']:.2f} N·m" in PAGE
     loose = dw.run(dw.load(EXAMPLE, ["contact.interference=0 um"]), ("stiffness",))
     arcmin = loose["dwell.stiffness.minimum"] * np.pi / 180 / 60
     assert f"{arcmin:.0f} without it" in PAGE
@@ -46,7 +46,7 @@ def test_closed_forms_of_the_modified_sine(result):
     inertia_alone = dw.run(dw.load(EXAMPLE, ["table.friction_torque=0 N m"]), ("drive",))
     peak = INERTIA * SPEED**2 * STEP**2 * 5.4578 / ANGLE**3
     assert inertia_alone["drive.peak_torque"] == pytest.approx(peak, rel=2e-5)
-    assert f"{peak:.2f} N m" in PAGE
+    assert f"{peak:.2f} N·m" in PAGE
     assert peak < result["drive.peak_torque"] < peak + FRICTION * result["motion.velocity_factor"]
     assert result["drive.reflected_inertia.maximum"] == pytest.approx(INERTIA * (1.7596 * STEP / ANGLE) ** 2, rel=1e-5)
 

@@ -134,6 +134,7 @@ def test_the_check_of_the_pressure_takes_the_largest_that_the_run_knows(kind, ch
     known = {name: found[name] for name in PRESSURES if name in found.values}
     (check,) = [each for each in found.checks if each.name == "contact_pressure"]
     assert check.value == max(known.values()) and known[_judged(check)] == check.value
+    assert check.label == found.values[_judged(check)].label
     if "20 um" in change:
         assert known["shared.max_pressure"] > 1.5 * known["pins.max_pressure"] and not check.ok
 

@@ -172,9 +172,9 @@ def test_what_cannot_be_is_refused_by_key(changes, key, words):
     ("change", "words"),
     [
         (lambda text: text.replace("lift [deg]", "lift [mm]"), "lift in the table is a length"),
-        (lambda text: text.replace("180,45", "180,40"), "ends at 40 deg, but a step of 8 stations is 45 deg"),
-        (lambda text: text.replace("180,45", "400,45"), "ends at an input angle of 400 deg"),
-        (lambda text: "\n".join([text.split("\n")[0], "0,0.5", *text.split("\n")[2:]]), "starts at 0.5 deg"),
+        (lambda text: text.replace("180,45", "180,40"), "ends at 40°, but a step of 8 stations is 45°"),
+        (lambda text: text.replace("180,45", "400,45"), "ends at an input angle of 400°"),
+        (lambda text: "\n".join([text.split("\n")[0], "0,0.5", *text.split("\n")[2:]]), "starts at 0.5°"),
         (lambda text: text.replace("\n5,", "\n-5,"), "must increase from row to row"),
     ],
 )

@@ -130,7 +130,7 @@ def test_nonsense_is_refused_by_key(change, value, key, words):
 def test_a_pivot_inertia_below_the_mass_s_own_share_is_refused():
     given = [("bodies.rocker.centroid", ["45 mm", "0 mm"]), ("bodies.rocker.inertia_about", "O4")]
     key, message = complaint(*given, ("bodies.rocker.inertia", "8e-4 kg m^2"))
-    assert key == "bodies.rocker.inertia" and "m d^2 = 0.4 kg x (45 mm)^2 = 0.00081 kg m^2" in message
+    assert key == "bodies.rocker.inertia" and "m d^2 = 0.4 kg x (45 mm)^2 = 0.00081 kg·m²" in message
     assert "leave inertia_about out" in message
     assert spec_with(*given, ("bodies.rocker.inertia", "8.1e-4 kg m^2"))  # all mass in the centroid
 
@@ -246,4 +246,4 @@ def test_a_lift_must_run_over_a_turn(tmp_path):
     cam = [("joints.A.kind", "cam"), ("joints.A.connects", ["crank", "coupler.A"]), ("joints.A.lift", "lift.csv")]
     rows = "".join(f"{angle},{angle * (180 - angle) / 1000}\n" for angle in range(0, 181, 20))
     (tmp_path / "lift.csv").write_text("angle [deg],lift [mm]\n" + rows)
-    assert "the angle covers 180 deg; give the cam's lift over 360 deg" in complaint(*cam, folder=tmp_path)[1]
+    assert "the angle covers 180°; give the cam's lift over 360°" in complaint(*cam, folder=tmp_path)[1]

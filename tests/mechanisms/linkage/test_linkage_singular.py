@@ -82,7 +82,7 @@ def test_the_table_of_singular_positions(spec, times, angles, branch):
     assert [set(taken.split(", ")) for taken in found["branch"]] == [branch] * len(times)
     assert list(found["rule"]) == ["continuous velocity"] * len(times)
     (finding,) = result.findings
-    first = f"(the first at t = {times[0]:.6g} s, drive at {np.degrees(angles[0]):.4g} deg)"
+    first = f"(the first at t = {times[0]:.6g} s, drive at {np.degrees(angles[0]):.4g}°)"
     assert f"passes {len(times)} singular positions {first}" in finding
     assert "up to 2 branches" in finding
 
@@ -181,5 +181,5 @@ def test_a_start_in_line_by_rough_guesses_is_told_as_such():
     bodies = {"crank": bar(100, "OA", 0), "coupler": bar(150, "AB", 57), "rocker": bar(100, "OB", 106)}
     found = dw.run(parallelogram(bodies=bodies), only=("end", "singular"))
     assert found.outcome == "partial" and len(found.findings) == 1
-    assert "starts in a singular position, drive 'O2' at 0.00 deg" in found.findings[0]
+    assert "starts in a singular position, drive 'O2' at 0.00°" in found.findings[0]
     assert "Start a few degrees away" in found.findings[0] and "'singular', 'end' fail alike" in found.findings[0]

@@ -154,7 +154,7 @@ def test_refusals_tell_why():
     pins = list(folder().joints)
     pins[2] = Revolute("B", Marker("coupler", 0.1), Marker("knife", 0.36))
     long = replace(folder(), joints=tuple(pins))
-    with pytest.raises(DoesNotAssemble, match=r"does not close beyond \d+\.\d+ deg.*to 180.00 deg"):
+    with pytest.raises(DoesNotAssemble, match=r"does not close beyond \d+\.\d+°.*to 180.00°"):
         posture(assemble(long), MARKS, PLAYS, np.pi)
 
 

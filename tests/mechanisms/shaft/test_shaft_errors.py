@@ -51,8 +51,8 @@ REFUSED = [
     ("material.poisson_ratio", 0.5, "material.poisson_ratio", "less than 0.5"),
     ("material.poisson_ratio", -1.0, "material.poisson_ratio", "greater than -1"),
     ("material.poisson_ratio", float("nan"), "material.poisson_ratio", "finite"),
-    ("bearings.0.position", "400 mm", "bearings.A.position", "off the shaft, which runs from 0 to 340 mm"),
-    ("stations.0.position", "-5 mm", "stations.m1.position", "off the shaft"),
+    ("bearings.0.position", "400 mm", "bearings.A.position", "outside the shaft, which runs from 0 to 340 mm"),
+    ("stations.0.position", "-5 mm", "stations.m1.position", "outside the shaft"),
     ("bearings.0.radial_stiffness", "0 N/m", "bearings.0.radial_stiffness", "above 0"),
     ("bearings.0.radial_stiffness", "-3e7 N/m", "bearings.0.radial_stiffness", "above 0"),
     ("bearings.0.radial_stiffness", "stiff", "bearings.0.radial_stiffness", "stiffness"),
@@ -120,7 +120,7 @@ def test_an_axial_force_that_nothing_takes():
 
 
 def test_torques_that_do_not_balance():
-    has_no_statics(dw.Shaft(**changed("loads.0.torque", "5 N m")), "the torques do not balance: their sum is 5 N m")
+    has_no_statics(dw.Shaft(**changed("loads.0.torque", "5 N m")), "the torques do not balance: their sum is 5 N·m")
 
 
 def test_a_station_on_a_rigid_bearing_has_flexibility_but_no_stiffness():

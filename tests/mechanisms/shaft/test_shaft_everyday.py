@@ -269,7 +269,7 @@ def test_a_notch_weakens_a_shaft_and_a_shock_its_yield(gearbox):
     [
         ({"kind": "retaining-ring", "depth": "1 mm"}, "width: is missing"),
         ({"kind": "keyway", "depth": "1 mm"}, "depth: does not belong to a keyway"),
-        ({"kind": "cross-hole", "diameter": "5 mm", "position": "300 mm"}, "300 mm is off the shaft"),
+        ({"kind": "cross-hole", "diameter": "5 mm", "position": "300 mm"}, "300 mm lies outside the shaft"),
     ],
 )
 def test_notches_without_a_meaning_are_refused(notch, told):
@@ -443,7 +443,7 @@ RING = {"name": "n", "kind": "retaining-ring", "position": "100 mm", "depth": "1
     [
         (RING | {"depth": "20 mm"}, r"notches\.n: nothing is left of the shaft"),
         (RING | {"radius": "5 mm"}, r"notches\.n: corners of 5 mm do not go into a groove 1 mm deep"),
-        ({"name": "n", "kind": "keyway", "position": "50 mm", "length": "300 mm"}, r"notches\.n: ends at 350 mm, off the shaft"),
+        ({"name": "n", "kind": "keyway", "position": "50 mm", "length": "300 mm"}, r"notches\.n: ends at 350 mm, beyond the shaft"),
         ({"name": "n", "kind": "cross-hole", "position": "100 mm", "diameter": "39 mm"}, r"notches\.n"),
     ],
 )

@@ -18,7 +18,7 @@ from drivewright.runner import build
 pytestmark = pytest.mark.analytical
 
 EXAMPLE = EXAMPLES / "tensioned_chain.toml"
-ROW = re.compile(r"\| `([\w.]+)` \| (-?[\d.]+)(?: (\w+))? \|")
+ROW = re.compile(r"\| `([\w.]+)` \| (-?[\d.]+)(?: ([^|]+?))? \|")
 SHORT = ('dynamics.settling="0.1 s"', 'dynamics.duration="0.1 s"', "dynamics.ensemble=1")
 BLADE = """
 format = 1

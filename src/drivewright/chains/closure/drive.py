@@ -107,8 +107,7 @@ def _failure(drive, track, x):
     angle = track.psi[count - 1] if count else 0.0
     what = "seats of the plates do not converge" if outcome == tracking.RESTLESS else "position of the plates is not found"
     return SolverError(
-        f"chain: {where}, rolling radius {drive.link.radius * 1e3:.4g} mm: the {what} beyond a driver angle of {np.degrees(angle):.4f} "
-        "deg, "
+        f"chain: {where}, rolling radius {drive.link.radius * 1e3:.4g} mm: the {what} beyond a driver angle of {np.degrees(angle):.4f}°, "
         f"after {count} samples, at a centre distance of about {distance:.4g} mm. Change the links by one or the rolling radius a little.",
         partial=_closure(drive, track) if count > 1 else None,
     )

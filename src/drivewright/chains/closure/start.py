@@ -1,4 +1,4 @@
-"""Where to start: a belt around the pitch circles, as long as the chain."""
+"""Initial guess of the closure: a belt around the pitch circles, as long as the chain."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Kernels of a run: loads, steps, and who may touch whom."""
+"""Kernels of a run: loads, steps, and the search for contact candidates."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Where everything is at the start: seated plates on the sprockets' polygons, free strands between them, all moving as if rigid.
+"""The start of a run: seated plates on the sprockets' polygons, free strands between them, all moving as if rigid.
 
 A chain around two sprockets, one of them on a slide, needs no more than its loop; with further sprockets, guides or a fixed centre distance
 the path and the pulls of its strands come from `path`, tensioners in balance, and the polygon closes around that.

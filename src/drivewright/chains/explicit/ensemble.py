@@ -22,7 +22,7 @@ from drivewright.numerics.ensemble import ENOUGH, Estimate, estimate
 from drivewright.numerics.signals import order_spectrum, time_mean
 
 DISTURBANCE = 1e-9  # standard deviation of the plates' places at the start, far below any manufacture  [m]
-PARTS = 4  # of a window, by which it is told whether the run has settled
+PARTS = 4  # of a window, by which it is judged whether the run has settled
 LITTLE = 0.1  # of a statistic: a drift between halves that does not matter
 MEMORY = 3  # enough to trust that a larger one is chance: effective samples of each member, of PARTS times its revolutions
 TOGETHER = 1e-2  # of the range of the signal: runs that are nowhere further apart are one

@@ -1,4 +1,4 @@
-"""How a running chain fails: no tension, teeth jumped over, tooth contact lost; and until when a run can be believed."""
+"""How a running chain fails: no tension, teeth jumped over, tooth contact lost; and up to which time a run is valid."""
 
 from dataclasses import replace
 from typing import NamedTuple

@@ -1,4 +1,4 @@
-"""The record of a run from its snapshots: energies, works, momenta, and what the plates, joints and sprockets feel."""
+"""The record of a run from its snapshots: energies, works, momenta, and the forces on plates, joints and sprockets."""
 
 from collections.abc import Mapping
 from typing import NamedTuple

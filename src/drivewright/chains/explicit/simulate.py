@@ -138,7 +138,9 @@ def stepping(model: ChainDrive, duration: float, settings: RunSettings) -> tuple
     """(steps per sample, step, samples): a whole number of steps per sample and of samples per tooth."""
     between = tooth_time(model) / settings.samples_per_tooth
     every = counted(np.ceil(between / settings.step - 1e-9), MOST_STEPS, "steps between two samples", "make the step longer")
-    samples = counted(np.ceil(duration / between - 1e-9), MOST_SAMPLES, "samples of the run", "ask for a shorter run or fewer a tooth")
+    samples = counted(
+        np.ceil(duration / between - 1e-9), MOST_SAMPLES, "samples of the run", "take a shorter run, or fewer samples per tooth"
+    )
     return every, between / every, samples + 1
 
 

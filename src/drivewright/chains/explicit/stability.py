@@ -11,7 +11,7 @@ from drivewright.chains.model import ChainDrive
 from drivewright.chains.tooth import Tooth
 from drivewright.errors import InputError
 
-STEP, SAFE = 1e-6, 0.5  # [s], and part of the largest stable step, that a run takes unless told otherwise
+STEP, SAFE = 1e-6, 0.5  # [s], and part of the largest stable step, that a run takes by default
 
 
 def fastest(model: ChainDrive) -> tuple[float, float]:

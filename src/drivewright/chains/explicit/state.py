@@ -240,7 +240,7 @@ def _(contacts, law, right, left):
 class ChainConstants(NamedTuple):
     """What all plates share."""
 
-    count: int  # pyright: ignore[reportIncompatibleMethodOverride]  of plates; nobody counts values of a tuple here
+    count: int  # pyright: ignore[reportIncompatibleMethodOverride]  of plates; tuple.count is not used here
     blocks: int
     joint_stiffness: float
     joint_damping: float  # beta k_j
@@ -318,7 +318,7 @@ def _chain(model):
         chain.mass,
         chain.inertia,
     )
-    # Whole numbers among them would be compiled for anew.
+    # Integers among them would cause another compilation.
     return ChainConstants(int(chain.count), blocks, *map(float, values), laws=_contacts(model))
 
 

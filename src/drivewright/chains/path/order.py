@@ -1,4 +1,4 @@
-"""Which bodies the chain meets, one after another: from two sprockets on, each strand is bent by what stands in its way.
+"""Which bodies the chain meets, one after another: from two sprockets on, each strand is deflected by the bodies in its way.
 
 A sprocket inside stands in the way of a strand where it reaches over to its left, one outside where it reaches over to its right.  What
 stands in the way the most comes first: among sprockets inside this is the convex hull of circles (Quickhull's choice), and what no strand

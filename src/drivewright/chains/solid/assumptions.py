@@ -31,11 +31,11 @@ def with_fit(solid: PlateAndPins, fit: Fit) -> list[Floats]:
     InputError where another fit bears beyond it.
     """
     if solid.fit.seat is not None and (fit.seat is None or fit.seat > solid.fit.seat):
-        wanted = "all round" if fit.seat is None else f"{np.degrees(fit.seat):.4g} deg to either side"
-        made = f"{np.degrees(solid.fit.seat):.4g} deg to either side"
+        wanted = "all round" if fit.seat is None else f"{np.degrees(fit.seat):.4g}° to either side"
+        made = f"{np.degrees(solid.fit.seat):.4g}° to either side"
         raise InputError(
             f"stress of solids: the plate was condensed with a bearing seat of {made}, but the fit needs {wanted}; condense it with a fit "
-            "of the same seat, or None."
+            "of the same seat, or without a fit."
         )
     return [
         pairing.gap_with(seat_gap(solid.plate, side, fit, solid.stack.own))

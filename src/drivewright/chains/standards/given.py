@@ -1,4 +1,4 @@
-"""What the formulas of chain drives refuse to work with."""
+"""Checks of the arguments of the formulas of chain drives."""
 
 import numpy as np
 

@@ -136,7 +136,7 @@ def min_centre_distance(
     The wrap pi - 2 g asks C >= |R2 - R1|/cos(wrap/2): for 120 deg the difference of the pitch diameters.
     """
     if not 0 < least_wrap < np.pi:
-        raise InputError(f"chain drive: the least wrap must lie between 0 and 180 deg, got {np.degrees(least_wrap):g} deg.")
+        raise InputError(f"chain drive: the minimum wrap must lie between 0 and 180°, got {np.degrees(least_wrap):g}°.")
     from_zero("chain drive", tip_diameters=tip_diameters)
     first, second = 0.5 * pitch_diameter(pitch, teeth1), 0.5 * pitch_diameter(pitch, teeth2)
     return float(max(0.5 * sum(tip_diameters), first + second, abs(second - first) / np.cos(0.5 * least_wrap)))

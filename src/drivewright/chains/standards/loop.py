@@ -121,6 +121,6 @@ def _check_closes(turns, wraps):
     if abs(abs(turned) - 1) > 1e-6:
         most = int(np.argmax(wraps))
         raise InputError(
-            f"loop: it turns {turned:.3g} times in all instead of once; the largest wrap is {np.degrees(wraps[most]):.0f} deg on circle "
+            f"loop: it turns {turned:.3g} times in all instead of once; the largest wrap is {np.degrees(wraps[most]):.0f}° on circle "
             f"{most + 1}. Leave out circles that the loop misses, or change their order or the side (turn) on which they are passed."
         )

@@ -32,7 +32,7 @@ def rating_table(teeth: Sequence[int], speeds: Sequence[float], powers: ArrayLik
         )
     above_zero(name, tooth_numbers=table.teeth, speeds=table.speeds, powers=table.powers)
     if np.any(np.diff(table.teeth) <= 0) or np.any(np.diff(table.speeds) <= 0) or table.speeds.size < 2:
-        raise InputError(f"{name}: tooth numbers and speeds must increase from entry to entry, and two speeds are the least.")
+        raise InputError(f"{name}: tooth numbers and speeds must increase from entry to entry, and at least two speeds are needed.")
     return table
 
 

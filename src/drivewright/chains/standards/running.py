@@ -1,4 +1,4 @@
-"""A chain at speed: its unevenness, the forces in it, the meeting of joint and seat, strands in resonance.
+"""A chain at speed: its unevenness, the forces in it, the impact of joint and seat, strands in resonance.
 
 Only what follows from mechanics; strengths and allowable pressures are the user's.  w is a sprocket's angular speed [rad/s], t = pi/z,
 q the chain's mass per length [kg/m].

@@ -54,8 +54,8 @@ def directions(seat: Seat) -> Floats:
         low, high = -np.pi, np.pi
     if not low < 0 < high:
         raise InputError(
-            f"stress: a seat from {np.degrees(seat.turn.min()):.4g} to {np.degrees(seat.turn.max()):.4g} deg about the outer "
-            f"direction; a pin's pressure needs {np.degrees(MARGIN):g} deg on either side of its force"
+            f"stress: a seat from {np.degrees(seat.turn.min()):.4g} to {np.degrees(seat.turn.max()):.4g}° about the outer "
+            f"direction; a pin's pressure needs {np.degrees(MARGIN):g}° on either side of its force"
         )
     return np.linspace(low, high, int(np.ceil((high - low) / STEP)) + 1)
 
@@ -73,7 +73,7 @@ def cosine_pressure(seat: Seat, force: ArrayLike) -> Floats:
             return np.maximum(seat.outward @ c, 0.0)
         c = c - np.linalg.solve(product.T @ seat.outward, miss)
     raise SolverError(
-        f"stress: no pressure on the seat gives a force along {np.degrees(np.arctan2(*force[::-1])):.4g} deg; give forces "
+        f"stress: no pressure on the seat gives a force along {np.degrees(np.arctan2(*force[::-1])):.4g}°; give forces "
         "that point out of the plate's end"
     )
 
@@ -91,8 +91,8 @@ def shares(turns: Floats, seat_directions: Floats, size: Floats) -> Floats:
         worst = lost[size[lost].argmax()]
         raise InputError(
             f"stress: at {len(lost)} of {len(size)} instants a pin's force points away from its seat, worst at instant "
-            f"{worst}: {size[worst]:.4g} N at {np.degrees(turns[worst]):.4g} deg from the outward direction; "
-            f"the seat takes {np.degrees(seat_directions[0]):.4g} to {np.degrees(seat_directions[-1]):.4g} deg; "
+            f"{worst}: {size[worst]:.4g} N at {np.degrees(turns[worst]):.4g}° from the outward direction; "
+            f"the seat takes {np.degrees(seat_directions[0]):.4g} to {np.degrees(seat_directions[-1]):.4g}°; "
             "the chain may be slack there"
         )
     turns = np.clip(turns, seat_directions[0], seat_directions[-1])

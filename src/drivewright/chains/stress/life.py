@@ -34,7 +34,7 @@ def plate_life(basis: Basis, loads: Loads, material: StrainLife, plane: str = "m
     `least` times that of the worst point, with which a long history is faster.
     """
     if not 0 <= least < 1:
-        raise InputError(f"plate life: least = {least:g}; a share of the greatest stress, from 0 to below 1")
+        raise InputError(f"plate life: `least` = {least:g}; it is a share of the maximum stress, from 0 to below 1")
     share, rows = amounts(basis, loads), np.flatnonzero(basis.bare)
     size = _greatest(share, basis.stress[:, rows])
     kept = size >= least * size.max()

@@ -113,7 +113,7 @@ def beam(breaks: Floats, load: Floats) -> Beam:
     shear = -np.concatenate([[0.0], np.cumsum(load * np.diff(breaks))])
     size = np.abs(load * np.diff(breaks)).sum()
     if abs(shear[-1]) > 1e-9 * size:
-        raise InputError(f"pins: the line load leaves {-shear[-1]:.4g} N; loads on a free pin must be in equilibrium")
+        raise InputError(f"pins: the line load has a resultant of {-shear[-1]:.4g} N; loads on a free pin must be in equilibrium")
     steep = np.where(load == 0, 1.0, load)
     zeros = breaks[:-1] + np.where(load == 0, -1.0, shear[:-1] / steep)
     zeros = zeros[(zeros > breaks[:-1]) & (zeros < breaks[1:])]
@@ -121,7 +121,7 @@ def beam(breaks: Floats, load: Floats) -> Beam:
     force = np.interp(position, breaks, shear)
     moment = np.concatenate([[0.0], np.cumsum(np.diff(position) * (force[1:] + force[:-1]) / 2)])  # V is linear: exact
     if abs(moment[-1]) > 1e-9 * size * np.ptp(breaks):
-        raise InputError(f"pins: the line load leaves a moment of {moment[-1]:.4g} N m; the pack must be symmetrical")
+        raise InputError(f"pins: the line load has a moment of {moment[-1]:.4g} N·m; the pack must be symmetrical")
     return Beam(position, force, moment)
 
 

@@ -98,11 +98,13 @@ def amounts(basis: Basis, loads: Loads) -> Floats:
     pins, flanks, places = (np.asarray(part, float) for part in loads)
     if not (pins.ndim == 3 and pins.shape[1:] == (2, 2) and flanks.shape == places.shape == pins.shape[:2]):
         raise InputError(
-            f"stress: pins {pins.shape}, flanks {flanks.shape} and heights {places.shape}; n instants want (n, 2, 2), (n, 2) and (n, 2)"
+            f"stress: pins {pins.shape}, flanks {flanks.shape} and heights {places.shape}; n instants "
+            "take the shapes (n, 2, 2), (n, 2) and (n, 2)"
         )
     if not (np.isfinite(pins).all() and np.isfinite(flanks).all() and (flanks >= 0).all()):
         raise InputError(
-            f"stress: forces must be finite, and those on the flanks not below 0 (above 0 they press); the least is {np.min(flanks):.4g} N"
+            f"stress: forces must be finite, and those on the flanks not below 0 (above 0 they press); "
+            f"the smallest is {np.min(flanks):.4g} N"
         )
     on_pins = [
         bearing.shares(turn, ready, size)

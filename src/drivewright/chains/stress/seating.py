@@ -23,7 +23,7 @@ from drivewright.errors import InputError, SolverError
 from drivewright.solids.plane import ALONG_EDGE, PlaneBody
 
 REACH = np.radians(120.0)  # hats to either side of the force, as far as the seat goes
-LEAST = 5  # hats that must bear for a pressure to be believed
+LEAST = 5  # loaded hat functions needed to resolve a pressure
 TRIES = 100  # of the active set
 
 
@@ -45,7 +45,8 @@ def seated(plate: Plate, body: PlaneBody, pins: Floats, clearance: float, tracti
     pins = np.asarray(pins, float)
     if not (clearance >= 0 and np.hypot(*pins.T).min() > 0):
         raise InputError(
-            f"stress: seating wants a clearance from 0 up, got {1e6 * clearance:g} um, and a force on either pin, got {np.hypot(*pins.T)} N"
+            f"stress: seating needs a clearance of 0 or more, got {1e6 * clearance:g} µm, "
+            f"and a force on either pin, got {np.hypot(*pins.T)} N"
         )
     seats = [bearing.seat_of(body, plate, side) for side in SIDES]
     turns, hats = zip(*(_hats(body, *each) for each in zip(seats, pins, SIDES, strict=True)), strict=True)
@@ -84,8 +85,8 @@ def _refuse_narrow(pressures, clearance):
     few = min(np.count_nonzero(pressure) for pressure in pressures)
     if few < LEAST:
         raise SolverError(
-            f"stress: with a clearance of {1e6 * clearance:g} um a pin bears on {few} places only, {LEAST} make a pressure; "
-            "take a finer body (plate_body's fineness)"
+            f"stress: with a clearance of {1e6 * clearance:g} µm a pin is in contact at {few} nodes only, and a pressure needs {LEAST}; "
+            "take a finer mesh of the body (fineness)"
         )
 
 
@@ -111,4 +112,4 @@ def _bearing_hats(opened, gap, shift, forces):
         if np.array_equal(wanted, touching):
             return pressure / scale, moved / size
         touching = wanted
-    raise SolverError(f"stress: which part of the pins bears was not settled after {TRIES} tries; try another clearance or a finer body")
+    raise SolverError(f"stress: the set of loaded nodes did not converge after {TRIES} tries; try another clearance or a finer body")

@@ -46,7 +46,7 @@ def groove_walls(cam: RollerGear, start: int = 0) -> Floats:
     if np.any(contact.opening <= 0):
         raise InputError(
             f"{cam.kind} cam: the walls of the groove fold up outside the rollers' length, at the travel "
-            f"{np.degrees(travel[np.nonzero(contact.opening <= 0)[1][0]]):.1f} deg; no clean groove can be modelled. "
+            f"{np.degrees(travel[np.nonzero(contact.opening <= 0)[1][0]]):.1f}°; no clean groove can be modelled. "
             "Take thinner rollers or a larger cam."
         )
     return contact.point

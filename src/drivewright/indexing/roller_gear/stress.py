@@ -30,7 +30,7 @@ def compute_roller_loads(flanks: CamFlanks, torque: float, modulus: float) -> Ro
     p0 = sqrt(q E*/(pi R)) with the relative radius R across the contact line.  A positive torque is resisted by flank -1.
     """
     if not (np.isfinite(torque) and torque != 0):
-        raise InputError(f"roller loads: torque = {torque} N m; it must be finite and not 0; its sign decides which flanks resist it.")
+        raise InputError(f"roller loads: torque = {torque} N·m; it must be finite and not 0; its sign decides which flanks resist it.")
     if not (np.isfinite(modulus) and modulus > 0):
         raise InputError(f"roller loads: effective modulus = {modulus} Pa; it must be positive and finite.")
     side = 1 if torque > 0 else 0

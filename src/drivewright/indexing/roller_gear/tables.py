@@ -78,7 +78,7 @@ def contact_count_table(flanks: CamFlanks) -> Table:
 def contact_map_array(flanks: CamFlanks) -> Array:
     """(angle, roller): 1 where the roller touches the flank that pushes it forward, -1 where it touches the other, 0 elsewhere or both."""
     way = flanks.contact_map[0].astype(float) - flanks.contact_map[1]
-    names = (tuple(f"{np.degrees(angle):.6g} deg" for angle in flanks.theta), tuple(str(k) for k in flanks.cam.rollers))
+    names = (tuple(f"{np.degrees(angle):.6g}°" for angle in flanks.theta), tuple(str(k) for k in flanks.cam.rollers))
     return Array("-", ("angle", "pin"), names, way.T)
 
 

@@ -158,7 +158,7 @@ def _refuse_shaft(body, eccentricity, shaft):
 def _refuse_wheel(body, wheel, cams, width):
     radius, pin = wheel.circle_radius, wheel.pin_radius
     if not (len(body.rings) in (1, 2) and all(high > low for low, high in body.rings)):
-        raise InputError(f"solid check: WheelBody.rings = {body.rings}; one or two rings, each from a lower to a higher z.")
+        raise InputError(f"solid check: WheelBody.rings = {body.rings}; give one or two rings, each from a lower to a higher z.")
     if not (body.bore / 2 < radius - pin and radius + pin < body.rim / 2):
         raise InputError(
             f"solid check: the ring of {1e3 * body.bore:g} to {1e3 * body.rim:g} mm does not hold the pins, which reach from "

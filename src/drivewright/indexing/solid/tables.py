@@ -176,8 +176,9 @@ def assembly_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
         name = f"assembly_{body}"
         if name in tables:
             right, up, away = ("xyz"[axis] for axis, _ in drawn)
-            reference = (f"rest_{right}", f"rest_{up}")
-            yield Plot(name, tables[name].title, name, right, (up, away, "displacement"), equal=True, style="mesh", reference=reference)
+            reference, beside = (f"rest_{right}", f"rest_{up}"), "Dashed: outline of the undeformed body."
+            shown = (up, away, "displacement")
+            yield Plot(name, tables[name].title, name, right, shown, equal=True, style="mesh", reference=reference, meaning=beside)
     for kind in STRESSED:
         name = f"assembly_{kind}_stress"
         if name in tables:

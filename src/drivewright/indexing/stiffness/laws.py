@@ -1,4 +1,4 @@
-"""Energy, force and stiffness of everything that yields non-linearly, for arrays of strains.
+"""Energy, force and stiffness of all non-linear elastic elements, for arrays of strains.
 
 A law is called with strains d (..., c), c = 1 for a contact and 2 for a bearing, and answers with (energy (...), force (..., c),
 stiffness (..., c, c)); the force is the gradient of the convex energy.  `secant(force)` [N/m] is a usual stiffness to start from.

@@ -20,7 +20,7 @@ REASONS = {
     CARRIED: "",
     FREE: "no contact without a gap resists the torque, so the wheel turns freely first; check the play",
     RIGID: "every part that carries the torque is rigid; give one of them a stiffness",
-    FAR: f"the wheel turns by more than {np.degrees(ROTATION_LIMIT):.3g} deg, where other contacts act: the moment arms are near zero, "
+    FAR: f"the wheel turns by more than {np.degrees(ROTATION_LIMIT):.3g}°, where other contacts act: the moment arms are near zero, "
     "or the torque is more than the parts carry; check the play beyond these contacts, or take less torque or stiffer parts",
     UNSETTLED: "no equilibrium was found; check the clearances, and whether the torque is far more than the parts carry",
 }

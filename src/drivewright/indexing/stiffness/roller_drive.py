@@ -165,7 +165,7 @@ def _refuse(drive: RollerDrive, theta: Floats, ratio: Floats, contacts: Sequence
         if value is not None and not (value > 0 or (name == "interference" and value == 0)):
             raise InputError(f"roller drive: {name} = {value:g} {unit} must be above 0; leave it out for a rigid part.")
     if not (np.isfinite(torque) and torque != 0):
-        raise InputError(f"torsional stiffness: the torque must be finite and not 0, got {torque} N m; without load there is no secant.")
+        raise InputError(f"torsional stiffness: the torque must be finite and not 0, got {torque} N·m; without load there is no secant.")
     if not len(theta) == len(ratio) == len(contacts):
         raise InputError(
             f"torsional stiffness: {len(theta)} positions need as many ratios and sets of contacts, got {len(ratio)} and {len(contacts)}."

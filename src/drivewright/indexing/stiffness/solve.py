@@ -1,4 +1,4 @@
-"""Torsional stiffness of a pin-wheel indexer over its positions: who carries, how far the wheel turns, who yields."""
+"""Torsional stiffness of a pin-wheel indexer over its positions: loaded parts, rotation of the wheel, share of each part."""
 
 from collections.abc import Sequence
 from typing import Literal
@@ -51,7 +51,7 @@ def solve_torsional_stiffness(
 def _check(drive: Drivetrain, theta: Floats, contacts: Sequence[CamContacts], torque: float, cams: int, model: str) -> None:
     refuse_invalid(drive, cams)
     if not (np.isfinite(torque) and torque != 0):
-        raise InputError(f"torsional stiffness: the torque must be finite and not 0, got {torque} N m; without load there is no secant.")
+        raise InputError(f"torsional stiffness: the torque must be finite and not 0, got {torque} N·m; without load there is no secant.")
     if len(contacts) != len(theta):
         raise InputError(f"torsional stiffness: {len(theta)} positions need as many sets of contacts, got {len(contacts)}.")
     if model not in ("unilateral", "bonded"):

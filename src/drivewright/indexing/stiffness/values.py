@@ -64,7 +64,7 @@ def stiffness_findings(angles: Floats, result: WheelStiffness, after_play: Wheel
         after = int(np.sum(after_play.carried[rows]))
         more = f" At {after} of them a contact carries it after the play; see table stiffness, secant_after_play." if after else ""
         places = ", ".join(f"{angle:.4g}" for angle in np.degrees(angles[rows[:12]])) + (" ..." if len(rows) > 12 else "")
-        yield f"no stiffness at {len(rows)} of {len(angles)} input angles ({places} deg) against {result.torque:.6g} N m: {reason}.{more}"
+        yield f"no stiffness at {len(rows)} of {len(angles)} input angles ({places}°) against {result.torque:.6g} N·m: {reason}.{more}"
 
 
 def bearing_load_values(

@@ -124,7 +124,7 @@ def _findings(tests: Sequence[TorsionTestResult]) -> Iterator[str]:
         for finding in test.findings:
             places.setdefault(finding, []).append(_crank_angle(test))
     for finding, at in places.items():
-        yield finding if len(at) == len(tests) else f"at {len(at)} of {len(tests)} positions ({np.degrees(at[0]):g} deg ...): {finding}"
+        yield finding if len(at) == len(tests) else f"at {len(at)} of {len(tests)} positions ({np.degrees(at[0]):g}° ...): {finding}"
 
 
 # -- tables --------------------------------------------------------------------------------------------------------------------
@@ -250,6 +250,7 @@ def torsion_plots(result: Result[Any]) -> tuple[Plot, ...]:
 def _all_plots() -> Iterator[Plot]:
     yield Plot("loop", "Torsion test with fitted lines", "loop", "angle", ("whole_loop", "per_branch", "torque"))
     yield Plot("residuals", "Residuals of the fits", "residuals", "torque", ("per_branch", "whole_loop"), style="points")
-    yield Plot("mid_line", "Mid-line; dashed: three segments", "mid_line", "torque", ("angle",), reference=("pieces",))
+    fitted = "Dashed: three straight segments fitted to it."
+    yield Plot("mid_line", "Mid-line of the hysteresis loop", "mid_line", "torque", ("angle",), reference=("pieces",), meaning=fitted)
     yield Plot("positions", "Torsional stiffness over crank angle", "positions", "angle", ("corrected", "low", "high"))
     yield Plot("comparison", "Measured and computed stiffness", "comparison", "angle", ("measured", "low", "high", "model"))

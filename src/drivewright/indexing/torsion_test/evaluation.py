@@ -81,7 +81,7 @@ def evaluate_positions(readings: Readings, setup: TorsionTestSettings | None = N
         try:
             found.append(evaluate_loop(rows, setup, place))
         except InputError as error:
-            raise InputError(f"crank angle {np.degrees(place):g} deg: {error}") from None
+            raise InputError(f"crank angle {np.degrees(place):g}°: {error}") from None
     return tuple(found)
 
 
@@ -139,7 +139,7 @@ def _one_branch(passes: Passes, used: Bools, group: Ints, way: bool, confidence:
 def _refuse_backwards(branch):
     if branch.slope <= 0:
         raise InputError(
-            f"torsion test: the angle falls by {-branch.slope:.3g} rad per N m of rising torque, so the stiffness would be "
+            f"torsion test: the angle falls by {-branch.slope:.3g} rad per N·m of rising torque, so the stiffness would be "
             "negative; torque and angle have opposite signs; change the sign of one of the columns"
         )
 

@@ -1,4 +1,4 @@
-"""What a reader of a torsion test's numbers has to know, in words."""
+"""Findings on a torsion test, for the reader of its numbers."""
 
 from collections.abc import Iterator, Sequence
 
@@ -30,7 +30,7 @@ def findings(
     if jumped:
         yield (
             f"the angle jumps at zero torque: the branches are split there, without the samples within "
-            f"{LOST_AT * test.rated_torque:.4g} N m, so that stiffness.per_branch is that of the drive in contact"
+            f"{LOST_AT * test.rated_torque:.4g} N·m, so that stiffness.per_branch is that of the drive in contact"
         )
     cycles = np.unique(passes.cycle).size
     if cycles < FEWEST_CYCLES:
@@ -41,11 +41,11 @@ def findings(
 def _of_torque(setup, test):
     reach = float(np.max(np.abs(test.torque)))
     if setup.rated_torque is None:
-        yield f"no rated torque was given: the largest torque of the test, {reach:.6g} N m, is used instead"
+        yield f"no rated torque was given: the largest torque of the test, {reach:.6g} N·m, is used instead"
     elif np.isnan(test.shape.secant):
         yield (
-            f"the secant from 50 to 100 % of the rated torque {test.rated_torque:.6g} N m is absent: both branches must reach "
-            f"that torque, and the test ends at {reach:.6g} N m"
+            f"the secant from 50 to 100 % of the rated torque {test.rated_torque:.6g} N·m is absent: both branches must reach "
+            f"that torque, and the test ends at {reach:.6g} N·m"
         )
 
 
@@ -56,13 +56,13 @@ def _of_loop(test, passes, loop):
             "the angle, and for an angle that leads the torque in time"
         )
     if not loop.low < 0 < loop.high:
-        yield f"both branches reach from {loop.low:.4g} to {loop.high:.4g} N m, not beyond zero on both sides: lost motion is absent"
+        yield f"both branches reach from {loop.low:.4g} to {loop.high:.4g} N·m, not beyond zero on both sides: lost motion is absent"
     if np.isnan(test.pieces.t1) and np.isfinite(test.pieces.k1):
         yield "the mid-line is straight: the three segments have one stiffness, and breakpoints are absent"
     begin, end, span = passes.torque[0], passes.torque[-1], np.ptp(passes.torque)
     gap, width = abs(passes.angle[-1] - passes.angle[0]), np.nan_to_num(abs(test.shape.backlash))
     if abs(end - begin) > SAME_TORQUE * span:
-        yield f"the loop does not close: it begins at {begin:.4g} N m and ends at {end:.4g} N m; its area is that between the branches"
+        yield f"the loop does not close: it begins at {begin:.4g} N·m and ends at {end:.4g} N·m; its area is that between the branches"
     elif gap > 1.25 * width + GAP * np.ptp(passes.angle) + 2 * abs(end - begin) / test.whole_loop.value:
         yield (
             f"the loop does not close: at the same torque the angle ends {gap:.3g} rad from where it began, by drift or slip, which "

@@ -1,4 +1,4 @@
-"""A straight line through autocorrelated readings: slope, and how sure it is."""
+"""A straight line through autocorrelated readings: slope, and its uncertainty."""
 
 from typing import NamedTuple
 
@@ -23,7 +23,7 @@ class RegressionLine(NamedTuple):
 
 
 class Estimate(NamedTuple):
-    """A value, its standard uncertainty, and the interval [low, high] of the confidence asked for."""
+    """A value, its standard uncertainty, and the interval [low, high] of the required confidence."""
 
     value: float
     uncertainty: float

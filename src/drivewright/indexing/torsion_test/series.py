@@ -1,4 +1,4 @@
-"""Springs in series: what the loading bar and the support of the test rig took of the angle."""
+"""Springs in series: the share of the loading bar and of the support of the test rig in the angle."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -28,9 +28,9 @@ def remove_series_springs(measured: Estimate, freedom: float, parts: Sequence[Se
     if compliance <= 0:
         softest = min(parts, key=lambda part: part.stiffness)
         raise InputError(
-            f"series correction: 1/k = 1/{measured.value:.6g} - {' - '.join(f'1/{part.stiffness:.6g}' for part in parts)} rad/(N m) "
+            f"series correction: 1/k = 1/{measured.value:.6g} - {' - '.join(f'1/{part.stiffness:.6g}' for part in parts)} rad/(N·m) "
             f"= {compliance:.3g} is not positive: the rig would be softer than rig and drive together. Check the {softest.name} stiffness "
-            f"(it has to be well above {measured.value:.6g} N m/rad) and its unit"
+            f"(it has to be well above {measured.value:.6g} N·m/rad) and its unit"
         )
     spread = np.sqrt(sum((each.uncertainty / each.stiffness**2) ** 2 for each in parts) + (measured.uncertainty / measured.value**2) ** 2)
     return compliance_estimate(compliance, float(spread), freedom, confidence)

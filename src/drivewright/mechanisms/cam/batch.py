@@ -110,7 +110,7 @@ def _of_one_motion(spec, columns, rows, measures):
 
 
 class Measures(NamedTuple):
-    """The functions that give the names asked for: those of any design, and those of a design whose profile nothing trims."""
+    """The functions that give the requested names: those of any design, and those of a design whose profile nothing trims."""
 
     always: list[Callable[[CamModel], Answer]]
     untrimmed: list[Callable[[CamModel], Answer]]

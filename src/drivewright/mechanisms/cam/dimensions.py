@@ -1,5 +1,6 @@
 """What the keys of a cam's spec measure, in drawings of its presets."""
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -18,7 +19,8 @@ from drivewright.dimensions import (
     turn,
 )
 from drivewright.mechanisms.cam.build import CamModel
-from drivewright.scene import Point, Scene, place
+from drivewright.mechanisms.cam.scene import parts
+from drivewright.scene import Body, Frame, Point, Prism, Scene, Shape, place, rectangle
 
 AXIS: Point = (0.0, 0.0)
 
@@ -48,6 +50,112 @@ def _slide(model: CamModel, scene: Scene) -> Iterator[Dimension]:
     yield _bore(scene)
 
 
+def _segment(scene: Scene) -> Angle:
+    """The cam angle of the first segment, back from the roller, since the profile comes to the roller as the cam turns."""
+    frames, poses = scene.cycle, body_of(scene, "cam").poses[:, 2]
+    turned = float(np.interp(scene.marks[1][0], frames, poses))
+    return Angle("programme.0.angle", AXIS, np.pi / 2, -turned, 0.3, times=-math.copysign(1.0, turned))
+
+
+def _groove(model: CamModel, scene: Scene) -> Iterator[Dimension]:
+    """A roller in a groove, on a slide."""
+    roller, radius = circles_of(scene, "follower", "roller")[0]
+    ((_, disc),) = circles_of(scene, "outer wall", "body")
+    walls = np.array(corners_of(scene, "outer wall", "profile"))
+    outermost = walls[np.argmax(np.hypot(*walls.T))]
+    way = outermost / np.hypot(*outermost)
+    yield Length("follower.prime_radius", AXIS, roller)
+    yield Radius("follower.roller_radius", roller, radius, np.radians(200))
+    yield Length("limits.wall", _pair(outermost), _pair(disc * way))
+    yield _segment(scene)
+    yield _bore(scene)
+
+
+def _pair(point: np.ndarray) -> Point:
+    return float(point[0]), float(point[1])
+
+
+def _yoke(model: CamModel, scene: Scene) -> Iterator[Dimension]:
+    """A cam of constant breadth between two flat faces."""
+    upper = [corner for corner in corners_of(scene, "follower", "body") if corner[1] > 0]
+    low = max((corner for corner in upper if corner[1] < min(y for _, y in upper) + 1e-9), key=lambda corner: corner[0])
+    yield Length("follower.prime_radius", (low[0], 0.0), low, -0.1)
+    yield Length("programme.0.rise", low, _highest(scene, low), -0.2)
+    yield _segment(scene)
+    yield _bore(scene)
+
+
+def _shoe(model: CamModel, scene: Scene) -> Iterator[Dimension]:
+    """A curved shoe beside the line of the slide."""
+    faces = circles_of(scene, "follower", "body")
+    centre, radius = max(faces, key=lambda face: face[1])
+    yield Length("follower.prime_radius", AXIS, centre)
+    yield Radius("follower.face_radius", centre, radius, np.radians(-95))
+    yield Length("follower.face_offset", (0.0, centre[1]), centre, 0.06)
+    yield _segment(scene)
+
+
+def _tilted(model: CamModel, scene: Scene) -> Iterator[Dimension]:
+    """A tilted flat face on a slide."""
+    corners = corners_of(scene, "follower", "body")[-4:]
+    first, second = corners[0], corners[1]
+    left, right = sorted((first, second))
+    yield Angle("follower.face_angle", left, 0.0, direction(left, right), 0.4, times=model.follower.sense)
+    _, radius = circles_of(scene, "cam", "base")[0]
+    yield Radius("follower.base_radius", AXIS, radius, np.radians(200))
+    yield _segment(scene)
+
+
+def _flat_lever(model: CamModel, scene: Scene) -> Iterator[Dimension]:
+    """A flat face on a lever."""
+    pivot = origin_of(scene, "follower")
+    start, end = (np.array(corner) for corner in corners_of(scene, "follower", "body")[-4:][:2])
+    along = (end - start) / np.hypot(*(end - start))
+    foot = start + along * np.dot(np.array(pivot) - start, along)
+    yield Length("follower.pivot_distance", AXIS, pivot, -0.3)
+    yield Length("follower.face_offset", pivot, _pair(foot), 0.1)
+    yield Radius("follower.base_radius", AXIS, circles_of(scene, "cam", "base")[0][1], np.radians(200))
+    yield _segment(scene)
+
+
+def _second_slide(model: CamModel, scene: Scene) -> Iterator[Dimension]:
+    """The second roller of a slide on two cams."""
+    (first, _), (second, radius) = circles_of(scene, "follower", "roller")
+    yield Length("follower.prime_radius", AXIS, first)
+    yield Length("conjugate.prime_radius", AXIS, second)
+    yield Radius("conjugate.roller_radius", second, radius, np.radians(-40))
+    yield Length("conjugate.offset", (0.0, second[1]), second, -0.14)
+
+
+def _across(model: CamModel) -> Scene:
+    """The cam cut along its axis, which runs to the right, from its solids."""
+    (cam,) = (part for part in parts(model) if part.name == "cam")
+    prisms = [solid for solid in cam.solids if isinstance(solid, Prism)]
+    halves = [shape for prism in prisms for shape in _section(prism)]
+    still = np.zeros((2, 3))
+    return Scene(np.array([0.0, 1.0]), "", "-", 1.0, (Body("cam", "cam", tuple(halves), still, "blue"),), (Frame("machine", "", still),))
+
+
+def _section(prism: Prism) -> Iterator[Shape]:
+    """Upper and lower half of a disc with a hole, cut along its axis."""
+    points, hole = prism.outline.points(), prism.holes[0].points()
+    top, bottom, inner = points[:, 1].max(), points[:, 1].min(), hole[:, 1].max()
+    for low, high in ((inner, top), (bottom, -inner)):
+        yield Shape("profile", rectangle((prism.z + prism.thickness / 2, (low + high) / 2), prism.thickness, high - low))
+
+
+def _widths(model: CamModel, scene: Scene) -> Iterator[Dimension]:
+    corners = corners_of(scene, "cam", "profile")
+    start, face, end = sorted({round(x, 9) for x, _ in corners})
+    top = max(y for x, y in corners if x < face - 1e-9)
+    hub = max(y for x, y in corners if x > face + 1e-9)
+    inner = min(abs(y) for _, y in corners)
+    yield Length("face.width", (start, top), (face, top), 0.1)
+    yield Length("manufacture.hub_length", (face, hub), (end, hub), 0.1)
+    yield Length("manufacture.hub_diameter", (end, -hub), (end, hub), -0.3)
+    yield Length("manufacture.bore", (end, -inner), (end, inner), -0.14)
+
+
 def _lever(model: CamModel, scene: Scene) -> Iterator[Dimension]:
     """A roller on a lever."""
     pivot = origin_of(scene, "follower")
@@ -73,6 +181,8 @@ def _conjugate(model: CamModel, scene: Scene) -> Iterator[Dimension]:
     yield Length("conjugate.prime_radius", AXIS, second)
     yield Length("follower.pivot_distance", AXIS, pivot, -0.6)
     yield Length("follower.arm_length", first, pivot, 0.14)
+    yield Length("conjugate.arm_length", second, pivot, -0.12)
+    yield Radius("conjugate.roller_radius", second, circles_of(scene, "follower", "roller")[1][1], np.radians(-120))
 
 
 def _flat(model: CamModel, scene: Scene) -> Iterator[Dimension]:
@@ -100,10 +210,45 @@ def _valve(model: CamModel, scene: Scene) -> Iterator[Dimension]:
     yield Angle("valve.start_angle", pivot, 0.0, direction(pivot, pad), 0.6, times=-1)
 
 
+SECOND = ("conjugate.roller_radius=10 mm", "conjugate.arm_length=65 mm")
+SECOND_SLIDE = (
+    "follower.motion=translating",
+    "follower.pivot_distance=",
+    "follower.arm_length=",
+    "conjugate.offset=8 mm",
+    "conjugate.roller_radius=10 mm",
+    "programme.0.rise=20 mm",
+    "programme.2.rise=-20 mm",
+)
+SHOE = (
+    "follower.face=shoe",
+    "follower.roller_radius=",
+    "follower.face_radius=30 mm",
+    "follower.prime_radius=55 mm",
+    "follower.face_offset=6 mm",
+)
+FLAT_LEVER = (
+    "follower.face=flat",
+    "follower.roller_radius=",
+    "follower.prime_radius=",
+    "follower.base_radius=40 mm",
+    "follower.face_offset=8 mm",
+)
+
+FACE = ("closure", "follower.motion", "follower.face")
 SHEETS = (
-    DimensionSheet("cam", "Disc cam, roller on a slide", "default", _slide, changes=("follower.offset=12 mm",)),
-    DimensionSheet("cam-oscillating", "Disc cam, roller on a lever", "oscillating", _lever_alone),
-    DimensionSheet("cam-flat", "Disc cam, flat face on a slide", "flat", _flat),
-    DimensionSheet("cam-conjugate", "Conjugate cams, lever with two rollers", "conjugate", _conjugate),
-    DimensionSheet("cam-valve-train", "Valve train, rocker with a roller", "valve_train", _valve),
+    DimensionSheet("cam", "Disc cam, roller on a slide", "default", _slide, changes=("follower.offset=12 mm",), variant=FACE),
+    DimensionSheet("cam-oscillating", "Disc cam, roller on a lever", "oscillating", _lever_alone, variant=(*FACE, "valve")),
+    DimensionSheet("cam-flat", "Disc cam, flat face on a slide", "flat", _flat, variant=FACE),
+    DimensionSheet("cam-conjugate", "Conjugate cams, lever with two rollers", "conjugate", _conjugate, changes=SECOND, variant=FACE),
+    DimensionSheet(
+        "cam-conjugate-slide", "Conjugate cams, slide with two rollers", "conjugate", _second_slide, changes=SECOND_SLIDE, variant=FACE
+    ),
+    DimensionSheet("cam-groove", "Groove cam, roller on a slide", "groove", _groove, changes=("limits.wall=8 mm",), variant=FACE),
+    DimensionSheet("cam-yoke", "Cam of constant breadth in a yoke", "yoke", _yoke, variant=FACE),
+    DimensionSheet("cam-shoe", "Disc cam, curved shoe on a slide", "default", _shoe, changes=SHOE, variant=FACE),
+    DimensionSheet("cam-tilted", "Disc cam, tilted flat face", "flat", _tilted, changes=("follower.face_angle=12 deg",), variant=FACE),
+    DimensionSheet("cam-flat-lever", "Disc cam, flat face on a lever", "oscillating", _flat_lever, changes=FLAT_LEVER, variant=FACE),
+    DimensionSheet("cam-section", "Cam cut along its axis: widths and hub", "default", _widths, scene=_across),
+    DimensionSheet("cam-valve-train", "Valve train, rocker with a roller", "valve_train", _valve, variant=(*FACE, "valve")),
 )

@@ -100,6 +100,6 @@ def _findings(track, places):
     if len(places):
         angles = ", ".join(f"{np.degrees(place % (2 * np.pi)):.1f}" for place in places)
         yield (
-            f"the entrainment speed{track.of} reverses at the cam angles {angles} deg: the steady film thickness is zero there, and the "
+            f"the entrainment speed{track.of} reverses at the cam angles {angles}°: the steady film thickness is zero there, and the "
             "squeeze film is not computed"
         )

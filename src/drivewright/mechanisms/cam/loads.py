@@ -106,7 +106,7 @@ def _flight(model, required):
         return ()
     share, angle = 100 * float(np.mean(required < 0)), np.degrees(model.cycle.minimum(model.required).angle % (2 * np.pi))
     return (
-        f"the follower leaves the cam over about {share:.0f} % of the turn, with the minimum force at cam angle {angle:.1f} deg: there the "
+        f"the follower leaves the cam over about {share:.0f} % of the turn, with the minimum force at cam angle {angle:.1f}°: there the "
         "cam transmits neither force nor torque. Flight and landing are not computed, and the forces after landing exceed those given; "
         "increase the preload or the stiffness of the spring, or reduce the speed",
     )
@@ -247,7 +247,7 @@ def _jump_check(model, speed, angle):
     """The check of a jump speed; its message names speed and angle."""
     message, remedy = "the follower leaves the cam", "; increase the preload or the stiffness of the spring"
     if np.ndim(speed) == 0 and np.isfinite(speed):
-        message += f" at {60 * speed / (2 * np.pi):.5g} rpm, at cam angle {np.degrees(angle % (2 * np.pi)):.1f} deg"
+        message += f" at {60 * speed / (2 * np.pi):.5g} rpm, at cam angle {np.degrees(angle % (2 * np.pi)):.1f}°"
     message += remedy
     return Check("jump_speed", speed, model.speed, ">=", "rad/s", message, ("follower", "spring"), label="Jump speed")
 

@@ -121,7 +121,7 @@ def _lost_motion(model, track, left):
         convention="0 at the start of the programme",
     )
     finding = (
-        f"the {track.words} is undercut: near cam angle {np.degrees(at):.1f} deg the follower overtravels its programme by "
+        f"the {track.words} is undercut: near cam angle {np.degrees(at):.1f}° the follower overtravels its programme by "
         f"{1e3 * lost:.3g} mm; {REMEDY}"
     )
     return Answer(values, (), (check,), (finding,))

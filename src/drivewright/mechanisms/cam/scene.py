@@ -45,7 +45,15 @@ PLOTS = (
             Plot(f"pressure{suffix}", f"Contact pressure{words}", f"pressure{suffix}", "angle", ("contact_pressure",)),
         )
     ),
-    Plot("surge", "Spring force over the turn", "surge", "angle", ("spring_force", "surge_force"), reference=("static_force",)),
+    Plot(
+        "surge",
+        "Spring force over the turn",
+        "surge",
+        "angle",
+        ("spring_force", "surge_force"),
+        reference=("static_force",),
+        meaning="Dashed: static force of the spring.",
+    ),
     Plot("surge_harmonics", "Harmonics of lift and surge", "surge_harmonics", "harmonic", ("lift", "surge_force"), style="bars"),
     *(
         plot

@@ -55,7 +55,7 @@ def assembly(model: IndexerModel, done: Answers) -> Answer:
 
 
 def load(model: IndexerModel, fineness: float = 1.0, positions: int = POSITIONS) -> LoadedAssembly:
-    """The `LoadedAssembly` at `positions` over the index period, or at the one input angle asked for."""
+    """The `LoadedAssembly` at `positions` over the index period, or at the one input angle given."""
     angles = model.angles if len(model.angles) == 1 else np.linspace(0.0, model.wheel.motion.motion_angle, positions)
     contacts, bodies = contacts_at(model.wheel, angles, REACH), model.solids
     rigid, wheel = model.rigid_wheel.train, model.loaded_wheel
@@ -152,7 +152,7 @@ def _findings(spec: IndexerSpec, angles: Floats, own: SolidStiffness) -> Iterato
     for reason in dict.fromkeys(reason for reason in own.reasons if reason):
         rows = [k for k, each in enumerate(own.reasons) if each == reason]
         places = ", ".join(f"{angle:.4g}" for angle in np.degrees(angles[rows]))
-        yield f"assembly: no stiffness at {len(rows)} of {len(angles)} input angles ({places} deg): {reason}"
+        yield f"assembly: no stiffness at {len(rows)} of {len(angles)} input angles ({places}°): {reason}"
     yield (
         "assembly: wheel, drum and seats have usual proportions where the spec has no key for them (theory.md); a finer mesh lowers the "
         f"stiffness by up to {100 * MESH_ERROR:.0f} %"

@@ -1,4 +1,4 @@
-"""The bodies of an indexer that its spec tells the size of, as solids."""
+"""The bodies of an indexer whose size the spec gives, as solids."""
 
 from drivewright.bearings import Entry
 from drivewright.indexing import drivetrain, solid
@@ -9,7 +9,7 @@ from drivewright.mechanisms.indexer.spec import IndexerSpec
 def solid_parts(
     spec: IndexerSpec, crank: Entry | None, support: Entry | None, wheel: PinWheel, train: drivetrain.Drivetrain | None
 ) -> solid.Solids:
-    """The bodies that the spec tells the size of, with the catalogue entries of crank and support bearings.
+    """The bodies whose size the spec gives, with the catalogue entries of crank and support bearings.
 
     What it does not tell is as in the reduced model.
     """

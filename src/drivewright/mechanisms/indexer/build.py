@@ -75,7 +75,7 @@ class IndexerModel:
 
     @cached_property
     def angles(self) -> Floats:
-        """Input angles [rad] of the tables: over the index period, or the one asked for."""
+        """Input angles [rad] of the tables: over the index period, or the one given."""
         if self.spec.load.angle is not None:
             return np.array([self.spec.load.angle])
         return index_angles(self.drive, STEP)
@@ -108,7 +108,7 @@ class IndexerModel:
 
     @property
     def solids(self) -> Solids:
-        """The bodies that the spec tells the size of."""
+        """The bodies whose size the spec gives."""
         return solid_parts(self.spec, self.crank_bearing, self.support_bearing, self.wheel, self.train)
 
     @property
@@ -154,8 +154,8 @@ def _of_kind(part: object, kind: type[PartT] | tuple[type[PartT], ...]) -> PartT
 def build(spec: IndexerSpec) -> IndexerModel:
     """The `IndexerModel` of a spec; InputError where it has no cam."""
     refuse_contradictions(spec)
-    moving, told = wheel_motion(spec)
-    findings = (*told, *unused(spec))
+    moving, motion_findings = wheel_motion(spec)
+    findings = (*motion_findings, *unused(spec))
     if spec.kind not in TRANSLATING:
         return IndexerModel(spec, OTHERS[spec.kind](spec, moving), findings=findings)
     sizes = spec.pins, spec.pin_circle_radius, spec.pin_radius, required(spec, "eccentricity")

@@ -90,6 +90,6 @@ def _findings(model: IndexerModel, torque: DriveTorque) -> Iterator[str]:
     largest, taken = float(np.max(np.abs(torque.table_torque))), model.spec.load.torque
     if taken and largest > abs(taken):
         yield (
-            f"the table needs up to {largest:.4g} N m from the wheel at this speed, and load.torque is {abs(taken):.4g} N m: forces, "
+            f"the table needs up to {largest:.4g} N·m from the wheel at this speed, and load.torque is {abs(taken):.4g} N·m: forces, "
             "pressures and stiffness are those at load.torque"
         )

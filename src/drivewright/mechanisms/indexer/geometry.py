@@ -131,7 +131,7 @@ def _play_checks(model: IndexerModel, angle: Floats, rotations: Mapping[str, Flo
     for name, free in rotations.items():
         if np.isfinite(free).all():
             at = int(np.argmax(free))
-            where = f"maximum over the cycle at {np.degrees(angle[at]):.4g} deg" if free[at] > 0 else "over the whole cycle"
+            where = f"maximum over the cycle at {np.degrees(angle[at]):.4g}°" if free[at] > 0 else "over the whole cycle"
             largest, message = free[at], f"play of the wheel {name}, {where}"
         else:
             largest = max(model.drive.pin_pitch, 2 * limit)

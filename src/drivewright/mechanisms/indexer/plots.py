@@ -23,13 +23,13 @@ def _all(result: Result[Any]) -> Iterator[Plot]:
             yield Plot(f"profile{suffix}", f"Cam profile{which}", f"profile{suffix}", "x", ("y",), equal=True)
     yield Plot("curvature", "Curvature of the cam profile", "profile", "angle", ("curvature",), style="points")
     yield Plot("contacts", "Contacts by direction of push", "contacts", "angle", ("pins", "forward", "backward"))
-    pushed, meaning = ("pin_forward", "pin_backward"), "pins in contact with one cam, by the direction in which it can push them"
+    pushed, meaning = ("pin_forward", "pin_backward"), "Pins in contact with one cam, by the direction in which it can push them."
     yield Plot("contact_map", "Contact map of one cam", "contact_points", "angle", pushed, style="points", meaning=meaning)
     yield Plot("levers", "Moment arms of the contacts", "contact_points", "angle", ("arm",), style="points")
     if "contacts" in result.tables:
         angles = tuple(column.name for column in result.tables["contacts"].columns if column.name.startswith("pressure_angle"))
         yield Plot("pressure_angle", "Pressure angle", "contacts", "angle", angles, (("pressure_angle", "limit"),))
-    ways, limit, meaning = ("forward", "backward"), (("play.forward", "limit"),), "free rotation of the wheel, the input locked"
+    ways, limit, meaning = ("forward", "backward"), (("play.forward", "limit"),), "Free rotation of the wheel with the input locked."
     yield Plot("play", "Play of the wheel", "play", "angle", ways, limit, unit="arcmin", whole=True, meaning=meaning)
     yield from stiffness_plots(result.tables)
     yield from assembly_plots(result.tables)

@@ -65,7 +65,7 @@ def _force_values(forces: Table) -> Iterator[tuple[str, Value]]:
 
 
 def _dwell(model: IndexerModel, loaded: LoadedRollers) -> Answer:
-    """Holding, least stiffness and largest force in the dwell; nothing where one input angle is asked for."""
+    """Holding, least stiffness and largest force in the dwell; nothing where one input angle is given."""
     angles = dwell_angles(model.drive.motion, STEP)
     if model.spec.load.angle is not None or not len(angles):
         return Answer()

@@ -304,7 +304,7 @@ class IndexerSpec(MechanismSpec):
     def _refuse_impossible(self) -> Self:
         """SpecError for the first value that has no meaning whatever the other keys are."""
         if self.load.torque == 0:
-            raise SpecError("0 N m gives no stiffness; give another torque, or leave it out", "load.torque")
+            raise SpecError("0 N·m gives no stiffness; give another torque, or leave it out", "load.torque")
         law = self.motion.law
         if law is not None and law not in motion.names():
             raise SpecError(str(UnknownName("motion law", law, motion.names())), "motion.law")

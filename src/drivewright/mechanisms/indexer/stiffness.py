@@ -45,7 +45,7 @@ def secant_stiffness(model: IndexerModel) -> Answer:
 
 @once
 def dwell_stiffness(model: IndexerModel) -> Answer:
-    """Holding, least stiffness and largest pin force in the dwell; nothing where one input angle is asked for."""
+    """Holding, least stiffness and largest pin force in the dwell; nothing where one input angle is given."""
     angles = dwell_angles(model.wheel.motion, STEP)
     if model.spec.load.angle is not None or not len(angles):
         return Answer()

@@ -19,6 +19,11 @@ PRESSURES = {  # values that the check of the pressure looks at, and its message
     "shared.max_pressure": "maximum Hertz pressure on a {}, the load shared by stiffness",
     "dwell.pins.max_pressure": "maximum Hertz pressure on a {} in the dwell",
 }
+LABELS = {  # of that check: those of the values
+    "pins.max_pressure": "Maximum Hertz pressure on a {}",
+    "shared.max_pressure": "Maximum Hertz pressure, shared load",
+    "dwell.pins.max_pressure": "Maximum Hertz pressure in the dwell",
+}
 TOO_WIDE = (
     "{0} = {1:.4g} MPa: the half-width of this contact is {2:.2g} times its relative radius; Hertz's theory holds up to about {3:g}, so "
     "this force and pressure are no prediction. Lower the torque or the interference, or take larger pins"
@@ -54,7 +59,7 @@ def judge_pressure(model: IndexerModel, values: Mapping[str, Value], part: str =
     name, largest = max(known.items(), key=lambda each: each[1])
     allowed = model.spec.limits.contact_pressure or materials.material(model.spec.contact.material).hertz_limit
     message = f"{PRESSURES[name].format(part)}; increase the contact length or the {part} radius, or take a stronger material"
-    label = f"Maximum Hertz pressure on a {part}"
+    label = LABELS[name].format(part)
     check = Check("contact_pressure", largest, allowed or np.nan, "<=", "Pa", message, ("cam1", "wheel"), label=label)
     width = relative_width(largest, model.modulus)
     return Answer(

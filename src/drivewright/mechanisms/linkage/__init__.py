@@ -33,7 +33,6 @@ HEADLINE = (
     "modes.*.frequency",
     "*.swing",
     "output.swing",
-    "drive.max_torque",
 )
 
 SOURCES = (

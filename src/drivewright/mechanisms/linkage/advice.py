@@ -1,4 +1,4 @@
-"""What can be computed and should be looked at: checks that need nothing but the spec."""
+"""Findings on a linkage that the spec alone gives: what can be computed but deserves attention."""
 
 import itertools
 import math
@@ -83,7 +83,7 @@ def clearance_share(spec: LinkageSpec) -> tuple[Check, ...]:
 
 
 def restitution(spec: LinkageSpec) -> tuple[Check, ...]:
-    """Laws that bounce too well where little restitution is asked."""
+    """Impact laws whose restitution is too high where a low one is given."""
     return tuple(
         Check(
             f"restitution.{joint.name}",

@@ -1,4 +1,4 @@
-"""Which questions a linkage answers, and what of the spec they need."""
+"""The analyses of a linkage, and the keys of the spec that they need."""
 
 import math
 from collections.abc import Callable, Iterator
@@ -105,7 +105,7 @@ def _no_wear(spec: LinkageSpec) -> str | None:
 
 
 def _no_table(table: str, also: Callable[[LinkageSpec], str | None] = lambda spec: None) -> Callable[[LinkageSpec], str | None]:
-    """Why there are no turns to look at for the analysis that a table asks for."""
+    """Why there are no turns for the analysis that a table requests."""
 
     def missing(spec: LinkageSpec) -> str | None:
         if getattr(spec, table) is None:
@@ -198,7 +198,7 @@ def _wear(model: LinkageModel, done: Answers) -> Answer:
 
 
 def wearing_bearing(spec: LinkageSpec) -> WearingBearing:
-    """The bearing that wears, of a spec that asks for wear."""
+    """The bearing that wears, of a spec with an analysis of wear."""
     table, joint = spec.wear, _wearing_joint(spec)
     assert table is not None and joint.clearance is not None and joint.wear_coefficient is not None
     return WearingBearing(

@@ -1,4 +1,4 @@
-"""Spec -> model: the mechanism as stated and its ideal twin, assembled, with what is asked of its run."""
+"""Spec -> model: the mechanism as stated and its ideal twin, assembled, with the requirements on its run."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""From what the user says to the frozen description that the multibody kernel reads."""
+"""From the tables of the spec to the frozen description that the multibody kernel reads."""
 
 import math
 

@@ -22,4 +22,20 @@ def _four_bar(model: LinkageModel, scene: Scene) -> Iterator[Dimension]:
     yield Length("bodies.rocker.points.B.0", rocker, b, -0.1)
 
 
-SHEETS = (DimensionSheet("linkage", "Four-bar linkage", "default", _four_bar, changes=("bodies.crank.angle=40 deg",)),)
+def _slider_crank(model: LinkageModel, scene: Scene) -> Iterator[Dimension]:
+    bodies = model.spec.bodies
+    crank, rod, slider = (origin_of(scene, name) for name in ("crank", "rod", "slider"))
+    wrist = placed_point(scene, "rod", bodies["rod"].points["B"])
+    yield Length("bodies.crank.points.A.0", crank, placed_point(scene, "crank", bodies["crank"].points["A"]), 0.12)
+    yield Length("bodies.crank.centroid.0", crank, placed_point(scene, "crank", bodies["crank"].centroid), -0.12)
+    yield Length("bodies.rod.points.B.0", rod, wrist, 0.1)
+    yield Length("bodies.rod.centroid.0", rod, placed_point(scene, "rod", bodies["rod"].centroid), -0.12)
+    yield Angle("bodies.crank.angle", crank, 0.0, pose_of(scene, "crank")[2] % math.tau, 0.16)
+
+
+SLIDER_CRANK = ("bodies.crank.angle=50 deg", "bodies.rod.angle=-20 deg")
+
+SHEETS = (
+    DimensionSheet("linkage", "Four-bar linkage", "default", _four_bar, changes=("bodies.crank.angle=40 deg",)),
+    DimensionSheet("linkage-slider-crank", "Slider-crank", "slider_crank", _slider_crank, changes=SLIDER_CRANK),
+)

@@ -1,4 +1,4 @@
-"""What the user says of a joint: its kind, what it connects, and for a pin the model of its play."""
+"""A joint in the spec: its kind, what it connects, and for a pin the model of its play."""
 
 from typing import TYPE_CHECKING, Literal, TypeAlias
 

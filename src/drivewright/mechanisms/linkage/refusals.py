@@ -1,4 +1,4 @@
-"""What has no meaning in a linkage: names that nobody has, numbers that contradict each other.  Each is a SpecError with its key."""
+"""Invalid input of a linkage: unknown names, numbers that contradict each other.  Each is a SpecError with its key."""
 
 from drivewright.errors import SpecError, nearest
 from drivewright.mechanisms.linkage.tables import (
@@ -41,8 +41,8 @@ def _bodies(spec):
         share = body.mass * pivot_distance(body) ** 2
         if body.inertia < share * (1 - 1e-12):
             raise SpecError(
-                f"{body.inertia:.6g} kg m^2 about {body.inertia_about!r} is less than the parallel-axis share of the mass alone: m d^2 = "
-                f"{body.mass:.6g} kg x ({pivot_distance(body) * 1e3:.6g} mm)^2 = {share:.6g} kg m^2. If the inertia is about the "
+                f"{body.inertia:.6g} kg·m² about {body.inertia_about!r} is less than the parallel-axis share of the mass alone: m d^2 = "
+                f"{body.mass:.6g} kg x ({pivot_distance(body) * 1e3:.6g} mm)^2 = {share:.6g} kg·m². If the inertia is about the "
                 "centroid, leave inertia_about out",
                 key=f"{key}.inertia",
             )

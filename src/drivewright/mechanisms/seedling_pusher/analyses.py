@@ -82,7 +82,7 @@ def _one_cam(model, cam):
     findings = ()
     if lost > 0:
         findings = (
-            f"the {cam.name} cam is undercut: near carrier angle {np.degrees(lost_at % TURN):.1f} deg the roller overtravels its programme "
+            f"the {cam.name} cam is undercut: near carrier angle {np.degrees(lost_at % TURN):.1f}° the roller overtravels its programme "
             f"by {1e3 * lost:.3f} mm; {REMEDY}",
         )
     ratio = radius / model.spec.cams.roller_radius

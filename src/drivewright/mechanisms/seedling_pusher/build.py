@@ -165,7 +165,7 @@ def _programme(spec):
     rest = TURN - push.rise - push.hold - push.retraction
     if rest <= 0:
         raise SpecError(
-            f"rise, hold and retraction sum to {np.degrees(TURN - rest):.6g} deg; they must leave a rest within one turn of 360 deg", "push"
+            f"rise, hold and retraction sum to {np.degrees(TURN - rest):.6g}°; they must leave a rest within one turn of 360°", "push"
         )
     try:
         segments = (
@@ -199,8 +199,8 @@ def _refuse_out_of_reach(cam, swing):
     end = rest + cam.side * swing
     if not 1e-6 < min(rest, end) <= max(rest, end) < np.pi - 1e-6:  # rad: exactly there, rounding decides
         raise SpecError(
-            f"the lever swings {np.degrees(swing):.4g} deg, which takes the {cam.name} arm from {np.degrees(rest):.4g} to "
-            f"{np.degrees(end):.4g} deg from the line of centres, onto or past its dead point; lengthen lever.output_arm or shorten "
+            f"the lever swings {np.degrees(swing):.4g}°, which takes the {cam.name} arm from {np.degrees(rest):.4g} to "
+            f"{np.degrees(end):.4g}° from the line of centres, onto or past its dead point; lengthen lever.output_arm or shorten "
             "push.stroke",
             f"cams.prime_radius_{cam.name}",
         )

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from drivewright.dimensions import Dimension, DimensionSheet, Length, circles_of, corners_of, origin_of
 from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.notch_drawing import GEAR, NOTCHES, gear_dimensions, notch_dimensions, notched
 from drivewright.mechanisms.shaft.scene import drawings, scene
 from drivewright.scene import Body, Scene, Shape
 
@@ -40,6 +41,10 @@ def _spindle(model: ShaftModel, scene: Scene) -> Iterator[Dimension]:
     yield Length("stations.nose.position", (left, 0.0), (nose[0], 0.0), -0.44)
 
 
+SHORT = ("bearings.A.position=20 mm", "bearings.B.position=150 mm", "stations.m2.position=100 mm")
+
 SHEETS = (
     DimensionSheet("shaft", "Shaft: segments, bearings and stations", "spindle", _spindle, left_out=("shaft.", "gear"), scene=_hollow),
+    DimensionSheet("shaft-notches", "Shaft: notches and fillets", "default", notch_dimensions, changes=(*SHORT, *NOTCHES), scene=notched),
+    DimensionSheet("shaft-gear", "Shaft: gears", "default", gear_dimensions, changes=GEAR, left_out=("shaft.",)),
 )

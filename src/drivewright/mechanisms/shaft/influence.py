@@ -13,7 +13,7 @@ from drivewright.shafts.values import flexibility_arrays, limit_values, pair_val
 
 
 def no_stations(spec: ShaftSpec) -> str | None:
-    """Why nothing can be said of stations."""
+    """Why the stations are not evaluated."""
     return None if spec.stations else "the spec declares no [[stations]]"
 
 
@@ -57,7 +57,7 @@ def flexibility(model: ShaftModel, done: Answers) -> Answer:
 
 
 def no_strength(spec: ShaftSpec) -> str | None:
-    """Why nothing can be said of what fails first."""
+    """Why the limiting force is not evaluated."""
     rated = any(b.static_rating or is_rolling(b) for b in spec.bearings)
     known = rated or spec.material.yield_strength or spec.material.card
     return no_stations(spec) or (None if known else "neither a static rating of a bearing nor a yield strength is given")

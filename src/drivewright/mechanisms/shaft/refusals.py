@@ -1,4 +1,4 @@
-"""What has no meaning, refused by name; what can be computed is left to the checks."""
+"""Invalid input of a shaft, refused with its key; what can be computed is left to the checks."""
 
 from drivewright.bearings.load_spectrum import WHOLE
 from drivewright.bearings.lubricant import refuse_said_twice
@@ -71,7 +71,7 @@ def _places(spec):
     _widths(spec)
     for key, place in wanted:
         if not -NEAR * far <= place <= far * (1 + NEAR):
-            raise SpecError(f"{_mm(place)} is off the shaft, which runs from 0 to {_mm(far)}; move it, or make a segment longer", key)
+            raise SpecError(f"{_mm(place)} lies outside the shaft, which runs from 0 to {_mm(far)}; move it, or make a segment longer", key)
     for table in ("bearings", "stations"):
         entries = sorted(getattr(spec, table), key=lambda entry: entry.position)
         for one, two in zip(entries, entries[1:], strict=False):
@@ -98,8 +98,8 @@ def _bearings(spec):
         given = [key for key in SPRINGS if getattr(bearing, key) is not None]
         where = f"bearings.{bearing.name}"
         if len(given) != 1 and not (not given and (bearing.axial_stiffness or bearing.tilt_stiffness)):
-            told = f"has {' and '.join(given)}" if given else "has no stiffness"
-            raise SpecError(f"{told}; give one of {', '.join(SPRINGS)}", where)
+            problem = f"has {' and '.join(given)}" if given else "has no stiffness"
+            raise SpecError(f"{problem}; give one of {', '.join(SPRINGS)}", where)
         _refuse_half_matrix(bearing, where)
         if is_rolling(bearing):
             for key in ("axial_stiffness", "tilt_stiffness"):

@@ -58,8 +58,8 @@ def _inertia_findings(model: ShaftModel) -> Iterator[str]:
     for part in model.turning_parts:
         if part.polar_inertia > 2 * part.diametral_inertia * (1 + 1e-9) and part.diametral_inertia > 0:
             yield (
-                f"{part.name!r} has a polar_inertia of {part.polar_inertia:.4g} kg m^2, more than twice its diametral_inertia of "
-                f"{part.diametral_inertia:.4g} kg m^2, which no body has; check both"
+                f"{part.name!r} has a polar_inertia of {part.polar_inertia:.4g} kg·m², more than twice its diametral_inertia of "
+                f"{part.diametral_inertia:.4g} kg·m², which no body has; check both"
             )
 
 

@@ -1,4 +1,4 @@
-"""The spec of a shaft: its tables, refused where they have no meaning."""
+"""The spec of a shaft: its tables, and their validation."""
 
 from pydantic import model_validator
 

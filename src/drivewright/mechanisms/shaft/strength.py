@@ -11,7 +11,7 @@ from drivewright.result import Answer, Answers, Check, Value
 
 
 def no_strength(spec: ShaftSpec) -> str | None:
-    """Why nothing can be said of the strength."""
+    """Why the strength is not evaluated."""
     return materials.no_strength_reason(*_given(spec))
 
 

@@ -1,4 +1,4 @@
-"""From the spec to a link, two teeth, plates and sprockets, and what the published method says of them; SI, plain data."""
+"""From the spec to a link, two teeth, plates and sprockets, and the results of the published method for them; SI, plain data."""
 
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -96,8 +96,8 @@ class ChainModel:
         total = self.spec.closure.elongation + float(worn.elongation(given.running_time, self.spec.pitch)[0])
         if total > LONGEST:
             raise SpecError(
-                f"elongates the chain by {100 * total:.3g} % through wear, more than the {100 * LONGEST:g} % up to which a chain stays on "
-                "its teeth. Choose a shorter time, or a smaller wear.coefficient",
+                f"elongates the chain by {100 * total:.3g} % through wear, more than the {100 * LONGEST:g} % up to which a chain still "
+                "meshes with its teeth. Choose a shorter time, or a smaller wear.coefficient",
                 "wear.running_time",
             )
         return total

@@ -1,4 +1,4 @@
-"""How long and how much: elongation of the chain by wear of its joints, and its rated power against the power transmitted."""
+"""Life and capacity: elongation of the chain by wear of its joints, and its rated power against the power transmitted."""
 
 import numpy as np
 

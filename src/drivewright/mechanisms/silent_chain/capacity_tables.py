@@ -1,4 +1,4 @@
-"""What the user says of wear and power rating of a chain."""
+"""Tables of the spec for wear and power rating of a chain."""
 
 from typing import Annotated
 

@@ -123,7 +123,7 @@ def _guide(model: "ChainModel", given: tables.Guide, touch: ChainContact) -> Gui
 
 
 def _teeth(model: "ChainModel", wheel: Any) -> dict[str, Any]:
-    """What meshes of a sprocket, thicker by what is said."""
+    """The meshing part of a sprocket, thicker by the given amount."""
     return masses.meshing_tooth(wheel, model.spec.dynamics.thickness_deviation)._asdict()
 
 

@@ -58,6 +58,8 @@ def _roller(model: ChainModel, scene: Scene) -> Iterator[Dimension]:
 
 
 SHEETS = (
-    DimensionSheet("silent-chain", "Silent chain: two plates of a straight strand", "default", _silent, scene=_links),
-    DimensionSheet("silent-chain-roller", "Roller chain: two links of a straight strand", "roller", _roller, scene=_links),
+    DimensionSheet("silent-chain", "Silent chain: two plates of a straight strand", "default", _silent, scene=_links, variant=("roller",)),
+    DimensionSheet(
+        "silent-chain-roller", "Roller chain: two links of a straight strand", "roller", _roller, scene=_links, variant=("roller",)
+    ),
 )

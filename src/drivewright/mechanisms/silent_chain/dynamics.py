@@ -208,7 +208,7 @@ def _slipping(values: Mapping[str, Value]) -> Iterator[str]:
 
 
 def _runs(model, system):
-    """The ensemble of runs, by the integrator asked for."""
+    """The ensemble of runs, by the given integrator."""
     given = model.spec.dynamics
     duration = given.settling + (given.duration or REVOLUTIONS * model.spec.links * tooth_time(system))
     if duration - given.settling < 2 * tooth_time(system):
@@ -245,7 +245,7 @@ def _refuse_endless(model, duration, step):
 
 
 def explicit_step(model: ChainModel, system: ChainDrive) -> float:
-    """Step of an explicit run [s]: as said, else a microsecond, or less where that is not safe."""
+    """Step of an explicit run [s]: as given, else a microsecond, or less where that is not safe."""
     given = model.spec.dynamics.step
     try:
         return safe_step(system, given)

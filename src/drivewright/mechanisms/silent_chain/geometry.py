@@ -1,4 +1,4 @@
-"""Plates and sprockets as bodies: measures, walls, teeth, and whether plates meet anything but their seats."""
+"""Plates and sprockets as bodies: measures, walls, teeth, and interference of plates outside their seats."""
 
 from collections.abc import Iterator
 from contextlib import suppress

@@ -1,4 +1,4 @@
-"""What the number of a roller chain gives to a spec: keys that are not given are filled, keys that are given win and are told of."""
+"""What the number of a roller chain gives to a spec: keys that are not given are filled, given keys take precedence and are reported."""
 
 from collections.abc import Iterator
 from typing import Any

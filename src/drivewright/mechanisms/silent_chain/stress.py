@@ -1,4 +1,4 @@
-"""Stress and life of a plate that goes round: loads from the dynamics, elements by superposition, critical planes."""
+"""Stress and life of a plate over its circulation: loads from the dynamics, elements by superposition, critical planes."""
 
 import numpy as np
 

@@ -182,7 +182,7 @@ def _on_tight_strand(path: DrivePath) -> Iterator[str]:
         tight = own - np.min(pulls) > LITTLE * load
         if tight:
             yield (
-                f"tensioner {name} presses on the tight strand: with clockwise rotation and a load torque of {torque:.4g} N m, the strand "
+                f"tensioner {name} presses on the tight strand: with clockwise rotation and a load torque of {torque:.4g} N·m, the strand "
                 f"that {carrier} the driven sprocket transmits the load, with a tension of {own:.4g} N against {np.min(pulls):.4g} N in "
                 "the slackest strand. Move the tensioner to the other strand; otherwise its spring carries the load and the other strand "
                 "goes slack"

@@ -41,7 +41,7 @@ class Statistics:
     def of_run(self, name: str, turns: str = "") -> Estimate:
         """What a run of this length shows, a largest value for instance: every member is a sample.
 
-        `turns` names the number of a turn by which it is told whether it had settled; its own unless told.
+        `turns` names the number of a turn by which it is judged whether it had settled; its own unless told.
         """
         turns = turns or name
         if self._single(turns):

@@ -85,6 +85,6 @@ class TurnMap:
         run = simulate(self.model.assembly, self.model.turn_length, self.settings, samples=np.empty(0), state=state)
         if run.advice:
             raise SolverError(f"a turn was not completed: {run.stop}")
-        end = convert_state(*run.end, self.model.assembly.system)  # the coordinates may have been split anew on the way
+        end = convert_state(*run.end, self.model.assembly.system)  # the coordinates may have been partitioned again on the way
         end[self.spinning] %= TURN  # a link that spins would drown the separation in the rounding of its angle
         return end

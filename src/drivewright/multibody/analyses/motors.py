@@ -1,4 +1,4 @@
-"""What drives and motors must be able to give: torque, speed, power over the window, and the inertia that they feel."""
+"""What drives and motors must be able to give: torque, speed, power over the window, and the reflected inertia."""
 
 import numpy as np
 

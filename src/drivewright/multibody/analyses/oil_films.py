@@ -1,4 +1,4 @@
-"""Oil films of pins: how good their closed form is."""
+"""Oil films of pins: accuracy of their closed form."""
 
 import numpy as np
 

@@ -11,7 +11,7 @@ from drivewright.multibody.forces.contact import AMBROSIO, COULOMB
 from drivewright.multibody.observe import PIN_FIELDS
 from drivewright.result import Answer, Check, Column, Table, Value
 
-FULL = 0.9  # of the coefficient stated: with less a finding says so
+FULL = 0.9  # of the coefficient stated: below it there is a finding
 
 
 def pins(model: SimulationModel) -> Answer:

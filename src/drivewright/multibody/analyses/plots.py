@@ -89,7 +89,8 @@ def _pin_plots(tables: Mapping[str, Table], joint: str, clearance: float | None)
     yield Plot(
         f"force.{joint}", f"Force and sliding speed, {title}", table.name, x, columns, shade="contact", meaning="Shaded: in contact."
     )
-    yield Plot(f"polar.{joint}", f"Force on the journal of {title}", table.name, "force_x", ("force_y",), equal=True)
+    path = "Path of the tip of the force vector."
+    yield Plot(f"polar.{joint}", f"Force on the journal of {title}", table.name, "force_x", ("force_y",), equal=True, meaning=path)
 
 
 def _run_plots(tables: Mapping[str, Table], joints: list[str]) -> Iterator[Plot]:

@@ -1,4 +1,4 @@
-"""A mechanism with what is asked of its run: assembled, its twin without play, outputs, turn, window, settings; and the runs of both."""
+"""A mechanism with the requirements on its run: assembled, its twin without play, outputs, turn, window, settings; and the runs of both."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -36,7 +36,7 @@ class Output:
 
 @dataclass(frozen=True)
 class RunLimits:
-    """Requirements on a run; None: not asked."""
+    """Requirements on a run; None: not required."""
 
     impact_load_coefficient: float | None = None
     joint_force: float | None = None  # [N]
@@ -131,7 +131,7 @@ def has_play(assembly: Assembly) -> bool:
 
 
 def run_of(model: SimulationModel) -> Run:
-    """The run that is asked for, at every step."""
+    """The requested run, at every step."""
     return _noted(_run(model))
 
 
@@ -159,7 +159,7 @@ def _record(model):
 def ideal_record(model: SimulationModel) -> Record:
     """The record of the ideal mechanism: over a turn of a drive at constant speed, else over the whole run.
 
-    Its stop is told only where the run itself may have come further.
+    Its stop is reported only where the run itself may have come further.
     """
     with collect_stops():
         ideal = _ideal_record(model)

@@ -79,7 +79,7 @@ def _rates(model, passed):
 
 def _finding(model, passages):
     first = passages[0]
-    where = f", drive at {np.degrees(_drive_angle(model, passages)[0]):.4g} deg" if model.period else ""
+    where = f", drive at {np.degrees(_drive_angle(model, passages)[0]):.4g}°" if model.period else ""
     many = f"{len(passages)} singular positions" if len(passages) > 1 else "a singular position"
     return (
         f"the mechanism passes {many} (the first at t = {first.time:.6g} s{where}), where loops fold and up to {first.tangents} "

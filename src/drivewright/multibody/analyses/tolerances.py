@@ -1,4 +1,4 @@
-"""Kinematic Monte Carlo of a mechanism: clearances and tolerances of points, and what they make of the outputs."""
+"""Kinematic Monte Carlo of a mechanism: clearances and tolerances of points, and the resulting scatter of the outputs."""
 
 import math
 from collections.abc import Sequence

@@ -52,7 +52,7 @@ def output_numbers(model: SimulationModel, run: Run) -> RunNumbers:
     start = start_of_window(model, run.end[1])
     record, numbers = window_record(model, run), RunNumbers()
     ends = turn_ends(model, start, record.t[-1])
-    turns = ends if model.assembly.freedom else ends[:1]  # kinematics is exact, and nobody looks at its turns one by one
+    turns = ends if model.assembly.freedom else ends[:1]  # kinematics is exact, and its turns are the same
     if model.outputs:
         _motions(record, model.outputs, turns, numbers)
     for output in model.outputs if model.has_play else ():

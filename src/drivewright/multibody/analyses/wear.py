@@ -1,4 +1,4 @@
-"""Wear of a bearing over many turns: a run tells what a turn wears off, a jump extrapolates it, the worn bearing runs again.
+"""Wear of a bearing over many turns: a run gives the wear of a turn, a jump extrapolates it, and the worn bearing is simulated again.
 
 The wall recedes where the journal rubs; the contact sees the depth on the side where the journal is (`forces.pin_contact.wear_depth`).
 The stiffness of the contact keeps its value, and the journal its shape.

@@ -1,4 +1,4 @@
-"""What any force tells of itself: which table of the system its record goes into, and the record."""
+"""The interface of a force: the table of the system into which its record goes, and the record."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

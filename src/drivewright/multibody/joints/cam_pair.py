@@ -33,7 +33,7 @@ class CamPair(Joint):
 
     @property
     def reaction_marker(self) -> Marker:
-        """The point of a body about which its reaction is told."""
+        """The point of a body about which its reaction is stated."""
         return self.follower
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:

@@ -28,7 +28,7 @@ class Gear(Joint):
 
     @property
     def reaction_marker(self) -> Marker:
-        """The point of a body about which its reaction is told."""
+        """The point of a body about which its reaction is stated."""
         return Marker(self.first)
 
     def constraint_rows(self, index: ModelIndex) -> list[RowFields]:

@@ -1,4 +1,4 @@
-"""What any joint tells of itself: its role in the spanning tree, its constraint rows, its reaction, its drawing.
+"""The interface of a joint: its role in the spanning tree, its constraint rows, its reaction, its drawing.
 
 A joint is one frozen class in one file, of this or of any other package; nothing outside asks for its type.  What a joint does not
 override is what a joint without that ability answers.
@@ -144,7 +144,7 @@ class Joint:
 
     @property
     def reaction_marker(self) -> Marker:
-        """The point of a body about which its reaction is told."""
+        """The point of a body about which its reaction is stated."""
         raise NotImplementedError
 
     def reaction(self, group: list[Wrench], sizes: Floats, bodies: ObservedBodies) -> Reaction:
@@ -193,7 +193,7 @@ class PointJoint(Joint):
 
     @property
     def reaction_marker(self) -> Marker:
-        """The point of a body about which its reaction is told."""
+        """The point of a body about which its reaction is stated."""
         return self.first
 
     @property

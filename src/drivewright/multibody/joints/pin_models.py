@@ -1,4 +1,4 @@
-"""What the play of a pin is taken for: none, a massless link, a dry or a lubricated contact, a bushing."""
+"""Models of the play of a pin: none, a massless link, a dry or a lubricated contact, a bushing."""
 
 from dataclasses import dataclass
 from typing import ClassVar, TypeAlias

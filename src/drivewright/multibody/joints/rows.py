@@ -2,7 +2,7 @@
 
 A row sees the difference d = P_i - P_j of two points, the angles theta of four bodies i, j, k, l, and its own fields.  What a kind of
 row states is its residual r, the gradient of r by d and by the angles, and the velocity-product term: d2r/dt2 with the accelerations of
-all coordinates zero.  The joints of the package need three kinds, told apart by an integer in `row.kind`:
+all coordinates zero.  The joints of the package need three kinds, distinguished by an integer in `row.kind`:
 
 LINEAR    (R_k e).(P_i - P_j) + gi theta_i + gj theta_j + gk theta_k - lift(theta_l - theta_k) - constant = 0
 DISTANCE  |P_i - P_j| - constant = 0

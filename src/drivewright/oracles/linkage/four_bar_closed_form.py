@@ -212,7 +212,7 @@ def ideal_motion(bar: FourBar, crank: Floats) -> tuple[Complexes, Complexes, Com
     gap = np.abs(bar.lengths[0] - bar.lengths[1] * np.exp(1j * crank))
     if np.any(wrong := (gap > l3 + l4) | (gap < abs(l3 - l4))):
         raise DoesNotAssemble(
-            f"linkage: at crank angle {np.degrees(crank[wrong][0]):.1f} deg A and O4 are {gap[wrong][0]:.6g} m apart, but coupler and "
+            f"linkage: at crank angle {np.degrees(crank[wrong][0]):.1f}° A and O4 are {gap[wrong][0]:.6g} m apart, but coupler and "
             f"rocker span {abs(l3 - l4):.6g} to {l3 + l4:.6g} m. Change a length, or restrict the crank angle."
         )
     e, still = plain(positions)(tight, crank, np.zeros(4)), np.zeros(4)

@@ -22,7 +22,7 @@ item: Any = item_interface
 FACETS = 720  # per cam; rod error of the published design without push force: 180 give 0.09 mm, 360 0.026 mm, 720 and 1440 0.012 mm
 STEPS = 5000  # per turn
 STIFFNESS = 2e11  # contact force per area of overlap [N/m^2]; 2e9 gives 0.4 mm of rod error
-LEVER_INERTIA = 1e-7  # the mass is the rod's; the solver wants something here [kg m^2]
+LEVER_INERTIA = 1e-7  # the mass is the rod's; the solver needs a value above 0 here [kg m^2]
 
 
 def simulate(model: PusherModel, planet: Callable[[Any], Any]) -> MultibodyRun:
@@ -134,4 +134,4 @@ def _solve(system, period):
     try:
         system.SolveDynamic(settings)
     except Exception as error:  # Exudyn's own errors share no base class
-        raise SolverError(f"verify: Exudyn gave up on the cam pair ({error}); try another drive.speed or a smaller push_force") from None
+        raise SolverError(f"verify: Exudyn did not solve the cam pair ({error}); try another drive.speed or a smaller push_force") from None

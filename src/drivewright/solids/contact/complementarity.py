@@ -52,7 +52,8 @@ def solve_complementarity(
         found = _active_set(scaled, gaps, rows, force, one_sided, near)
     if found is None:
         raise SolverError(
-            f"contact: which of {int(one_sided.sum())} places press was not settled; try a finer mesh, a larger reach, or smaller steps."
+            f"contact: the set of places in contact, out of {int(one_sided.sum())}, did not converge; "
+            "try a finer mesh, a larger reach, or smaller steps."
         )
     x, motions, gap, pressing = found
     return Pressed(x / scale, motions / push, gap * scale, pressing)

@@ -63,8 +63,8 @@ def solve_friction(
     found = problem.newton(x, motions, first is None) or problem.newton(*problem.alternating(x), False)
     if found is None:
         raise SolverError(
-            f"contact: which of {len(grips.normal)} places stick or slip was not settled; the load may be as much as friction bears. Try "
-            "smaller load steps, a smaller load across the contact, or a finer mesh."
+            f"contact: the sets of sticking and slipping places, out of {len(grips.normal)}, did not converge; "
+            "the load may reach the limit of friction. Try smaller load steps, a smaller load across the contact, or a finer mesh."
         )
     return Pressed(found.x / scale, found.motions / push, found.gap * scale, found.pressing)
 

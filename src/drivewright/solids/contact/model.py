@@ -22,7 +22,7 @@ from drivewright.solids.contact.surfaces import Skin, skin_of
 from drivewright.solids.elastic import MM, FreeBody
 from drivewright.solids.engine import EngineObject
 
-LOOSE = 1e-3  # part in what supports and contacts feel below which a rigid motion is held by nothing
+LOOSE = 1e-3  # share in the forces of supports and contacts below which a rigid motion is free
 DRIVEN = 1e-3  # part of a load on such a motion that is refused
 ACROSS = 2.0  # elements across a contact, at least
 MEGA = 1e6

@@ -176,6 +176,6 @@ def _refuse_overlap(gap: Floats, points: Floats, size: Floats) -> None:
     if deep[worst] > 0:
         at = ", ".join(f"{x:.4g}" for x in points[worst])
         raise InputError(
-            f"contact: the bodies overlap by {-gap[worst]:.3g} mm at ({at}) mm before any load. Move them apart by that much, or say "
-            "press_fit=True where it is meant."
+            f"contact: the bodies overlap by {-gap[worst]:.3g} mm at ({at}) mm before any load. Move them apart by that much, or give "
+            "press_fit=True where an interference is intended."
         )

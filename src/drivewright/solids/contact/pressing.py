@@ -137,7 +137,9 @@ def _pressed(bodies: Mapping[str, SolidBody], contact_size: float, reach: float,
     near = [pair for pair in combinations(bodies, 2) if shapes[pair[0]].Distance(shapes[pair[1]]) <= reach / MM]
     if not near:
         gap = min(MM * one.Distance(other) for one, other in combinations(shapes.values(), 2))
-        raise InputError(f"contact: no two bodies come nearer than the reach of {1e3 * reach:.4g} mm; the least gap is {1e3 * gap:.4g} mm")
+        raise InputError(
+            f"contact: no two bodies come nearer than the reach of {1e3 * reach:.4g} mm; the smallest gap is {1e3 * gap:.4g} mm"
+        )
     pairs = [
         Pair((first, TOUCHING), (second, TOUCHING), reach, press_fit=press_fit, friction=friction, label=f"{first!r} at {second!r}")
         for first, second in near
@@ -169,7 +171,7 @@ def _named(name: str, body: SolidBody) -> EngineObject:
     with translated_errors(InputError, unreadable, "export it again as AP214 or AP242", PURPOSE):
         shape = occ.OCCGeometry(str(path)).shape
     if len(shape.solids) != 1:
-        raise InputError(f"contact: {path.name!r} holds {len(shape.solids)} solids; a body wants one. Fuse them, or give each its own file")
+        raise InputError(f"contact: {path.name!r} holds {len(shape.solids)} solids; a body takes one. Fuse them, or give each its own file")
     for face in shape.faces:
         face.name = "skin"
     for words, points in (

@@ -1,4 +1,4 @@
-"""What is said of all cases of a study that are too many to be held: ends, samples by combination of levels, and how many pass.
+"""Statistics over all cases of a study that are too many for memory: ends, samples by combination of levels, and how many pass.
 
 Everything is found by reading the study piece by piece; a piece is a `Study` of some of the rows.
 """

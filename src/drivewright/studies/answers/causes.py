@@ -18,7 +18,7 @@ CONTRIBUTIONS = (
     ("value", "", "value of the result"),
     ("key", "", "key that varies"),
     ("method", "", "how it is found"),
-    *(("share" + end, "-", "share of the variance that the key causes" + told) for end, told in BOUNDS),
+    *(("share" + end, "-", "share of the variance that the key causes" + suffix) for end, suffix in BOUNDS),
 )
 THEORY = (
     ("value", "", "value of the result"),
@@ -41,12 +41,12 @@ INDICES = (
     ("value", "", "value of the result"),
     ("key", "", "key that varies"),
     *(
-        (name + end, "-", meaning + told)
+        (name + end, "-", meaning + suffix)
         for name, meaning in (
             ("first_order", "share of the variance by the key alone"),
             ("total", "share of the variance in which the key takes part"),
         )
-        for end, told in BOUNDS
+        for end, suffix in BOUNDS
     ),
     ("rows", "-", "base cases"),
     ("dropped", "-", "base cases left out because one of their cases has no value"),

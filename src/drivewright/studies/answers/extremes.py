@@ -107,10 +107,10 @@ def _of_value(arranged, name, ends):
     inputs = plan.at(np.array([end.case for end in ends]))
     units = key_units(plan)
     columns = [_column(end, [inputs[key][place] for key in units], units.values(), system) for place, end in enumerate(ENDS)]
-    told = [f"{quantity(end.number, study.unit(name), system=system, label=study.label(name))} in case {end.case}" for end in ends]
+    texts = [f"{quantity(end.number, study.unit(name), system=system, label=study.label(name))} in case {end.case}" for end in ends]
     return Table(
         f"extremes.{name}",
-        f"{study.label(name)}: inputs of the least ({told[0]}) and of the greatest ({told[1]})",
+        f"{study.label(name)}: inputs of the least ({texts[0]}) and of the greatest ({texts[1]})",
         (
             Column("key", "", "key that varies", np.array(list(units))),
             Column("unit", "", "unit of the row's numbers", np.array(list(units.values()))),
@@ -211,14 +211,14 @@ def _computed(arranged, corners, rerun):
 def _bends(study, corners, computed):
     """One finding on all values of which linear theory is far off."""
     far = {
-        corner.name: f"{corner.name} ({corner.end} {told[0]}, not {told[1]})"
+        corner.name: f"{corner.name} ({corner.end} {texts[0]}, not {texts[1]})"
         for corner, number in zip(corners, computed, strict=True)
         if np.isfinite(number) and abs(number - corner.linear) > STRAIGHT * abs(corner.linear - corner.nominal)
-        for told in [[quantity(each, study.unit(corner.name), system=study.spec.units) for each in (number, corner.linear)]]
+        for texts in [[quantity(each, study.unit(corner.name), system=study.spec.units) for each in (number, corner.linear)]]
     }
     if far:
-        told = join_names(list(far.values()))
-        yield f"not linear in the keys between their ends, as the corners show that linear theory calls worst: {told}"
+        texts = join_names(list(far.values()))
+        yield f"not linear in the keys between their ends, as the corners show that linear theory calls worst: {texts}"
 
 
 def worst_inputs(arranged: Arranged, rerun: Rerun | None = None) -> Part:
@@ -229,5 +229,5 @@ def worst_inputs(arranged: Arranged, rerun: Rerun | None = None) -> Part:
 def inputs_text(study: Study, case: int, most: int = 8) -> str:
     """The inputs of a case in one line, "size 8 mm, ratio 0.2"."""
     inputs, units = study.plan.at(np.array([case])), key_units(study.plan)
-    told = [f"{key} {input_text(inputs[key][0], unit, study.spec.units)}" for key, unit in list(units.items())[:most]]
-    return ", ".join(told) + (f" and {len(units) - most} more" if len(units) > most else "")
+    texts = [f"{key} {input_text(inputs[key][0], unit, study.spec.units)}" for key, unit in list(units.items())[:most]]
+    return ", ".join(texts) + (f" and {len(units) - most} more" if len(units) > most else "")

@@ -28,9 +28,9 @@ RANGE = (
 
 
 RANGE_ENDS = tuple(
-    (f"{end}{side}", "", f"{end} over the grid, {told}")
+    (f"{end}{side}", "", f"{end} over the grid, {bound}")
     for end in ("least", "greatest")
-    for side, told in ((LOW, "at least"), (HIGH, "at most"))
+    for side, bound in ((LOW, "at least"), (HIGH, "at most"))
 )
 
 

@@ -1,4 +1,4 @@
-"""What the answers of a study are made of: its table arranged by combination of levels, and parts that are put together."""
+"""Parts of the evaluation of a study: its table arranged by combination of levels, and parts that are put together."""
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field

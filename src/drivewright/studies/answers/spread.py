@@ -1,4 +1,4 @@
-"""How far the values of a random sample spread, how many cases pass, and how bad it gets at the corners."""
+"""How far the values of a random sample spread, how many cases pass, and the worst values at the corners."""
 
 from collections.abc import Iterator
 
@@ -13,11 +13,19 @@ from drivewright.studies.statistics import PERCENTS, Sampled, capability, finite
 
 ALL = "all checks"
 VALUE = (("value", "", "value of the result"), ("unit", "", "unit of the row's numbers"))
-SHORT = (1.0, 50.0, 99.0)  # percentiles that are told at a glance
+SHORT = (1.0, 50.0, 99.0)  # percentiles of the overview
 TOLERANCE = (
     *VALUE,
-    *((name + end, "", meaning + told) for name, meaning in (("mean", "mean"), ("sigma", "standard deviation")) for end, told in BOUNDS),
-    *((f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + told) for percent in SHORT for end, told in BOUNDS),
+    *(
+        (name + end, "", meaning + suffix)
+        for name, meaning in (("mean", "mean"), ("sigma", "standard deviation"))
+        for end, suffix in BOUNDS
+    ),
+    *(
+        (f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + suffix)
+        for percent in SHORT
+        for end, suffix in BOUNDS
+    ),
     ("least", "", "least of the sample"),
     ("greatest", "", "greatest of the sample"),
     ("absent", "-", "cases that do not have the value"),
@@ -25,16 +33,24 @@ TOLERANCE = (
 CONFIDENCE = (
     *VALUE,
     ("cases", "-", "cases that have the value"),
-    *((name + end, "", meaning + told) for name, meaning in (("mean", "mean"), ("sigma", "standard deviation")) for end, told in BOUNDS),
-    *(("skewness" + end, "-", "skewness" + told) for end, told in BOUNDS),
-    *((f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + told) for percent in PERCENTS for end, told in BOUNDS),
+    *(
+        (name + end, "", meaning + suffix)
+        for name, meaning in (("mean", "mean"), ("sigma", "standard deviation"))
+        for end, suffix in BOUNDS
+    ),
+    *(("skewness" + end, "-", "skewness" + suffix) for end, suffix in BOUNDS),
+    *(
+        (f"percentile.{percent:g}{end}", "", f"{percent:g} % of all cases are below" + suffix)
+        for percent in PERCENTS
+        for end, suffix in BOUNDS
+    ),
 )
 YIELD = (
     ("check", "", "design check"),
     ("passes", "-", "cases that pass"),
     ("cases", "-", "cases that have the check, or failed"),
-    *(("yield" + end, "-", "share of the cases that pass" + told) for end, told in BOUNDS),
-    *(("capability" + end, "-", "capability index Cpk: mean margin over three standard deviations" + told) for end, told in BOUNDS),
+    *(("yield" + end, "-", "share of the cases that pass" + suffix) for end, suffix in BOUNDS),
+    *(("capability" + end, "-", "capability index Cpk: mean margin over three standard deviations" + suffix) for end, suffix in BOUNDS),
     ("undecided", "-", "cases whose limit lies within the interval of their value"),
 )
 WORST = (

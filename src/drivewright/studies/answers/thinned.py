@@ -90,7 +90,7 @@ def _renumbered(blocks: Sequence[tuple[str, Ints]]) -> tuple[Block, ...]:
 
 
 def _remark(plan: Plan, held: int) -> str:
-    """What is said of which cases."""
+    """The cases that an answer covers."""
     how = [*(["fewer levels of each key"] if plan.grid else []), *(["the first points of each sample"] if plan.random else [])]
     return (
         f"the study has {len(plan)} cases: ends, means, percentiles and shares of cases that pass are those of all of them; plots, "

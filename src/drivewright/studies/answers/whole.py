@@ -1,4 +1,4 @@
-"""What a study says: a `Result` with values, tables and findings, and how to look at it.  What can be said depends on the plan."""
+"""Evaluation of a study: a `Result` with values, tables and findings, and its plots.  Which of them exist depends on the plan."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -47,8 +47,8 @@ def analyse_study(study: Study, values: Sequence[str] = (), rerun: Rerun | None 
     arranged = Arranged(held, shown, few.numbers, AllCases(study, few.combinations.tolist())) if few else Arranged(held, shown)
     named = values or (study.spec.study.values if study.spec.study else ())
     front = fronts(held, named, study if few else None)
-    said = Part(findings=(*([few.remark] if few else ()), *remarks))
-    parts = [_cases(study), said, *_parts(arranged, rerun), front]
+    notices = Part(findings=(*([few.remark] if few else ()), *remarks))
+    parts = [_cases(study), notices, *_parts(arranged, rerun), front]
     parts_joined = together(parts)
     return Answers(_result(study, parts_joined), parts_joined.plots)
 
@@ -94,7 +94,7 @@ def _assumptions(arranged):
     elif len(arranged.sample) and method != "random":
         yield (
             f"the intervals of {LEVEL:.0%} are those of independent cases; the even points of this sample ({method}) make means, "
-            "as a rule, more certain than told"
+            "as a rule, more certain than these intervals state"
         )
 
 

@@ -17,13 +17,13 @@ WITHIN = (
     ("unit", "", "unit of the row's numbers"),
     ("sigma", "", "standard deviation over the cases, all together"),
     *(
-        (name + end, unit, meaning + told)
+        (name + end, unit, meaning + suffix)
         for name, unit, meaning in (
             ("sigma.within", "", "standard deviation within a case"),
             ("sigma.keys", "", "standard deviation by the keys that vary"),
             ("share.within", "-", "share of the variance that is within a case"),
         )
-        for end, told in BOUNDS
+        for end, suffix in BOUNDS
     ),
 )
 
@@ -95,8 +95,8 @@ def _findings(rows):
     for _, name, _, variances in rows:
         if variances.keys.value == 0:
             yield (
-                f"{name}: the cases differ no more than one case by itself, so nothing can be said of what its keys cause; more windows "
-                "or members narrow the intervals of the cases"
+                f"{name}: the cases differ no more than one case by itself, so the contributions of the keys cannot be determined; "
+                "more windows or members narrow the intervals of the cases"
             )
         elif variances.share.value > 0.01:
             yield (

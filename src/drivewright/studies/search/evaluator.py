@@ -69,8 +69,8 @@ class Evaluator:
         have = [number for number in range(first, first + len(designs)) if number in self._found]
         if any(bytes(self._found[number][0]) != bytes(designs[number - first]) for number in have):
             raise InputError(
-                f"the search asks for other designs than those that were kept, from evaluation {first} on: another version of "
-                "NumPy, SciPy or pymoo, or another machine. Go on there, or give another --out"
+                f"the search computes other designs than those in the folder, from evaluation {first} on: another version of "
+                "NumPy, SciPy or pymoo, or another machine. Continue on the original one, or give another --out"
             )
         done, ahead = first + len(have), (self.generations - generation) * population_of(self.problem.search)
         if len(have) < len(designs):

@@ -43,7 +43,7 @@ def rows(
         (CASE, np.arange(first, first + count), OutputInfo("-", "number of the evaluation")),
         (STATUS, pa.array(statuses, pa.string()), OutputInfo("", "complete, partial or failed", label="Status")),
         (MESSAGE, pa.array(messages, pa.string()), OutputInfo("", "why it is not complete", label="Message")),
-        (GENERATION, np.full(count, generation), OutputInfo("-", "generation that asked for it first", label="Generation")),
+        (GENERATION, np.full(count, generation), OutputInfo("-", "first generation with this design", label="Generation")),
     ]
     for key, kind, x in zip(problem.keys, problem.kinds, designs.T, strict=True):
         columns.append((key, x.astype(np.int64) if kind.name == "integer" else x, key_info(key, kind.unit, "unknown")))

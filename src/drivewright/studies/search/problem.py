@@ -1,4 +1,4 @@
-"""The [optimise] table in numbers: what may change, what is wanted, what is required.
+"""The [optimise] table in numbers: unknowns, objectives and requirements.
 
 A value of the result goes by its name, the margin of a design check by `check.NAME`: it is at least 0 exactly when the check passes.
 A value with an interval meets a requirement only where the whole interval does: a search tries many designs and would otherwise choose
@@ -169,7 +169,7 @@ def _kind(spec, unknowns, number):
     """The `KeyKind` of an unknown."""
     key, place = unknowns[number].key, f"optimise.unknowns.{number}.key"
     if key in (each.key for each in unknowns[:number]):
-        raise SpecError(f"{key} is there twice; give one range for it", place)
+        raise SpecError(f"{key} occurs twice; give one range for it", place)
     kind = key_kind(spec, key, place)
     if not kind.numeric:
         raise SpecError(f"{key} takes {READABLE[kind.name]} and has no range; an unknown is a quantity, a number or a whole number", place)

@@ -32,7 +32,7 @@ def method_of(search: Optimise) -> str:
 
 
 def population_of(search: Optimise) -> int:
-    """Designs per generation that are asked for."""
+    """Designs per generation."""
     return search.population or max(16, 8 * len(search.unknowns))
 
 
@@ -43,7 +43,7 @@ def _members(search: Optimise) -> int:
 
 
 def most_evaluations(search: Optimise) -> int:
-    """How many designs a search asks for, if it goes through all of its generations."""
+    """How many designs a search evaluates, if it goes through all of its generations."""
     if method_of(search) == "nsga2":
         return population_of(search) * search.generations
     return _members(search) * (search.generations + 1)  # the first population is none of the generations

@@ -1,4 +1,4 @@
-"""The [optimise] of a design: a search for its best, told while it goes on."""
+"""The [optimise] of a design: a search for its best, reported while it runs."""
 
 from collections.abc import Sequence
 from copy import deepcopy
@@ -46,7 +46,7 @@ def _freed(design, locks):
     search = tables.get("optimise")
     if not isinstance(search, dict):
         raise SpecError(
-            "this design does not say what may change and what is wanted; write it into the text of the design, for example:\n"
+            "Choose the parameters to vary and an objective; write them into the text of the design, for example:\n"
             '[[optimise.unknowns]]\nkey = "KEY"\nlower = "FROM"\nupper = "TO"\n\n[[optimise.objectives]]\nvalue = "VALUE"\n'
             'goal = "minimise"',
             "optimise",

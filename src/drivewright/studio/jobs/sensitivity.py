@@ -73,7 +73,7 @@ def sensitivity(
 
 
 def _requested_targets(spec, progress, names):
-    """(what `_targets` says of the numbers to follow, the analyses that give them)."""
+    """(the numbers to follow as `_targets` gives them, the analyses that give them)."""
     mechanism, model = registry.mechanism(spec.mechanism), runner.build(spec)
     result = runner.run(spec, model=model, progress=progress)
     began = time.perf_counter()  # of a second run: the first one compiles

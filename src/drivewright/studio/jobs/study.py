@@ -1,4 +1,4 @@
-"""The [study] of a design: its cases as rows of a table, and what they say."""
+"""The [study] of a design: its cases as rows of a table, and their evaluation."""
 
 import time
 from collections.abc import Callable, Sequence

@@ -40,8 +40,9 @@ export function createDesigns({store, t}, {fresh, example, close}) {
   return () => (store.state.kinds || []).map(group);
 }
 
-/** The drawings of a kind: [{name, title}], [] where it has none. */
-export const drawingsOf = ({state}) => (state.kinds || []).find(({kind}) => kind === state.design?.kind)?.drawings || [];
+/** The drawings that show the variant of the design: [{name, title}], [] where its kind has none. */
+export const drawingsOf = ({state: {kinds = [], design}}) =>
+  (kinds.find(({kind}) => kind === design?.kind)?.drawings || []).filter(({name}) => design.drawings?.includes(name) ?? true);
 
 /** What the menu of drawings holds. */
 export const drawings = store => drawingsOf(store).map(({name, title}) =>
