@@ -199,9 +199,9 @@ def _with_unit(text: str, shown: str) -> str:
 
 def result(run: "Result[Any]", everything: bool = False) -> None:
     """Verdict, key numbers, the checks that fail with what to do, warnings and findings of a run, on one screen; `everything` for all."""
-    from drivewright.report.content import MOST_HEADLINES, verdict_of
+    from drivewright.report.content import key_names, verdict_of
 
-    names = list(run.values) if everything else registry.key_values(registry.mechanism(run.mechanism), run.values, MOST_HEADLINES)
+    names = list(run.values) if everything else key_names(run)
     columns = 4 if everything else 3  # with the names by which result.json has them
     rows = [(label_text(run.values[name]), value_text(run, name), _made(run, name), name)[:columns] for name in names]
     header: Header = [("quantity", "left"), ("value", "right"), ("", "left"), ("name", "left")]
