@@ -352,7 +352,7 @@ def refreshed(command: Command, printed: list[str]) -> tuple[list[str], list[str
         return _chosen([line for line in printed if line.strip()], command.shown[0].removeprefix(UNKNOWN).strip()), []
     lines, complaints, at = [], [], 0
     for line in command.shown:
-        found = next((n for n in range(at, len(printed)) if skeleton(printed[n]) == skeleton(line)), None) if line.strip() else None
+        found = next((n for n in range(at, len(printed)) if _says_again(printed[n], line)), None) if line.strip() else None
         if found is None:
             lines.append(line)
             if line.strip() and line.strip() != ANY_LINES and not CHANGING.search(line):
@@ -361,6 +361,12 @@ def refreshed(command: Command, printed: list[str]) -> tuple[list[str], list[str
             lines.append(printed[found])
             at = found + 1
     return lines, complaints
+
+
+def _says_again(printed: str, shown: str) -> bool:
+    """Whether a printed line is that of the page, or goes on in a further column where that ends."""
+    now, before = skeleton(printed), skeleton(shown)
+    return now == before or (now.startswith(f"{before} ") and "  " in printed.strip() and "  " in shown.strip())
 
 
 def _chosen(printed: list[str], pattern: str) -> list[str]:

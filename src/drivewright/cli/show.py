@@ -199,11 +199,13 @@ def _with_unit(text: str, shown: str) -> str:
 
 def result(run: "Result[Any]", everything: bool = False) -> None:
     """Verdict, key numbers, the checks that fail with what to do, warnings and findings of a run, on one screen; `everything` for all."""
-    from drivewright.report.content import MOST_HEADLINES, verdict_of
+    from drivewright.report.content import key_names, verdict_of
 
-    names = list(run.values) if everything else registry.key_values(registry.mechanism(run.mechanism), run.values, MOST_HEADLINES)
-    rows = [(label_text(run.values[name]), value_text(run, name), _made(run, name), name)[: 4 if everything else 3] for name in names]
-    table(run.title, (("quantity", "left"), ("value", "right"), ("", "left"), ("name", "left"))[: len(rows[0]) if rows else 3], rows)
+    names = list(run.values) if everything else key_names(run)
+    columns = 4 if everything else 3  # with the names by which result.json has them
+    rows = [(label_text(run.values[name]), value_text(run, name), _made(run, name), name)[:columns] for name in names]
+    header: Header = [("quantity", "left"), ("value", "right"), ("", "left"), ("name", "left")]
+    table(run.title, header[:columns], rows)
     shown = [c._replace(value=0.0) if run.is_noise(c) else c for c in run.checks if everything or not c.ok or c.undecided]
     checks(shown, run.units)
     advice(run)

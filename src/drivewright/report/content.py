@@ -261,19 +261,19 @@ def verdict(passed: Sequence[bool], outcome: str, undecided: int = 0, warnings: 
 
 
 def headline(result: Result[Any], names: Sequence[str] | None = None) -> list[Content]:
-    """The values of those names; unless given the first of the mechanism's headline values, or of all; those that the run has.
-
-    What a pattern such as "*.max_acceleration" finds is left out where it is zero: a slider does not turn."""
-    if names is None:
-        known = registry.is_known(result.mechanism)
-        mechanism = registry.mechanism(result.mechanism) if known else None
-        names = registry.key_values(mechanism, _telling(result, mechanism), MOST_HEADLINES) if mechanism else _first(result)
-    return [_value(result, name) for name in names]
+    """The values of those names, of the `key_names` unless given."""
+    return [_value(result, name) for name in (key_names(result) if names is None else names)]
 
 
-def _first(result: Result[Any]) -> list[str]:
-    """The first names of the values of a kind of drive that is not known here."""
-    return list(result.values)[:MOST_HEADLINES]
+def key_names(result: Result[Any]) -> list[str]:
+    """The names of the key numbers: the first of the mechanism's headline values, or of all, where the kind of drive is not known here.
+
+    What a pattern such as "*.max_acceleration" finds is left out where it is zero: a slider does not turn.
+    """
+    if not registry.is_known(result.mechanism):
+        return list(result.values)[:MOST_HEADLINES]
+    mechanism = registry.mechanism(result.mechanism)
+    return registry.key_values(mechanism, _telling(result, mechanism), MOST_HEADLINES)
 
 
 def _telling(result: Result[Any], mechanism: registry.Mechanism[Any, Any]) -> dict[str, Value]:

@@ -6,6 +6,7 @@ from itertools import pairwise
 import numpy as np
 
 from drivewright.dimensions import Dimension, DimensionSheet, Length, Radius, circles_of, corners_of, origin_of
+from drivewright.indexing.drivetrain import SplitShaft
 from drivewright.mechanisms.indexer.build import IndexerModel, split_shaft
 from drivewright.mechanisms.indexer.scene import input_gear, parts
 from drivewright.scene import Bar, Body, Frame, Grooved, Outline, Point, Prism, Scene, Shape, circle, polygon, rectangle
@@ -50,22 +51,30 @@ def _single(name: str, shapes: tuple[Shape, ...]) -> Scene:
 
 def _gear(model: IndexerModel, scene: Scene) -> Iterator[Dimension]:
     """The pitch circle is as many modules across as there are teeth."""
+    gear = model.spec.gear
+    assert gear is not None, "the sheet is that of designs with a gear"
     ((centre, radius),) = set(circles_of(scene, "gear", "pitch"))
     left, right = ((centre[0] + side * radius, centre[1]) for side in (-1, 1))
-    yield Length("gear.module", left, right, -0.56, times=model.spec.gear.teeth)
+    yield Length("gear.module", left, right, -0.56, times=gear.teeth)
     yield Radius("shafts.diameters.0", *circles_of(scene, "gear", "hole")[0], np.radians(60), diameter=True)
 
 
 def _shaft_alone(model: IndexerModel) -> Scene:
     """A split shaft by its stretches, from the gear on the left to the rear support."""
-    split = split_shaft(model.spec.shafts, model.spec.cams)
+    split = _shaft(model)
     turned = Shaft(split.sections, split.modulus, split.poisson, density=0.0, supports=())
     return _single("shaft", tuple(turned_drawing(turned).shapes))
 
 
+def _shaft(model: IndexerModel) -> SplitShaft:
+    """The stepped shaft of a design that has one."""
+    assert model.spec.shafts is not None, "the sheet is that of designs with a split shaft"
+    return split_shaft(model.spec.shafts, model.spec.cams)
+
+
 def _split_shaft(model: IndexerModel, scene: Scene) -> Iterator[Dimension]:
     """Lengths from the gear over front support and cams to the rear support, and the diameters over them."""
-    split = split_shaft(model.spec.shafts, model.spec.cams)
+    split = _shaft(model)
     corners = corners_of(scene, "shaft", "profile")
     top = max(y for _, y in corners)
     places = (split.gear, split.supports[0], split.cams[0], split.cams[1], split.supports[1])
