@@ -14,13 +14,16 @@ from drivewright.dimensions import (
     body_of,
     circles_of,
     corners_of,
+    cut_prism,
     direction,
     origin_of,
+    still_body,
+    still_scene,
     turn,
 )
 from drivewright.mechanisms.cam.build import CamModel
 from drivewright.mechanisms.cam.scene import parts
-from drivewright.scene import Body, Frame, Point, Prism, Scene, Shape, place, rectangle
+from drivewright.scene import Point, Prism, Scene, place
 
 AXIS: Point = (0.0, 0.0)
 
@@ -131,17 +134,7 @@ def _across(model: CamModel) -> Scene:
     """The cam cut along its axis, which runs to the right, from its solids."""
     (cam,) = (part for part in parts(model) if part.name == "cam")
     prisms = [solid for solid in cam.solids if isinstance(solid, Prism)]
-    halves = [shape for prism in prisms for shape in _section(prism)]
-    still = np.zeros((2, 3))
-    return Scene(np.array([0.0, 1.0]), "", "-", 1.0, (Body("cam", "cam", tuple(halves), still, "blue"),), (Frame("machine", "", still),))
-
-
-def _section(prism: Prism) -> Iterator[Shape]:
-    """Upper and lower half of a disc with a hole, cut along its axis."""
-    points, hole = prism.outline.points(), prism.holes[0].points()
-    top, bottom, inner = points[:, 1].max(), points[:, 1].min(), hole[:, 1].max()
-    for low, high in ((inner, top), (bottom, -inner)):
-        yield Shape("profile", rectangle((prism.z + prism.thickness / 2, (low + high) / 2), prism.thickness, high - low))
+    return still_scene(still_body("cam", [shape for prism in prisms for shape in cut_prism(prism)]))
 
 
 def _widths(model: CamModel, scene: Scene) -> Iterator[Dimension]:
