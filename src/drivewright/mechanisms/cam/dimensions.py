@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,8 +23,8 @@ from drivewright.dimensions import (
     turn,
 )
 from drivewright.mechanisms.cam.build import CamModel
-from drivewright.mechanisms.cam.scene import parts
-from drivewright.scene import Point, Prism, Scene, place
+from drivewright.mechanisms.cam.scene import parts, scene
+from drivewright.scene import Body, Point, Prism, Scene, Shape, place, polygon
 
 AXIS: Point = (0.0, 0.0)
 
@@ -185,7 +186,28 @@ def _flat(model: CamModel, scene: Scene) -> Iterator[Dimension]:
     low = min(corners, key=lambda corner: (round(corner[1], 9), -corner[0]))
     yield Radius("follower.base_radius", AXIS, radius, np.radians(200))
     yield Length("programme.0.rise", low, _highest(scene, low), -0.12)
+    yield Length("follower.half_face", *corners_of(scene, "face", "edge"), 0.16)
     yield _bore(scene)
+
+
+def _with_face(model: CamModel) -> Scene:
+    """The scene with half the flat face as long as it is given, from the line of the slide on, where a face without tilt touches."""
+    whole, half = scene(model), model.spec.follower.half_face
+    _, radius = circles_of(whole, "cam", "base")[0]
+    assert half is not None
+    return replace(
+        whole,
+        bodies=(
+            *whole.bodies,
+            Body(
+                "face",
+                "face",
+                (Shape("edge", polygon([(0.0, radius), (half, radius)], closed=False)),),
+                np.zeros_like(whole.bodies[0].poses),
+                "orange",
+            ),
+        ),
+    )
 
 
 def _valve(model: CamModel, scene: Scene) -> Iterator[Dimension]:
@@ -232,12 +254,19 @@ FACE = ("closure", "follower.motion", "follower.face")
 SHEETS = (
     DimensionSheet("cam", "Disc cam, roller on a slide", "default", _slide, changes=("follower.offset=12 mm",), variant=FACE),
     DimensionSheet("cam-oscillating", "Disc cam, roller on a lever", "oscillating", _lever_alone, variant=(*FACE, "valve")),
-    DimensionSheet("cam-flat", "Disc cam, flat face on a slide", "flat", _flat, variant=FACE),
+    DimensionSheet("cam-flat", "Disc cam, flat face on a slide", "flat", _flat, scene=_with_face, variant=FACE),
     DimensionSheet("cam-conjugate", "Conjugate cams, lever with two rollers", "conjugate", _conjugate, changes=SECOND, variant=FACE),
     DimensionSheet(
         "cam-conjugate-slide", "Conjugate cams, slide with two rollers", "conjugate", _second_slide, changes=SECOND_SLIDE, variant=FACE
     ),
-    DimensionSheet("cam-groove", "Groove cam, roller on a slide", "groove", _groove, changes=("limits.wall=8 mm",), variant=FACE),
+    DimensionSheet(
+        "cam-groove",
+        "Groove cam, roller on a slide",
+        "groove",
+        _groove,
+        changes=("limits.wall=8 mm",),
+        variant=FACE,
+    ),
     DimensionSheet("cam-yoke", "Cam of constant breadth in a yoke", "yoke", _yoke, variant=FACE),
     DimensionSheet("cam-shoe", "Disc cam, curved shoe on a slide", "default", _shoe, changes=SHOE, variant=FACE),
     DimensionSheet("cam-tilted", "Disc cam, tilted flat face", "flat", _tilted, changes=("follower.face_angle=12 deg",), variant=FACE),
