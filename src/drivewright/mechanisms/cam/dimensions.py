@@ -259,14 +259,7 @@ SHEETS = (
     DimensionSheet(
         "cam-conjugate-slide", "Conjugate cams, slide with two rollers", "conjugate", _second_slide, changes=SECOND_SLIDE, variant=FACE
     ),
-    DimensionSheet(
-        "cam-groove",
-        "Groove cam, roller on a slide",
-        "groove",
-        _groove,
-        changes=("limits.wall=8 mm",),
-        variant=FACE,
-    ),
+    DimensionSheet("cam-groove", "Groove cam, roller on a slide", "groove", _groove, changes=("limits.wall=8 mm",), variant=FACE),
     DimensionSheet("cam-yoke", "Cam of constant breadth in a yoke", "yoke", _yoke, variant=FACE),
     DimensionSheet("cam-shoe", "Disc cam, curved shoe on a slide", "default", _shoe, changes=SHOE, variant=FACE),
     DimensionSheet("cam-tilted", "Disc cam, tilted flat face", "flat", _tilted, changes=("follower.face_angle=12 deg",), variant=FACE),

@@ -18,8 +18,8 @@ from drivewright.dimensions import (
     still_scene,
 )
 from drivewright.mechanisms.linkage.build import LinkageModel
-from drivewright.mechanisms.linkage.plates import pin_radius
 from drivewright.mechanisms.linkage.describe import marker
+from drivewright.mechanisms.linkage.plates import pin_radius
 from drivewright.multibody.analyses.cycle_poses import start_poses
 from drivewright.scene import Point, Scene, Shape, circle, place, polygon, rectangle
 
@@ -75,8 +75,8 @@ def pin_dimensions(model: LinkageModel, scene: Scene) -> Iterator[Dimension]:
 
 
 WHEEL = (
-    'ground={points={T=["0 mm", "0 mm"]}}',
-    'bodies={wheel={mass="1 kg", inertia="1e-3 kg m^2", points={M=["0 mm", "80 mm"]}}}',
+    'ground={points={T=["0 mm", "-80 mm"]}}',
+    'bodies={wheel={mass="1 kg", inertia="1e-3 kg m^2", points={M=["0 mm", "0 mm"]}}}',
     'joints=[{name="roll", kind="rolling", connects=["wheel.M", "ground.T"], radius="30 mm", track_radius="50 mm"}]',
     'simulate={duration="0.1 s"}',
     "drive=",
