@@ -186,7 +186,8 @@ def _flat(model: CamModel, scene: Scene) -> Iterator[Dimension]:
     low = min(corners, key=lambda corner: (round(corner[1], 9), -corner[0]))
     yield Radius("follower.base_radius", AXIS, radius, np.radians(200))
     yield Length("programme.0.rise", low, _highest(scene, low), -0.12)
-    yield Length("follower.half_face", *corners_of(scene, "face", "edge"), 0.16)
+    start, end = corners_of(scene, "face", "edge")
+    yield Length("follower.half_face", start, end, 0.16)
     yield _bore(scene)
 
 

@@ -57,7 +57,7 @@ def pin_with_play(model: LinkageModel) -> Scene:
     return still_scene(
         still_body("bearing", [Shape("body", circle((0.0, 0.0), bearing))], "green"),
         still_body("journal", [Shape("roller", circle((0.0, 0.0), journal))], "orange", (float(way[0]), float(way[1]), 0.0)),
-        still_body("link", [Shape("axis", polygon([(0.0, 0.0), way], closed=False))], "ground"),
+        still_body("link", [Shape("axis", polygon([np.zeros(2), way], closed=False))], "ground"),
         still_body("side", [Shape("body", rectangle(middle, joint.length, 2 * bearing))], "green"),
     )
 

@@ -53,7 +53,7 @@ def field_dimensions(model: PusherModel, scene: Scene) -> Iterator[Dimension]:
     low = track[np.argmin(track[:, 1])]
     yield Length("field.spacing", (float(first[1][0]), float(first[1][1])), (float(second[1][0]), float(second[1][1])), 0.06)
     yield Length("field.seedling_height", (float(first[1][0]), soil), (float(first[1][0]), float(first[1][1])), 0.1)
-    yield Length("field.mouth_height", (float(low[0]), model.arm.point(model.arm.lowest).d0.imag), (float(low[0]), soil), -0.24)
+    yield Length("field.mouth_height", (float(low[0]), float(model.arm.point(model.arm.lowest).d0.imag)), (float(low[0]), soil), -0.24)
     (x0, y0), (x1, y1) = corners_of(scene, "gate", "edge")
     x, y = 0.5 * (x0 + x1), 0.5 * (y0 + y1)
     sun = origin_of(scene, "sun")

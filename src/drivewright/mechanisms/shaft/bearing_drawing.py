@@ -21,7 +21,7 @@ from drivewright.dimensions import (
 )
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.scene import drawings
-from drivewright.scene import Body, Point, Scene, Shape, circle, place, polygon, rectangle
+from drivewright.scene import Body, Point, Scene, Shape, circle, polygon, rectangle
 from drivewright.shafts.drawing import radius_at
 
 CONTACT = 0.9  # half the length of a line of contact as drawn, over the diameter of a ball
@@ -65,7 +65,8 @@ def cut_dimensions(model: ShaftModel, scene: Scene) -> Iterator[Dimension]:
     yield Length("bearings.B.roller_geometry.roller_diameter", above[1], above[2], -0.06)
     axis = direction(above[0], above[1])
     yield Angle("bearings.B.roller_geometry.contact_angle", _middle(below), np.pi / 2, turn(0.0, -axis), 0.2)
-    yield Length("bearings.B.width", *corners_of(scene, "reaction B", "edge"), -0.2)
+    start, end = corners_of(scene, "reaction B", "edge")
+    yield Length("bearings.B.width", start, end, -0.2)
     yield from _boundary(scene)
 
 
@@ -112,21 +113,13 @@ def along_axis(model: ShaftModel) -> Scene:
     turns = bearing.first_element + 2 * np.pi * np.arange(bearing.balls) / bearing.balls
     balls = [circle((r * np.cos(a), r * np.sin(a)), bearing.ball_diameter / 2) for a in turns for r in (bearing.pitch_diameter / 2,)]
     x, y = given.seat_offset
-    cross = [
-        polygon(place([(-reach, 0.0), (reach, 0.0)], (0.0, 0.0, angle)), closed=False)
-        for angle in (0.0, np.pi / 2)
-        for reach in _reach(bearing)
-    ]
+    reach = 0.5 * bearing.pitch_diameter
+    cross = [polygon(ends, closed=False) for ends in ([(-reach, 0.0), (reach, 0.0)], [(0.0, -reach), (0.0, reach)])]
     return still_scene(
         still_body("balls", [Shape("roller", ball) for ball in balls], "green", (x, y, 0.0)),
         still_body("pitch", [Shape("base", circle((0.0, 0.0), bearing.pitch_diameter / 2))], "ground", (x, y, 0.0)),
         still_body("axis", [Shape("axis", line) for line in cross], "ground"),
     )
-
-
-def _reach(bearing: BallBearing) -> tuple[float]:
-    """Half the length of the lines through the common axis [m]."""
-    return (0.5 * bearing.pitch_diameter,)
 
 
 def along_axis_dimensions(model: ShaftModel, scene: Scene) -> Iterator[Dimension]:
