@@ -41,15 +41,13 @@ def _page(kind: str, docs: Path) -> Iterator[str]:
 
 
 def _drawings(kind: str, docs: Path) -> Iterator[str]:
-    """The dimension drawings of a kind, where there are any: what its main keys measure; those of further presets are folded."""
-    first, *others = [*(docs / "img" / "dimensions").glob(f"{kind}.svg"), *sorted((docs / "img" / "dimensions").glob(f"{kind}-*.svg"))] or [
-        None
-    ]
-    if first:
-        yield from (f"![What the main keys measure](../img/dimensions/{first.name})", "")
-    for drawing in others:
-        variant = drawing.stem.removeprefix(f"{kind}-").replace("-", " ")
-        yield from (f'??? note "What the keys measure, {variant}"', "", f"    ![{variant}](../img/dimensions/{drawing.name})", "")
+    """The dimension drawings of a kind that were copied, under their titles: what its keys measure; all but the first are folded."""
+    sheets = [sheet for sheet in registry.mechanism(kind).dimensions if (docs / "img" / "dimensions" / f"{sheet.name}.svg").is_file()]
+    for sheet in sheets[:1]:
+        yield from (f"![What the main keys measure: {sheet.title}](../img/dimensions/{sheet.name}.svg)", "")
+    for sheet in sheets[1:]:
+        image = f"![{sheet.title}](../img/dimensions/{sheet.name}.svg)"
+        yield from (f'??? note "What the keys measure. {sheet.title}"', "", f"    {image}", "")
 
 
 def _shared_page() -> Iterator[str]:

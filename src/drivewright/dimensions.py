@@ -11,7 +11,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from drivewright.scene import Arc, Body, Point, Pose, Scene, place
+from drivewright.scene import Arc, Body, Frame, Point, Pose, Prism, Scene, Shape, place, rectangle
 
 
 class Length(NamedTuple):
@@ -87,6 +87,27 @@ class DimensionSheet(NamedTuple):
 def shown(sheet: DimensionSheet, scene: Scene) -> Scene:
     """What a sheet shows of a scene: no traces, nothing that is left out."""
     return replace(scene, bodies=tuple(body for body in scene.bodies if not body.name.startswith(sheet.left_out or ("\0",))), traces=())
+
+
+# -- scenes made for a drawing ---------------------------------------------------------------------------------------------------
+
+
+def still_body(name: str, shapes: Iterable[Shape], colour: str = "blue", pose: Pose = (0.0, 0.0, 0.0)) -> Body:
+    """A body that stands still at a pose."""
+    return Body(name, name, tuple(shapes), np.array([pose, pose], float), colour)
+
+
+def still_scene(*bodies: Body) -> Scene:
+    """A scene of bodies that stand still."""
+    return Scene(np.array([0.0, 1.0]), "", "-", 1.0, bodies, (Frame("machine", "machine frame", np.zeros((2, 3))),))
+
+
+def cut_prism(prism: Prism) -> Iterator[Shape]:
+    """Upper and lower half of a disc with a hole, cut along its axis, which runs to the right."""
+    points, hole = prism.outline.points(), prism.holes[0].points()
+    top, bottom, inner = points[:, 1].max(), points[:, 1].min(), hole[:, 1].max()
+    for low, high in ((inner, top), (bottom, -inner)):
+        yield Shape("profile", rectangle((prism.z + prism.thickness / 2, (low + high) / 2), prism.thickness, high - low))
 
 
 # -- points of a scene -----------------------------------------------------------------------------------------------------------

@@ -259,7 +259,7 @@ def test_refused_lubricants(keys, words):
         (lambda: reliability_factor(0.5), "between 0.9 and 1, got 0.5"),
         (lambda: reliability_factor(1.0), "between 0.9 and 1, got 1"),
         (lambda: reference_viscosity(0.0, 0.06), "at rest no lubricant film forms"),
-        (lambda: walther_viscosity(300.0, 8e-6, 68e-6), "falls from 40 to 100 degC"),
+        (lambda: walther_viscosity(300.0, 8e-6, 68e-6), "falls from 40 to 100 °C"),
         (lambda: walther_viscosity(-3.0, 68e-6, 8e-6), "above 0 K"),
     ],
 )

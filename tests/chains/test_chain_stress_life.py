@@ -76,5 +76,5 @@ def test_a_steady_pull_does_no_damage_and_the_table_says_so():
 
 
 def test_messages():
-    with pytest.raises(InputError, match="least = 1; a share"):
+    with pytest.raises(InputError, match="`least` = 1; it is a share"):
         plate_life(basis(), pull([0.0, 1.0]), steel(), least=1.0)

@@ -156,11 +156,11 @@ def test_size_scales_and_angles_do_not():
         (lambda: gears.EllipticGearPair(0.3).perimeter(), "give semi_major"),
         (
             lambda: gears.NonCircularPair(lambda x: 0.68 + 0.1 * jets.cos(x), 0.1),
-            r"mean ratio is 0.68; the nearest fraction .* is 2/3, .* fails to close by 7.2 deg. Multiply the ratio by 0.980392157",
+            r"mean ratio is 0.68; the nearest fraction .* is 2/3, .* fails to close by 7.2°. Multiply the ratio by 0.980392157",
         ),
-        (lambda: gears.NonCircularPair(lambda x: 2 / 3 + 0.1 * jets.cos(x), 0.1), r"does not repeat after 180 deg .* mean ratio of 2/3"),
-        (lambda: gears.NonCircularPair(lambda x: 1 + 0.1 * jets.cos(0.5 * x), 0.1), "does not repeat after 360 deg"),
-        (lambda: gears.NonCircularPair(lambda x: 1 + 1.1 * jets.cos(x), 0.1), "ratio = -0.1 at driver angle 180 deg"),
+        (lambda: gears.NonCircularPair(lambda x: 2 / 3 + 0.1 * jets.cos(x), 0.1), r"does not repeat after 180° .* mean ratio of 2/3"),
+        (lambda: gears.NonCircularPair(lambda x: 1 + 0.1 * jets.cos(0.5 * x), 0.1), "does not repeat after 360°"),
+        (lambda: gears.NonCircularPair(lambda x: 1 + 1.1 * jets.cos(x), 0.1), "ratio = -0.1 at driver angle 180°"),
         (lambda: gears.NonCircularPair(lambda x: 1.0, 0.0), "centre_distance = 0 m"),
     ],
 )

@@ -127,7 +127,7 @@ RING = WheelBody(((0.09, 0.11),), 0.2, 0.3, (0.27, 0.3))
         (
             Solids(CAM, wheel=RING._replace(rings=())),
             {},
-            "solid check: WheelBody.rings = (); one or two rings, each from a lower to a higher z.",
+            "solid check: WheelBody.rings = (); give one or two rings, each from a lower to a higher z.",
         ),
     ],
 )

@@ -249,8 +249,7 @@ def test_half_a_pitch_more_changes_the_levels_of_a_parallel_drive():
 )
 def test_stations_that_do_not_divide_the_pins_are_refused(make):
     words = (
-        "stations = 5 does not divide pins = 12: a step of 72 deg would pass 2.4 pins.*"
-        "Take 10 or 15 pins, or stations from 1, 2, 3, 4, 6, 12"
+        "stations = 5 does not divide pins = 12: a step of 72° would pass 2.4 pins.*Take 10 or 15 pins, or stations from 1, 2, 3, 4, 6, 12"
     )
     with pytest.raises(InputError, match=words):
         make()

@@ -91,7 +91,7 @@ def test_the_turret_has_all_its_rollers(cam):
 def test_a_groove_that_misses_the_body_is_refused():
     (body,) = cam_part(DRUM).solids
     far = Part("far", (body._replace(grooves=(body.grooves[0] + [0, 1.0, 0],)),))
-    with pytest.raises(InputError, match=r"part 'far': the CAD kernel cut 0 mm\^3 .* walls that cross or miss the body"):
+    with pytest.raises(InputError, match=r"part 'far': the CAD kernel cut 0 mm³ .* walls that cross or miss the body"):
         cad.cad_solid(far)
 
 

@@ -79,9 +79,7 @@ def test_drive_beyond_reach_names_the_drive_and_the_angle():
     """A crank that cannot go round: it stops where coupler and rocker are stretched."""
     model = four_bar(crank=0.3, coupler=0.2, rocker=0.15, frame=0.35, angles=(0.4, 0.3, 1.2))
     last = np.degrees(np.arccos((0.3**2 + 0.35**2 - 0.35**2) / (2 * 0.3 * 0.35)))
-    refusal(
-        DoesNotAssemble, lambda: simulate(assemble(model), 3.0), "cannot go on beyond t = ", f"'O2' at {last:.2f} deg", "Change a length"
-    )
+    refusal(DoesNotAssemble, lambda: simulate(assemble(model), 3.0), "cannot go on beyond t = ", f"'O2' at {last:.2f}°", "Change a length")
     assert simulate(assemble(model), np.radians(last) - 0.41).outcome == "complete"
 
 

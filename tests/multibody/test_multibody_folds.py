@@ -212,7 +212,7 @@ def test_a_drive_that_cannot_pass_is_told_with_a_freedom_left_too(excess, method
     angle = np.arccos((FRAME**2 + CRANK**2 - apart**2) / (2 * FRAME * CRANK))
     limit = (angle if excess < 0 else TURN - angle) / TURN - 1 / 6
     assert run.outcome == "partial" and run.end[1] == pytest.approx(limit, abs=1e-6) and not run.passages
-    told = f"{np.degrees(angle if excess < 0 else TURN - angle):.2f} deg"
+    told = f"{np.degrees(angle if excess < 0 else TURN - angle):.2f}°"
     assert f"cannot go on beyond t = {run.end[1]:.6g} s of 1 s, drive 'O2' at {told}" in run.advice and "does not close there" in run.advice
 
 

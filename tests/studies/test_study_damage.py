@@ -171,7 +171,7 @@ def test_pages_have_checksums_that_any_reader_can_verify(study):
 
 def test_a_lost_ledger_costs_no_case(study, whole, counted, capsys):
     (study / "ledger.sqlite").unlink()
-    with pytest.raises(InputError, match=r"its ledger.sqlite is lost; the parts are there: `drivewright sweep .* goes on"):
+    with pytest.raises(InputError, match=r"its ledger.sqlite is lost; the parts are there: `drivewright sweep .* continues"):
         dw.open_study(study)
     again = run(study)
     assert again.table.equals(whole[1]) and counted == []

@@ -544,7 +544,7 @@ def test_a_reference_that_is_none(bench, error, message):
 
 
 def numbered(value):
-    numbers = {"values": {"lift": (value, "m", None, None)}, "checks": {}}
+    numbers = {"values": {"lift": (value, "m", None, None, "Stroke")}, "checks": {}}
     return {**found("motion"), "numbers": numbers}
 
 

@@ -147,7 +147,7 @@ def test_unknowns_that_are_locked_are_left_out_of_the_search_alone():
     cam.tables["optimise"] = {}
     assert search._freed(cam, ("spring",))[1] == []  # what is missing in it, the spec says
     del cam.tables["optimise"]
-    with pytest.raises(SpecError, match=r"write it into the text of the design, for example:\n\[\[optimise.unknowns\]\]"):
+    with pytest.raises(SpecError, match=r"write them into the text of the design, for example:\n\[\[optimise.unknowns\]\]"):
         search._freed(cam, ())
 
 

@@ -279,13 +279,13 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
         "seconds": 2.5,
         "analyses": ["a"],
         "fractions": {"near": 0.25, "zero": None},
-        "numbers": {"values": {}, "checks": {"near": [3.0, "mm", None, None], "zero": [1.0, "mm", None, None]}},
+        "numbers": {"values": {}, "checks": {"near": [3.0, "mm", None, None, "Near"], "zero": [1.0, "mm", None, None, "Zero"]}},
     }
 
 
 def numbered(value, checked=1.0):
     """What a result of the page has of one headline value and one check."""
-    return {"numbers": {"values": {"lift": (value, "m", None, None)}, "checks": {"bore": (checked, "m", None, None)}}}
+    return {"numbers": {"values": {"lift": (value, "m", None, None, "Stroke")}, "checks": {"bore": (checked, "m", None, None, "Wall")}}}
 
 
 def test_differences_are_told_as_the_page_of_a_comparison_tells_them():
@@ -297,9 +297,9 @@ def test_differences_are_told_as_the_page_of_a_comparison_tells_them():
 
 def test_numbers_of_renewed_analyses_take_over():
     both = merge_results(
-        {**result(1, "a"), **numbered(1.0, 2.0)}, {**result(2, "a"), "numbers": {"values": {"lift": (3.0, "m", None, None)}}}
+        {**result(1, "a"), **numbered(1.0, 2.0)}, {**result(2, "a"), "numbers": {"values": {"lift": (3.0, "m", None, None, "Stroke")}}}
     )
-    assert both["numbers"] == {"values": {"lift": (3.0, "m", None, None)}, "checks": {"bore": (2.0, "m", None, None)}}
+    assert both["numbers"] == {"values": {"lift": (3.0, "m", None, None, "Stroke")}, "checks": {"bore": (2.0, "m", None, None, "Wall")}}
 
 
 def test_warming_loads_every_kind_and_tells_nothing(monkeypatch):

@@ -69,8 +69,8 @@ def packed_views(result: Result[Any], seen: Views, language: str = "en", scene: 
     numbers = {figure.name: words("Figure *", figure.number) for figure in numbered_figures(result, seen)}
     captions = {plot.name: caption(plot) for plot in seen.plots}
     for plot in plots["plots"] if plots else ():
-        plot["panels"][0]["meaning"] = captions[plot["name"]]
-        for panel in plot["panels"]:
+        for number, panel in enumerate(plot["panels"]):
+            panel["meaning"] = "" if number else captions[plot["name"]]
             panel["figure"] = numbers[f"plot-{plot['name']}"]
     spoken = {} if language == "en" else {english: words(english) for english in player_texts()}
     return {**translated({"scene": pack_scene(scene, result.units), "plots": plots}, words), **({"words": spoken} if spoken else {})}

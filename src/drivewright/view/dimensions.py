@@ -22,7 +22,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-WIDTH, COLUMN, PICTURE_HEIGHT, HEAD = 8.2, 1.75, 4.1, 0.45  # inches: all, names on each side, tallest drawing, title
+PICTURE_WIDTH, PICTURE_HEIGHT, HEAD = 4.4, 4.1, 0.45  # inches: widest and tallest drawing, title
+COLUMN, LETTER, MARGIN = 1.75, 0.0665, 0.1  # inches: names on each side, at least; a letter of a key, and what is beside it
 GAP = 0.15  # inches between the names and the drawing
 ROW = 0.36  # inches that a name and its value take
 COARSE = 2e-3  # of the scene's size: what the outlines lose where only their extent counts
@@ -57,20 +58,21 @@ def draw_dimensions(sheet: DimensionSheet, scene: Scene, dimensions: Iterable[Di
     points = np.concatenate([corners, *(each.measure for each in drawn), *(line for each in drawn for line in each.thin)])
     low, high = points.min(axis=0), points.max(axis=0)
     left, right = _columns(drawn)
-    room = WIDTH - 2 * (COLUMN + GAP)
-    scale = min(room / (high - low)[0], PICTURE_HEIGHT / (high - low)[1])
+    column = max(COLUMN, MARGIN + LETTER * max(len(_key(each.dimension)) for each in drawn))
+    width = PICTURE_WIDTH + 2 * (column + GAP)
+    scale = min(PICTURE_WIDTH / (high - low)[0], PICTURE_HEIGHT / (high - low)[1])
     height = max(scale * (high - low)[1] + 0.2, ROW * max(len(left), len(right)))
-    middle, half = (low + high) / 2, np.array([WIDTH, height]) / scale / 2
+    middle, half = (low + high) / 2, np.array([width, height]) / scale / 2
     with styled():
-        figure = Figure(figsize=(WIDTH, height + HEAD))
+        figure = Figure(figsize=(width, height + HEAD))
         axis = figure.add_axes((0, 0, 1, height / (height + HEAD)))
         draw_moment(axis, scene, scene.frames[0], 0.0)
         axis.set(xlim=_span(middle, half, 0), ylim=_span(middle, half, 1))
         axis.set_axis_off()
         for each in drawn:
             _draw(axis, each)
-        for side, column in ((-1, left), (1, right)):
-            _name(axis, column, side, middle, half, scale)
+        for side, names in ((-1, left), (1, right)):
+            _name(axis, names, side, middle, half - (column / scale, 0.0), scale)
         figure.suptitle(sheet.title, x=0.02, y=1 - 0.08 / (height + HEAD), va="top", **TITLE)
     return figure
 
@@ -156,8 +158,8 @@ def _columns(drawn: Sequence[Drawn]) -> tuple[list[Drawn], list[Drawn]]:
 
 
 def _name(axis: "Axes", column: Sequence[Drawn], side: int, middle: Floats, half: Floats, scale: float) -> None:
-    """Keys and values of a column, each with a thin line to what it names."""
-    x = middle[0] + side * (half[0] - COLUMN / scale)
+    """Keys and values of a column, each with a thin line to what it names; `half` is half the size of what lies between the columns."""
+    x = middle[0] + side * half[0]
     heights = spread([float(each.anchor[1]) for each in column], ROW / scale, middle[1] - half[1], middle[1] + half[1])
     for each, y in zip(column, heights, strict=True):
         look = {"ha": "right" if side < 0 else "left", "fontsize": 8.2, "zorder": 6}

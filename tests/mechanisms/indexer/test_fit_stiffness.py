@@ -188,7 +188,7 @@ def test_a_stiffness_carries_its_interval_of_95_percent():
         (["--rated-torque", "1000 N m/rad"], "--rated-torque: wants a torque, got '1000 N m/rad' (rotational stiffness); write N m"),
         (["--rated-torque", "0 N m"], "--rated-torque: must be greater than 0"),
         (["--support-uncertainty", "1 N m/rad"], "--support-uncertainty: needs support_stiffness, whose uncertainty it is"),
-        (["--support-stiffness", "1e5 N m/rad"], "series correction: 1/k = 1/300000 - 1/100000 rad/(N m) = -6.67e-06 is not positive"),
+        (["--support-stiffness", "1e5 N m/rad"], "series correction: 1/k = 1/300000 - 1/100000 rad/(N·m) = -6.67e-06 is not positive"),
         (["--confidence", "1"], "--confidence: must be less than 1"),
         (["--arm", "1 m"], "the load is a torque already"),
         (["--model", "nope.toml"], "--model: there is no file"),

@@ -111,8 +111,8 @@ def test_the_mirrored_assembly_moves_as_much(turn):
 @pytest.mark.parametrize(
     ("coupler", "rocker", "crank", "message"),
     [
-        (0.1, 0.4, [0, 3.0], r"crank angle 171\.9 deg A and O4 are 0\.549\d* m apart.* 0\.3 to 0\.5 m"),
-        (0.1, 0.55, [3.0, 0.1], r"crank angle 5\.7 deg A and O4 are 0\.418\d* m apart.* 0\.45 to 0\.65 m"),
+        (0.1, 0.4, [0, 3.0], r"crank angle 171\.9° A and O4 are 0\.549\d* m apart.* 0\.3 to 0\.5 m"),
+        (0.1, 0.55, [3.0, 0.1], r"crank angle 5\.7° A and O4 are 0\.418\d* m apart.* 0\.45 to 0\.65 m"),
     ],
 )
 def test_a_bar_that_cannot_turn_says_where(coupler, rocker, crank, message):

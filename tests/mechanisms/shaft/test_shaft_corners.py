@@ -89,7 +89,7 @@ def test_a_spring_preload_that_nothing_holds_is_refused():
         {"name": "B", "position": "136.5 mm", "roller_geometry": ROLLERS},
     ]
     result = dw.run(shaft(bearings=bearings))
-    assert result.outcome == "partial" and any(re.search("do not balance.*nothing takes", finding) for finding in result.findings)
+    assert result.outcome == "partial" and any(re.search("do not balance.*no support carries", finding) for finding in result.findings)
 
 
 def test_a_preload_on_a_bearing_without_axial_stiffness_is_refused():
@@ -157,13 +157,13 @@ def past_the_door(spec, table, **numbers):
         (threads("0.000468465 mm"), "gave up: shaft: the equations of shaft and bearings are singular to rounding"),
         (
             past_the_door(threads("20 mm"), "segments", diameter=1e-93),
-            "no answer for this design: shaft: from 0 to 56.5 mm, with a diameter of 1e-90 mm, its bending is beyond all",
+            "no answer for this design: shaft: from 0 to 56.5 mm, with a diameter of 1e-90 mm, the flexibility overflows",
         ),
         (
             past_the_door(threads("20 mm"), "segments", diameter=1e87),
-            "with a diameter of 1e\\+90 mm, its bending is beyond all numbers; check the units",
+            "with a diameter of 1e\\+90 mm, the flexibility overflows; check the units",
         ),
-        (past_the_door(shaft(), "material", youngs_modulus=1e-300), "its bending is beyond all numbers; .* Young's modulus"),
+        (past_the_door(shaft(), "material", youngs_modulus=1e-300), "the flexibility overflows; .* Young's modulus"),
     ],
 )
 def test_a_shaft_beyond_measure_is_told_in_our_words(spec, told):

@@ -194,7 +194,7 @@ def test_a_blade_runs_and_keeps_its_energy(blade):
 def test_a_tensioner_on_the_tight_strand_is_told():
     below = ('sprockets.0.centre=["130 mm", "-46 mm"]', 'sprockets.0.direction="90 deg"', 'sprockets.0.force="140 N"', "guides=[]")
     found = " ".join(run("layout", *below).findings)
-    assert "tensioner idler presses on the tight strand: with clockwise rotation and a load torque of 8 N m" in found
+    assert "tensioner idler presses on the tight strand: with clockwise rotation and a load torque of 8 N·m" in found
     assert "comes from the driven sprocket" in found and "Move the tensioner to the other strand" in found
     assert "tight strand" not in " ".join(run("layout").findings)
     driving = " ".join(run("layout", 'drive.load_torque="-2 N m"').findings)

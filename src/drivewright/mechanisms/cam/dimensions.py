@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -14,13 +15,16 @@ from drivewright.dimensions import (
     body_of,
     circles_of,
     corners_of,
+    cut_prism,
     direction,
     origin_of,
+    still_body,
+    still_scene,
     turn,
 )
 from drivewright.mechanisms.cam.build import CamModel
-from drivewright.mechanisms.cam.scene import parts
-from drivewright.scene import Body, Frame, Point, Prism, Scene, Shape, place, rectangle
+from drivewright.mechanisms.cam.scene import parts, scene
+from drivewright.scene import Body, Point, Prism, Scene, Shape, place, polygon
 
 AXIS: Point = (0.0, 0.0)
 
@@ -131,17 +135,7 @@ def _across(model: CamModel) -> Scene:
     """The cam cut along its axis, which runs to the right, from its solids."""
     (cam,) = (part for part in parts(model) if part.name == "cam")
     prisms = [solid for solid in cam.solids if isinstance(solid, Prism)]
-    halves = [shape for prism in prisms for shape in _section(prism)]
-    still = np.zeros((2, 3))
-    return Scene(np.array([0.0, 1.0]), "", "-", 1.0, (Body("cam", "cam", tuple(halves), still, "blue"),), (Frame("machine", "", still),))
-
-
-def _section(prism: Prism) -> Iterator[Shape]:
-    """Upper and lower half of a disc with a hole, cut along its axis."""
-    points, hole = prism.outline.points(), prism.holes[0].points()
-    top, bottom, inner = points[:, 1].max(), points[:, 1].min(), hole[:, 1].max()
-    for low, high in ((inner, top), (bottom, -inner)):
-        yield Shape("profile", rectangle((prism.z + prism.thickness / 2, (low + high) / 2), prism.thickness, high - low))
+    return still_scene(still_body("cam", [shape for prism in prisms for shape in cut_prism(prism)]))
 
 
 def _widths(model: CamModel, scene: Scene) -> Iterator[Dimension]:
@@ -192,7 +186,29 @@ def _flat(model: CamModel, scene: Scene) -> Iterator[Dimension]:
     low = min(corners, key=lambda corner: (round(corner[1], 9), -corner[0]))
     yield Radius("follower.base_radius", AXIS, radius, np.radians(200))
     yield Length("programme.0.rise", low, _highest(scene, low), -0.12)
+    start, end = corners_of(scene, "face", "edge")
+    yield Length("follower.half_face", start, end, 0.16)
     yield _bore(scene)
+
+
+def _with_face(model: CamModel) -> Scene:
+    """The scene with half the flat face as long as it is given, from the line of the slide on, where a face without tilt touches."""
+    whole, half = scene(model), model.spec.follower.half_face
+    _, radius = circles_of(whole, "cam", "base")[0]
+    assert half is not None
+    return replace(
+        whole,
+        bodies=(
+            *whole.bodies,
+            Body(
+                "face",
+                "face",
+                (Shape("edge", polygon([(0.0, radius), (half, radius)], closed=False)),),
+                np.zeros_like(whole.bodies[0].poses),
+                "orange",
+            ),
+        ),
+    )
 
 
 def _valve(model: CamModel, scene: Scene) -> Iterator[Dimension]:
@@ -239,7 +255,7 @@ FACE = ("closure", "follower.motion", "follower.face")
 SHEETS = (
     DimensionSheet("cam", "Disc cam, roller on a slide", "default", _slide, changes=("follower.offset=12 mm",), variant=FACE),
     DimensionSheet("cam-oscillating", "Disc cam, roller on a lever", "oscillating", _lever_alone, variant=(*FACE, "valve")),
-    DimensionSheet("cam-flat", "Disc cam, flat face on a slide", "flat", _flat, variant=FACE),
+    DimensionSheet("cam-flat", "Disc cam, flat face on a slide", "flat", _flat, scene=_with_face, variant=FACE),
     DimensionSheet("cam-conjugate", "Conjugate cams, lever with two rollers", "conjugate", _conjugate, changes=SECOND, variant=FACE),
     DimensionSheet(
         "cam-conjugate-slide", "Conjugate cams, slide with two rollers", "conjugate", _second_slide, changes=SECOND_SLIDE, variant=FACE

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from drivewright.dimensions import Angle, Dimension, DimensionSheet, Length, origin_of, placed_point, pose_of
 from drivewright.mechanisms.linkage.build import LinkageModel
+from drivewright.mechanisms.linkage.joint_drawing import PLAY, WHEEL, pin_dimensions, pin_with_play, wheel_dimensions
 from drivewright.scene import Scene
 
 
@@ -38,4 +39,6 @@ SLIDER_CRANK = ("bodies.crank.angle=50 deg", "bodies.rod.angle=-20 deg")
 SHEETS = (
     DimensionSheet("linkage", "Four-bar linkage", "default", _four_bar, changes=("bodies.crank.angle=40 deg",)),
     DimensionSheet("linkage-slider-crank", "Slider-crank", "slider_crank", _slider_crank, changes=SLIDER_CRANK),
+    DimensionSheet("linkage-wheel", "Rolling joint on a round track", "default", wheel_dimensions, changes=WHEEL),
+    DimensionSheet("linkage-pin", "Pin with play in its bearing", "default", pin_dimensions, changes=PLAY, scene=pin_with_play),
 )

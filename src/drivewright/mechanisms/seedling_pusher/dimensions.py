@@ -7,6 +7,16 @@ import numpy as np
 
 from drivewright.dimensions import Angle, Dimension, DimensionSheet, Length, Radius, body_of, circles_of, direction, origin_of, turn
 from drivewright.mechanisms.seedling_pusher.build import PusherModel
+from drivewright.mechanisms.seedling_pusher.field_drawing import (
+    GATE_LINE,
+    TURNS,
+    cams_cut,
+    cams_dimensions,
+    carrier_turns,
+    field_dimensions,
+    over_field,
+    turn_dimensions,
+)
 from drivewright.scene import Point, Scene
 
 
@@ -73,4 +83,22 @@ SHEETS = (
         _lever,
         left_out=("sun", "intermediate", "planet", "carrier", "field"),
     ),
+    DimensionSheet(
+        "seedling-pusher-field",
+        "Seedling pusher: field and gate",
+        "default",
+        field_dimensions,
+        changes=GATE_LINE,
+        left_out=("cam.", "lever", "rod"),
+        scene=over_field,
+    ),
+    DimensionSheet(
+        "seedling-pusher-turn",
+        "Seedling pusher: carrier angles of push and taking",
+        "default",
+        turn_dimensions,
+        changes=TURNS,
+        scene=carrier_turns,
+    ),
+    DimensionSheet("seedling-pusher-cams", "Seedling pusher: cams cut along their axis", "default", cams_dimensions, scene=cams_cut),
 )

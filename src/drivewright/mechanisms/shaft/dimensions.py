@@ -4,7 +4,18 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from drivewright.dimensions import Dimension, DimensionSheet, Length, circles_of, corners_of, origin_of
+from drivewright.mechanisms.shaft.bearing_drawing import AROUND, BEARINGS, along_axis, along_axis_dimensions, cut, cut_dimensions
 from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.load_drawing import (
+    DIRECTIONS,
+    MESH,
+    PLACES,
+    direction_dimensions,
+    gear_mesh,
+    load_directions,
+    mesh_dimensions,
+    place_dimensions,
+)
 from drivewright.mechanisms.shaft.notch_drawing import GEAR, NOTCHES, gear_dimensions, notch_dimensions, notched
 from drivewright.mechanisms.shaft.scene import drawings, scene
 from drivewright.scene import Body, Scene, Shape
@@ -47,4 +58,18 @@ SHEETS = (
     DimensionSheet("shaft", "Shaft: segments, bearings and stations", "spindle", _spindle, left_out=("shaft.", "gear"), scene=_hollow),
     DimensionSheet("shaft-notches", "Shaft: notches and fillets", "default", notch_dimensions, changes=(*SHORT, *NOTCHES), scene=notched),
     DimensionSheet("shaft-gear", "Shaft: gears", "default", gear_dimensions, changes=GEAR, left_out=("shaft.",)),
+    DimensionSheet("shaft-loads", "Shaft: places of loads", "default", place_dimensions, changes=PLACES, left_out=("shaft.", "bearing.")),
+    DimensionSheet(
+        "shaft-directions",
+        "Shaft: directions of loads, along the axis",
+        "default",
+        direction_dimensions,
+        changes=DIRECTIONS,
+        scene=load_directions,
+    ),
+    DimensionSheet("shaft-mesh", "Shaft: mesh of a gear, along the axis", "default", mesh_dimensions, changes=MESH, scene=gear_mesh),
+    DimensionSheet("shaft-bearings", "Shaft: rolling bearings cut along the axis", "default", cut_dimensions, changes=BEARINGS, scene=cut),
+    DimensionSheet(
+        "shaft-bearing-seat", "Shaft: seat and balls, along the axis", "default", along_axis_dimensions, changes=AROUND, scene=along_axis
+    ),
 )

@@ -4,11 +4,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from drivewright.dimensions import Dimension, Length, Radius, circles_of, corners_of
+from drivewright.dimensions import Dimension, Length, Radius, circles_of, corners_of, still_body, still_scene
 from drivewright.mechanisms.shaft.build import ShaftModel
 from drivewright.mechanisms.shaft.scene import drawings
 from drivewright.mechanisms.shaft.strength_tables import NotchTable
-from drivewright.scene import Arc, Body, Frame, Outline, Scene, Shape, circle, rectangle
+from drivewright.scene import Arc, Outline, Scene, Shape, circle, rectangle
 from drivewright.shafts.drawing import radius_at
 
 KEYWAY = 0.28  # of the diameter: how wide a keyway is drawn
@@ -16,12 +16,9 @@ KEYWAY = 0.28  # of the diameter: how wide a keyway is drawn
 
 def notched(model: ShaftModel) -> Scene:
     """The turned part with its notches and the fillets of its steps."""
-    still = np.zeros((2, 3))
     shapes = [shape for shape in drawings(model)[0].shapes if shape.layer == "profile"]
-    bodies = [Body("turned", "turned part", tuple(shapes), still, "blue")]
-    bodies += [Body(notch.name, notch.name, tuple(_notch(model, notch)), still, "orange") for notch in model.spec.notches]
-    bodies += [Body("fillet", "fillets", tuple(_fillets(model)), still, "orange")]
-    return Scene(np.array([0.0, 1.0]), "", "-", 1.0, tuple(bodies), (Frame("machine", "machine frame", still),))
+    notches = [still_body(notch.name, _notch(model, notch), "orange") for notch in model.spec.notches]
+    return still_scene(still_body("turned", shapes), *notches, still_body("fillet", _fillets(model), "orange"))
 
 
 def _notch(model: ShaftModel, notch: NotchTable) -> Iterator[Shape]:

@@ -44,6 +44,6 @@ export function createDesigns({store, t}, {fresh, example, close}) {
 export const drawingsOf = ({state: {kinds = [], design}}) =>
   (kinds.find(({kind}) => kind === design?.kind)?.drawings || []).filter(({name}) => design.drawings?.includes(name) ?? true);
 
-/** What the menu of drawings holds. */
-export const drawings = store => drawingsOf(store).map(({name, title}) =>
-  element("figure", {class: "st-drawing"}, element("img", {src: `/web/drawing.${name}.svg`, alt: title, loading: "lazy"})));
+/** What the menu of drawings holds; `t` translates a title. */
+export const drawings = (store, t) => drawingsOf(store).map(({name, title}) =>
+  element("figure", {class: "st-drawing"}, element("img", {src: `/web/drawing.${name}.svg`, alt: t(title), loading: "lazy"})));
