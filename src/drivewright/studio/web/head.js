@@ -3,6 +3,7 @@
 import { createDesigns, drawings, drawingsOf, spoken } from "./designs.js";
 import { acceptFiles } from "./files.js";
 import { icon, mark } from "./icons.js";
+import { createOverflow } from "./overflow.js";
 import { createPopovers, pressable, put, themeOf } from "./parts.js";
 import { element } from "./player.js";
 
@@ -16,9 +17,10 @@ function typing(active) {
   return active.dataset.unsent !== undefined || !active.classList.contains("st-box");
 }
 
-/** A button of the bar: a sign, a word, or both. */
-function button({id, sign, title, text, look = "", ...more}, act) {
-  const inside = [...(sign ? [icon(sign)] : []), ...(text ? [element("span", {class: "st-word"}, text)] : [])];
+/** A button of the bar: a sign, a word, or both; `long` is the word beside a sign where there is room. */
+function button({id, sign, title, text, long, look = "", ...more}, act) {
+  const word = (name, given) => given ? [element("span", {class: name}, given)] : [];
+  const inside = [...(sign ? [icon(sign)] : []), ...word("st-word", text), ...word("st-long-word", long)];
   const named = {class: `st-button${look && ` st-${look}`}`, title, "aria-label": title, "data-testid": id || false};
   return pressable({...named, ...more}, act, ...inside);
 }
@@ -66,7 +68,7 @@ export function createHead(host, {store, say, t}) {
   const designs = createDesigns({store, t}, {fresh, example, close: () => popovers.close(true)});
   const bar = element("div", {class: "st-bar"}), notice = element("div", {class: "st-notice", role: "alert", hidden: ""});
   const files = acceptFiles({say, t, tell});
-  let parts = {}, chosen = "", asked = false, failed = "", hide = 0;
+  let parts = {}, overflow = null, chosen = "", asked = false, failed = "", hide = 0;
 
   /** Shows a complaint below the bar for a while. */
   function tell(message) {
@@ -97,7 +99,7 @@ export function createHead(host, {store, say, t}) {
     dot: element("span", {class: "st-dot", title: t("not saved yet")}), preset: presetChoice(),
     fresh: button({id: "new", sign: "plus", title: t("New design"), text: t("New"), ...hanging("menu")},
       made => popovers.toggle(made, "menu", t("New design"), designs)),
-    keys: button({id: "keys", sign: "ruler", title: t("What the keys measure"), ...hanging("dialog")},
+    keys: button({id: "keys", sign: "ruler", title: t("What the keys measure"), long: t("What the keys measure"), ...hanging("dialog")},
       made => popovers.toggle(made, "dialog", t("What the keys measure"), () => drawings(store))),
     undo: button({id: "undo", sign: "undo", title: `${t("Undo")} (Ctrl+Z)`}, () => say({what: "undo"})),
     redo: button({id: "redo", sign: "redo", title: `${t("Redo")} (Ctrl+Y)`}, () => say({what: "redo"})),
@@ -109,25 +111,28 @@ export function createHead(host, {store, say, t}) {
       made => popovers.toggle(made, "menu", t("Compare"), menus.comparing)),
   });
   const exchange = () => ({
-    open: button({id: "open", sign: "open", title: `${t("Open a design and its data files")} (Ctrl+O)`}, files.pick),
+    open: button({id: "open", sign: "open", title: `${t("Open a design and its data files")} (Ctrl+O)`, long: t("Open a file")}, files.pick),
     save: button({id: "save", sign: "save", title: `${t("Save the design as a file")} (Ctrl+S)`}, () => say({what: "save"})),
-    share: button({id: "share", sign: "share", title: t("Share as an address"), ...hanging("dialog")}, () => { asked = true; say({what: "share"}); }),
+    share: button({id: "share", sign: "share", title: t("Share as an address"), long: t("Share"), ...hanging("dialog")},
+      () => { asked = true; say({what: "share"}); }),
     report: button({id: "report", sign: "report", title: t("Download the report"), text: t("Report")},
       () => say({what: "job", name: "report", options: {}})),
   });
   const taste = () => ({
-    theme: button({id: "theme", title: t("Light or dark")}, () => store.set({theme: themeOf(store.state) === "dark" ? "light" : "dark"})),
+    theme: button({id: "theme", sign: "moon", title: t("Light or dark"), long: t("Light or dark")},
+      () => store.set({theme: themeOf(store.state) === "dark" ? "light" : "dark"})),
     language: languageButton(),
   });
 
   function build() {
-    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste()};
+    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste(),};
     popovers.close(false);
+    overflow?.stop();
+    overflow = createOverflow(t, [rule(), p.preset, held(p.keys), element("i", {class: "st-space"}),
+      held(element("div", {class: "st-split"}, p.compare, p.more)), rule(), p.open, held(p.share), p.report, rule(), p.theme, p.language]);
     bar.replaceChildren(
       element("div", {class: "st-brand"}, mark(), element("b", {}, "Drivewright")), rule(),
-      element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.preset, held(p.keys), rule(), p.undo, p.redo,
-      element("i", {class: "st-space"}), held(element("div", {class: "st-split"}, p.compare, p.more)), rule(),
-      p.open, p.save, held(p.share), p.report, rule(), p.theme, p.language);
+      element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.undo, p.redo, p.save, overflow.button, overflow.list);
     files.reword();
     showDesign(); showReference(); showJobs(); showTheme();
   }
@@ -166,7 +171,7 @@ export function createHead(host, {store, say, t}) {
     if (text && text !== failed) tell(text);
     failed = text;
   }
-  function showTheme() { parts.theme.replaceChildren(icon(themeOf(store.state) === "dark" ? "sun" : "moon")); }
+  function showTheme() { parts.theme.firstChild.replaceWith(icon(themeOf(store.state) === "dark" ? "sun" : "moon")); }
   function showShared() {
     if (!asked || !store.state.shared) return;
     asked = false;
@@ -189,5 +194,5 @@ export function createHead(host, {store, say, t}) {
   host.append(bar, files.picker, notice, files.drop);
   stops.push(store.on(["lang"], build), store.on(["design"], showDesign), store.on(["reference"], showReference), store.on(["jobs"], showJobs),
     store.on(["theme"], showTheme), store.on(["shared"], showShared));
-  return {destroy() { clearTimeout(hide); popovers.destroy(); files.stop(); for (const stop of stops) stop(); host.replaceChildren(); }};
+  return {destroy() { clearTimeout(hide); popovers.destroy(); overflow?.stop(); files.stop(); for (const stop of stops) stop(); host.replaceChildren(); }};
 }
