@@ -4,7 +4,6 @@ import { pressable, put } from "./parts.js";
 
 const NARROW = "(max-width: 899px)";
 const PANES = {form: "form", mechanism: "centre", checks: "side", plots: "plots"};  // tab -> place
-const WORDS = {form: "Form", mechanism: "Mechanism", checks: "Checks", plots: "Plots"};
 
 /**
  * The row of tabs in `host`; `frame` is the grid, `places` {head, form, centre, side, plots} are its parts.
@@ -46,7 +45,8 @@ export function createPanes(host, {store, t}, frame, places) {
   }
   function reword() {
     host.setAttribute("aria-label", t("Parts of the page"));
-    for (const name of names) put(tabs[name], t(WORDS[name]));
+    const words = {form: t("Form"), mechanism: t("Mechanism"), checks: t("Checks"), plots: t("Plots")};
+    for (const name of names) put(tabs[name], words[name]);
   }
   names.forEach(add);
   host.setAttribute("role", "tablist");
