@@ -366,6 +366,7 @@ def _offered(kinds):
             "kind": kind,
             "summary": registry.mechanism(kind).summary,
             "presets": _presets(kind),
+            "titles": translations.preset_titles(kind),
             "pictures": sorted(preset_pictures(kind)),
             "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
             "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],

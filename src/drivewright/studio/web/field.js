@@ -1,7 +1,7 @@
 // One field of the form: its box, slider, choice or flag; what is typed goes to the server, what the server says comes back into it.
 
 import { icon } from "./icons.js";
-import { decimals, quantityOf, withUnit } from "./numbers.js";
+import { decimals, quantityOf, unitsRead, unitsTyped, withUnit } from "./numbers.js";
 import { tool } from "./parts.js";
 import { element } from "./player.js";
 import { createGesture, createSlider } from "./slider.js";
@@ -33,8 +33,9 @@ function tell(message, root, refusal) {
 /** The button that takes a value back to the usual one is there where that is another. */
 function offerReset(reset, {given, default: usual, optional}, t) {
   reset.hidden = !given || usual == null && !optional;
-  reset.title = usual == null ? t("Leave it out") : `${t("Back to the usual value")}: ${usual}`;
-  reset.setAttribute("aria-label", reset.title);
+  const name = usual == null ? t("Leave it out") : `${t("Back to the usual value")}: ${usual}`;
+  reset.title = `${name} (Alt+R)`;
+  reset.setAttribute("aria-label", name);
 }
 
 /** What stands for a value: {input, show(field), text(), whole}; one that is not `whole` is typed in letter by letter. */
@@ -50,19 +51,35 @@ function createControl(field, name, t) {
     const flag = element("input", {...common, type: "checkbox", class: "st-flag"});
     return {input: flag, show: now => { flag.checked = now.value === true; }, text: () => String(flag.checked), whole: true};
   }
+  const named = field.key === "title";
   const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
   if (field.optional || field.value === null) box.placeholder = field.default ?? t("not set");
-  return {input: box, show: now => { if (box.value !== now.text) box.value = now.text ?? ""; }, text: () => box.value, whole: false};
+  const counted = COUNTED.includes(field.kind), read = text => counted ? unitsRead(text) : named ? t(text) : text;
+  /** The text of the spec: a title that is shown in the language of the page is still the one of the spec. */
+  const text = () => counted ? unitsTyped(box.value) : named && box.value === read(spec) ? spec : box.value;
+  let spec = "";
+  function show(now) { spec = now.text ?? ""; if (box.value !== read(spec)) box.value = read(spec); }
+  return {input: box, show, text, whole: false};
 }
 
 /** The elements of a row, and how they look when it is locked, refused or given; `back()` takes it to its usual value. */
 function createLook(row, {say, t}, back) {
   const {field} = row, control = createControl(field, row.name, t), {input} = control, message = messageOf(row.key);
-  const lock = tool("unlock", t("Lock: keep this value"), () => say({what: "lock", key: row.key, on: !row.locked})), reset = tool("reset", "", back);
+  const toggle = () => say({what: "lock", key: row.key, on: !row.locked}), lock = tool("unlock", t("Lock: keep this value"), toggle);
+  const reset = tool("reset", "", back);
+  for (const made of [lock, reset]) made.tabIndex = -1;  // a field is one stop; its keys do the same
+  input.setAttribute("aria-keyshortcuts", "Alt+L Alt+R");
   const root = element("label", {class: `st-field st-is-${field.kind}`, "data-testid": `field-${field.key}`, "data-key": field.key},
     input, nameOf(field, row.name, t), element("span", {class: "st-tools"}, reset, lock), message);
   return {
     root, input, control,
+    /** The keys of the two buttons: Alt with L and R.  Whether the event was one of them. */
+    shortcut(event) {
+      const act = {KeyL: toggle, KeyR: () => reset.hidden || back()}[event.code];
+      if (!act || !event.altKey || event.ctrlKey) return false;
+      act();
+      return true;
+    },
     slide(slider) { message.before(slider.root); root.classList.add("st-slid"); },
     refuse(refusal) {
       tell(message, root, refusal);
@@ -72,8 +89,9 @@ function createLook(row, {say, t}, back) {
       root.classList.toggle("st-locked", locked);
       if (control.whole) input.disabled = locked; else input.readOnly = locked;
       lock.replaceChildren(icon(locked ? "lock" : "unlock"));
-      lock.title = t(locked ? "Locked; click to free it" : "Lock: keep this value");
-      lock.setAttribute("aria-label", lock.title); lock.setAttribute("aria-pressed", String(locked));
+      const name = t(locked ? "Locked; click to free it" : "Lock: keep this value");
+      lock.title = `${name} (Alt+L)`;
+      lock.setAttribute("aria-label", `${name}: ${row.name}`); lock.setAttribute("aria-pressed", String(locked));
     },
     give(field) {
       root.classList.toggle("st-given", field.given);
@@ -94,11 +112,13 @@ export function createRow(field, context) {
   const {send, say, t} = context, counted = COUNTED.includes(field.kind), gesture = createGesture(field.key);
   const row = {key: field.key, field, name: context.chinese() && field.zh || field.label, refusal: null, locked: false, update, held};
   const look = createLook(row, context, () => { settle(); say({what: "unset", key: row.key}); }), {root, input, control} = look;
-  let slider = null, typed = false, sent = null, before = "", original = "", waiting = 0, patience = 0;
+  let slider = null, typed = false, sent = null, before = "", original = "", waiting = 0, patience = 0, last = null;  // text of this edit that was sent last
   row.root = root;
 
   // ---- from the server
   function held() { return typed || Boolean(slider?.dragging); }
+  /** What is in the box as the spec has it. */
+  const written = () => control.text();
   function answered() {
     if (sent === null) return true;
     return slider?.dragging ? false : agrees(row.field, sent) || (!counted && row.field.text !== before);
@@ -153,20 +173,29 @@ export function createRow(field, context) {
   }
   function moved(text, id) {
     settle();
-    if (input.value !== text) input.value = text;
+    if (written() !== text) input.value = unitsRead(text);
     sent = text;
     send({what: "set", key: row.key, text, gesture: id}, false);
   }
-  function ended() { context.flush(); if (sent !== null) expect(sent); context.released(); }
+  function ended() {
+    context.flush();
+    if (sent !== null) expect(sent);
+    show();  // the answer may have come already
+    context.released();
+  }
   function settle() { typed = false; clearTimeout(waiting); delete input.dataset.unsent; }
   function commit() {
-    const text = control.text(), known = sent ?? row.refusal?.text;
+    const text = written(), known = sent ?? row.refusal?.text;
     clearTimeout(waiting);
     delete input.dataset.unsent;
     if (known == null ? agrees(row.field, text) : text === known) return;
+    if (last === null || !text.startsWith(last) && !last.startsWith(text)) gesture.begin();  // not a number that is typed on
+    last = text;
     if (!text.trim() && (row.field.optional || row.field.default != null)) say({what: "unset", key: row.key});
     else { expect(text); send({what: "set", key: row.key, text, gesture: gesture.current()}, true); }
   }
+  /** The edit is over: the next one is another step of undo. */
+  function finish() { last = null; gesture.end(); }
   function choose() {
     const text = control.text();
     gesture.begin();
@@ -176,7 +205,8 @@ export function createRow(field, context) {
   function restore() {
     const back = original;
     settle();
-    input.value = back;
+    last = null;
+    input.value = counted ? unitsRead(back) : back;
     if (row.refusal || sent !== null || row.field.text !== back) {
       sent = null;
       say({what: "set", key: row.key, text: back, gesture: gesture.current()});
@@ -185,20 +215,23 @@ export function createRow(field, context) {
   }
   /** Arrow keys in a box: the number in it, one step on; ten with Shift. */
   function nudge(times) {
-    const found = quantityOf(input.value), step = row.field.step || 1;
+    const found = quantityOf(written()), step = row.field.step || 1;
     if (!found) return;
-    input.value = withUnit(Number((found[0] + step * times).toFixed(decimals(Math.abs(step)))), found[1]);
+    const text = withUnit(Number((found[0] + step * times).toFixed(decimals(Math.abs(step)))), found[1]);
+    input.value = unitsRead(text);
     typed = true;
-    expect(input.value);
-    send({what: "set", key: row.key, text: input.value, gesture: gesture.next()}, false);
+    last = null;
+    expect(text);
+    send({what: "set", key: row.key, text, gesture: gesture.next()}, false);
   }
 
   // ---- from the user
   function keys(event) {
     const undo = (event.ctrlKey || event.metaKey) && "zy".includes(event.key.toLowerCase()), way = {ArrowUp: 1, ArrowDown: -1}[event.key];
     if (undo && input.dataset.unsent === undefined) settle();
-    else if (event.key === "Enter") { commit(); settle(); show(); input.select(); }
+    else if (event.key === "Enter") { commit(); finish(); settle(); show(); input.select(); }
     else if (event.key === "Escape") { event.preventDefault(); restore(); }
+    else if (look.shortcut(event)) event.preventDefault();
     else if (counted && way && !row.locked) { event.preventDefault(); nudge(way * (event.shiftKey ? 10 : 1)); }
   }
   function type() {
@@ -210,10 +243,14 @@ export function createRow(field, context) {
   function leave() {
     if (context.moving) return;
     if (typed) commit();
-    settle(); show(); context.released();
+    finish(); settle(); show(); context.released();
   }
   function listen() {
-    if (control.whole) { input.addEventListener("change", choose); return; }
+    if (control.whole) {
+      input.addEventListener("change", choose);
+      input.addEventListener("keydown", event => { if (look.shortcut(event)) event.preventDefault(); });
+      return;
+    }
     input.addEventListener("focus", () => { if (!context.moving) gesture.end(); });
     input.addEventListener("input", type);
     input.addEventListener("blur", leave);

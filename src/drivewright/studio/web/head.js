@@ -1,6 +1,6 @@
 // The bar at the top: what is open, new drives and presets, undo, files, sharing, comparing, theme and language.
 
-import { createDesigns, drawings, drawingsOf, spoken } from "./designs.js";
+import { createDesigns, drawings, drawingsOf, presetTitle, spoken } from "./designs.js";
 import { acceptFiles } from "./files.js";
 import { icon, mark } from "./icons.js";
 import { createOverflow } from "./overflow.js";
@@ -8,6 +8,7 @@ import { createPopovers, pressable, put, themeOf } from "./parts.js";
 import { element } from "./player.js";
 
 const NOTICE = 12000;  // ms that a complaint stays
+const LOOPBACK = /^(localhost|127\.\d+\.\d+\.\d+|\[::1\])$/;
 
 const alike = (one, other) => spoken(one).toLowerCase() === spoken(other).toLowerCase();
 
@@ -42,7 +43,7 @@ function createMenus({store, say, t}, popovers) {
     const pin = item(t(reference ? "Pin this design instead" : "Pin this design"), t("later changes are seen against it"), compare({with: "this"}));
     const stop = reference ? [item(t("Stop comparing"), reference.title, compare({with: "none"}))] : [];
     const head = presets.length ? [element("div", {class: "st-item-head"}, t("Compare with a preset"))] : [];
-    return [pin, ...stop, ...head, ...presets.map(name => item(t(spoken(name)), "", compare({with: "preset", name})))];
+    return [pin, ...stop, ...head, ...presets.map(name => item(t(presetTitle(store, name)), t(spoken(name)), compare({with: "preset", name})))];
   }
   /** The address of the design, to be copied. */
   function sharing({url}) {
@@ -55,7 +56,14 @@ function createMenus({store, say, t}, popovers) {
       try { await navigator.clipboard.writeText(url); } catch { document.execCommand("copy"); }
       made.firstChild.textContent = t("Copied");
     });
-    return [element("p", {class: "st-item-hint"}, t("This address holds the whole design")), element("div", {class: "st-share"}, box, copy)];
+    const file = button({title: t("Save the design as a file"), sign: "save", text: t("Save as a file"), id: "share-file"}, () => {
+      popovers.close(true);
+      say({what: "save"});
+    });
+    const here = LOOPBACK.test(location.hostname), words = here ? t("This address works on this machine only, while the studio runs. To send the design to somebody, send the file.")
+      : t("This address holds the whole design. It works where this studio can be reached; the file works everywhere.");
+    return [element("p", {class: "st-item-hint", "data-testid": "share-hint"}, words), element("div", {class: "st-share"}, box, copy),
+      element("div", {class: "st-share"}, file)];
   }
   return {comparing, sharing};
 }
@@ -139,7 +147,7 @@ export function createHead(host, {store, say, t}) {
 
   // ---- what they show
   function showPresets(design) {
-    const names = design.presets || [], key = names.join("\n"), option = name => element("option", {value: name}, t(spoken(name)));
+    const names = design.presets || [], key = names.join("\n"), option = name => element("option", {value: name}, t(presetTitle(store, name)));
     if (parts.preset.dataset.names !== key) {
       parts.preset.dataset.names = key;
       parts.preset.replaceChildren(element("option", {value: "", disabled: "", hidden: ""}, t("Preset")), ...names.map(option));

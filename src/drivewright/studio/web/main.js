@@ -107,7 +107,7 @@ function createEar(store, begin) {
     result: ({gen, full, result}) => gen >= since && store.set({result: {...result, gen, full}}),
     differences: ({differences}) => state.result && store.set({result: {...state.result, differences}}),
     reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
-    work: message => store.set({work: message.state === "lost" ? IDLE : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
+    work: message => store.set({work: message.state === "lost" ? {...IDLE, state: "lost"} : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
     job: ({name, ...news}) => {
       store.set({jobs: {...state.jobs, [name]: {...state.jobs[name], ...news}}});
       if (news.state === "done") news.answer?.files?.forEach(fetched);
