@@ -1,5 +1,6 @@
 // One field of the form: its box, slider, choice or flag; what is typed goes to the server, what the server says comes back into it.
 
+import { createCombobox } from "./combobox.js";
 import { icon } from "./icons.js";
 import { decimals, quantityOf, unitsRead, unitsTyped, withUnit } from "./numbers.js";
 import { tool } from "./parts.js";
@@ -9,6 +10,7 @@ import { createGesture, createSlider } from "./slider.js";
 const PAUSE = 700;                       // ms after the last key until a text is sent
 const PATIENCE = 2500;                   // ms that a sent value stays on screen without an answer
 const LONG = 12;                         // letters that do not fit into the usual box
+const MANY = 8;                          // choices from which they are searched in a list
 const COUNTED = ["quantity", "number", "integer"];
 
 /** Whether a sent text says what the field now holds. */
@@ -41,7 +43,7 @@ function offerReset(reset, {given, default: usual, optional}, t) {
 /** What stands for a value: {input, show(field), text(), whole}; one that is not `whole` is typed in letter by letter. */
 function createControl(field, name, t) {
   const common = {"aria-label": name, class: "st-box"};
-  if (field.kind === "choice") {
+  if (field.kind === "choice" && field.choices.length <= MANY) {
     const choice = element("select", {...common, class: "st-select st-box"});
     const none = field.optional && field.default == null ? [element("option", {value: ""}, t("not set"))] : [];
     choice.append(...none, ...field.choices.map(name => element("option", {value: name}, t(String(name)))));
@@ -51,14 +53,17 @@ function createControl(field, name, t) {
     const flag = element("input", {...common, type: "checkbox", class: "st-flag"});
     return {input: flag, show: now => { flag.checked = now.value === true; }, text: () => String(flag.checked), whole: true};
   }
-  const named = field.key === "title";
+  const named = field.key === "title", many = field.kind === "choice" ? field.choices : field.suggestions || [];
+  const options = many.map(value => ({value: String(value), text: t(String(value))}));
   const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
   if (field.optional || field.value === null) box.placeholder = field.default ?? t("not set");
-  const counted = COUNTED.includes(field.kind), read = text => counted ? unitsRead(text) : named ? t(text) : text;
+  const counted = COUNTED.includes(field.kind), told = options.length > 0;
+  const read = text => counted ? unitsRead(text) : named || told ? t(text) : text, value = text => options.find(one => one.text === text)?.value ?? text;
   /** The text of the spec: a title that is shown in the language of the page is still the one of the spec. */
-  const text = () => counted ? unitsTyped(box.value) : named && box.value === read(spec) ? spec : box.value;
+  const text = () => counted ? unitsTyped(box.value) : named && box.value === read(spec) ? spec : value(box.value);
   let spec = "";
   function show(now) { spec = now.text ?? ""; if (box.value !== read(spec)) box.value = read(spec); }
+  if (told) createCombobox(box, options, name);
   return {input: box, show, text, whole: false};
 }
 
@@ -67,6 +72,7 @@ function createLook(row, {say, t}, back) {
   const {field} = row, control = createControl(field, row.name, t), {input} = control, message = messageOf(row.key);
   const toggle = () => say({what: "lock", key: row.key, on: !row.locked}), lock = tool("unlock", t("Lock: keep this value"), toggle);
   const reset = tool("reset", "", back);
+  reset.classList.add("st-reset");
   for (const made of [lock, reset]) made.tabIndex = -1;  // a field is one stop; its keys do the same
   input.setAttribute("aria-keyshortcuts", "Alt+L Alt+R");
   const root = element("label", {class: `st-field st-is-${field.kind}`, "data-testid": `field-${field.key}`, "data-key": field.key},
@@ -265,8 +271,11 @@ export function createRow(field, context) {
 /** A point or a pair: its parts side by side, each a field of its own. */
 export function createPair(field, context) {
   const {t, say} = context, name = context.chinese() && field.zh || field.label;
-  const rows = field.parts.map((part, index) => createRow({...part, zh: null, label: `${name} ${index + 1}`, hint: field.hint}, context));
+  const called = index => t(field.names?.[index] ?? String(index + 1));
+  const rows = field.parts.map((part, index) => createRow({...part, zh: null, label: `${name}: ${called(index)}`, hint: field.hint}, context));
+  rows.forEach((row, index) => { row.root.querySelector(".st-name").textContent = called(index); });
   const message = messageOf(field.key), reset = tool("reset", t("Back to the usual value"), () => say({what: "unset", key: field.key}));
+  reset.tabIndex = -1;
   const root = element("div", {class: "st-pair", role: "group", "aria-label": name, "data-testid": `field-${field.key}`, "data-key": field.key},
     element("div", {class: "st-pair-head"}, nameOf(field, name, t), element("span", {class: "st-tools"}, reset)),
     element("div", {class: "st-pair-parts"}, ...rows.map(row => row.root)), message);
