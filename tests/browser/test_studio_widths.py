@@ -11,6 +11,7 @@ PANES = ("form", "mechanism", "checks", "plots")
 # Handles lie where the points of the drawing are, which may be at one place.
 HIDDEN = """() => {
   const wanted = 'button, input, select, textarea, summary, a[href], [tabindex]', missed = [];
+  const name = node => node.dataset?.testid || node.className || node.tagName;
   const rendered = node => node.checkVisibility({visibilityProperty: true}) && node.getClientRects().length > 0;
   for (const node of document.querySelectorAll(wanted)) {
     if (!rendered(node) || node.disabled || node.matches('.hd, .sd-scroll, [type=file]')) continue;
@@ -18,7 +19,7 @@ HIDDEN = """() => {
     const box = node.getBoundingClientRect(), x = box.x + box.width / 2, y = box.y + box.height / 2;
     const hit = document.elementFromPoint(x, y);
     if (!hit || !(node === hit || node.contains(hit)))
-      missed.push(`${node.dataset.testid || node.className || node.tagName} under ${hit?.dataset?.testid || hit?.className || hit} at ${x | 0},${y | 0}`);
+      missed.push(`${name(node)} under ${hit && name(hit)} at ${x | 0},${y | 0}`);
   }
   return missed;
 }"""
@@ -29,16 +30,18 @@ OVERLAPS = """() => {
     const wide = Math.min(a.right, b.right) - Math.max(a.left, b.left), high = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
     if (wide > 1 && high > 1) found.push(`${places[n].className} and ${places[n + 1 + m].className}`);
   }));
-  for (const one of [document.scrollingElement, ...document.querySelectorAll('.st-bar, .st-panes, .st-scroll, .sd-scroll, .st-plots, .sd-exports, .dw-bar, .vw-tabs')])
+  const scrolling = '.st-bar, .st-panes, .st-scroll, .sd-scroll, .st-plots, .sd-exports, .dw-bar, .vw-tabs';
+  for (const one of [document.scrollingElement, ...document.querySelectorAll(scrolling)])
     if (one.scrollWidth > one.clientWidth + 1) found.push(`${one.className || one.tagName} is ${one.scrollWidth} in ${one.clientWidth}`);
-  boxes.forEach((a, n) => { if (a.right > innerWidth + 1 || a.bottom > innerHeight + 1) found.push(`${places[n].className} leaves the screen`); });
+  const leaves = box => box.right > innerWidth + 1 || box.bottom > innerHeight + 1;
+  boxes.forEach((box, n) => { if (leaves(box)) found.push(`${places[n].className} leaves the screen`); });
   return found;
 }"""
 
 
 @pytest.fixture(scope="module")
 def address():
-    with running(own_port(8420), EXAMPLES / "four_bar.toml") as (address, _):
+    with running(own_port(8477), EXAMPLES / "four_bar.toml") as (address, _):
         yield address
 
 
