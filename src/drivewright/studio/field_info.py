@@ -18,6 +18,8 @@ from drivewright.units import Dimension, split
 
 Raw: TypeAlias = Any  # a value as TOML has it
 KINDS = {bool: "flag", int: "integer", float: "number", str: "text", Path: "file"}
+AXES = ("x", "y", "z")
+VECTORS = ("mm", "m/s", "m/s^2", "N")  # units of quantities that have a direction
 ABSENT = object()  # where a key is not said
 
 
@@ -38,6 +40,8 @@ class FieldInfo:
     levels: tuple[Any, ...]
     items: "tuple[FieldInfo, ...]" = ()  # of a list or a `Named`: a FieldInfo for each entry where their number is fixed, else one for all
     fixed: bool = False
+    parts: tuple[str, ...] = ()  # what the entries of a pair or a point are called
+    suggestions: tuple[str, ...] = ()  # of a text: what it may be, among other things
     default_changes: tuple[tuple[str, Any], ...] = ()  # of a table: (key, raw value) where its default says something else than its class
 
     @property
@@ -84,6 +88,7 @@ def field_info_of(name: str, field: PydanticField) -> FieldInfo:
         default=default,
         example=example,
         own=own,
+        about=field,
     )
 
 
@@ -94,7 +99,7 @@ def _own(table: Spec) -> tuple[tuple[str, Any], ...]:
     return tuple((name, value) for name, value in own.items() if usual.get(name) != value)
 
 
-def _field_info(name, annotation, mark, limits, hint="", required=True, default=None, example=None, own=()):
+def _field_info(name, annotation, mark, limits, hint="", required=True, default=None, example=None, own=(), about=None):
     dimension = None if isinstance(mark, AnyUnit) else mark
     kind = _kind(annotation, mark)
     parts = () if table_of(annotation) else _parts(annotation)
@@ -109,6 +114,7 @@ def _field_info(name, annotation, mark, limits, hint="", required=True, default=
         )
         for n, part in enumerate(parts)
     )
+    fixed = kind == "list" and Ellipsis not in get_args(_bare(annotation))
     return FieldInfo(
         name,
         hint,
@@ -122,9 +128,26 @@ def _field_info(name, annotation, mark, limits, hint="", required=True, default=
         table_of(annotation),
         containers_of(annotation),
         items,
-        kind == "list" and Ellipsis not in get_args(_bare(annotation)),
+        fixed,
+        _part_names(about, items) if fixed else (),
+        _suggestions(about) if kind == "text" else (),
         own,
     )
+
+
+def _part_names(field: PydanticField | None, items: tuple[FieldInfo, ...]) -> tuple[str, ...]:
+    """What the parts of a pair are called: as its field says (`json_schema_extra={"parts": [...]}`), else x, y, z where it is a vector."""
+    extra = field.json_schema_extra if field is not None else None
+    if isinstance(extra, dict) and isinstance(named := extra.get("parts"), list):
+        return tuple(map(str, named))
+    vector = 1 < len(items) <= len(AXES) and all(item.dimension and item.dimension.display_unit in VECTORS for item in items)
+    return AXES[: len(items)] if vector else tuple(str(n + 1) for n in range(len(items)))
+
+
+def _suggestions(field: PydanticField | None) -> tuple[str, ...]:
+    """Several examples of a text are what one may choose from; a single one shows how it looks."""
+    examples = (field.examples if field is not None else None) or ()
+    return tuple(map(str, examples)) if len(examples) > 1 else ()
 
 
 def field_info_at(model: type[Spec], steps: Sequence[str]) -> FieldInfo | None:

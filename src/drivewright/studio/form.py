@@ -137,6 +137,7 @@ class _Maker:
             return _kept(info, value, key, label, zh, given, optional, self.slid(key))
         field = _field(info, value, key, label, zh, given, optional)
         if info.fixed and len(info.levels) == 1:
+            field["names"] = list(info.parts)
             entries = value if isinstance(value, list) and len(value) == len(info.items) else [None] * len(info.items)
             field["parts"] = [
                 self.field(part, entry, (*path, str(n)), (*pattern, str(n)), optional=False)
@@ -175,6 +176,7 @@ def _field(info, value, key, label, zh, given, optional, slid=None):
         "step": step,
         "slider": ends,
         "choices": list(info.choices),
+        "suggestions": list(info.suggestions),
     }
 
 

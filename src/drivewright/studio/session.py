@@ -337,7 +337,8 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset add drop put take undo redo lock text load preset fresh example open share reference pin job export save analyse"
+    "hello again set drag revert unset add drop put take undo redo lock text load preset "
+    "fresh example open share reference pin job export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 
@@ -366,6 +367,7 @@ def _offered(kinds):
             "kind": kind,
             "summary": registry.mechanism(kind).summary,
             "presets": _presets(kind),
+            "titles": translations.preset_titles(kind),
             "pictures": sorted(preset_pictures(kind)),
             "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
             "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],

@@ -9,6 +9,8 @@ from functools import cache
 from pathlib import Path
 
 from drivewright import registry
+from drivewright.report.worked_examples import cards
+from drivewright.spec import read_document
 
 LANGUAGE = "zh"
 
@@ -32,10 +34,18 @@ def texts(kind: str | None = None) -> dict[str, str]:
 
 
 def _introduction(kind):
-    """Texts about a kind before a design of it is open: its name, its summary, its presets."""
+    """Texts about a kind before a design of it is open: its name, its summary, its presets, titles of what a new design can start from."""
     known = registry.mechanism(kind)
     texts = _brought(kind).get("texts", {})
-    return _presets(kind) | {english: texts[english] for english in (_words_of_name(kind), known.summary) if english in texts}
+    titles = (*preset_titles(kind).values(), *(card.title for card in cards() if card.kind == kind))
+    return _presets(kind) | {english: texts[english] for english in (_words_of_name(kind), known.summary, *titles) if english in texts}
+
+
+@cache
+def preset_titles(kind: str) -> dict[str, str]:
+    """{preset: title of its spec}, of those that have one."""
+    tables = {name: read_document(path) for name, path in registry.mechanism(kind).presets().items()}
+    return {name: str(given["title"]) for name, given in tables.items() if given.get("title")}
 
 
 def _keys(kind):

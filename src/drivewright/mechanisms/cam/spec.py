@@ -226,7 +226,9 @@ class CamSpec(MechanismSpec):
     mechanism: Literal["cam"] = Field("cam", description="kind of drive")
     rotation: Sense = Field("counter-clockwise", description="sense of rotation of the cam")
     closure: Literal["force", "groove", "conjugate", "yoke"] = Field("force", description="closure: what keeps the follower on the cam")
-    material: Text = Field("16MnCr5", description=f"material of cam and follower: {', '.join(materials.names())}")
+    material: Text = Field(
+        "16MnCr5", description=f"material of cam and follower: {', '.join(materials.names())}", examples=list(materials.names())
+    )
     follower: Follower = Field(description="follower")
     valve: Valve | None = Field(None, description="second arm and valve of an oscillating follower")
     programme: tuple[Segment, ...] = Field(min_length=1, description="segments of one turn of the cam, in order")

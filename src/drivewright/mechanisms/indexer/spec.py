@@ -100,7 +100,11 @@ class IndexerContact(Spec):
     interference: Length = Field(
         "0 mm", ge=0, description="interference of rollers and cams at assembly; for parallel, barrel and globoidal"
     )
-    material: Text = Field("100Cr6", description=f"material of pins and cams, for the contact pressure: {', '.join(materials.names())}")
+    material: Text = Field(
+        "100Cr6",
+        description=f"material of pins and cams, for the contact pressure: {', '.join(materials.names())}",
+        examples=list(materials.names()),
+    )
 
 
 class IndexerBearings(Spec):
@@ -142,7 +146,10 @@ class IndexerShafts(Spec):
         gt=0, title="Last cam to rear support", description="distance from the last cam to the rear support", examples=["25 mm"]
     )
     diameters: tuple[Diameter, Diameter, Diameter, Diameter] = Field(
-        title="Shaft diameters", description="diameters over those four lengths", examples=[["20 mm", "25 mm", "30 mm", "25 mm"]]
+        title="Shaft diameters",
+        description="diameters over those four lengths",
+        examples=[["20 mm", "25 mm", "30 mm", "25 mm"]],
+        json_schema_extra={"parts": ["overhang", "front", "pitch", "rear"]},
     )
     youngs_modulus: Pressure = Field("206 GPa", gt=0, description="Young's modulus")
     shear_modulus: Pressure = Field("79.3 GPa", gt=0, description="shear modulus")

@@ -47,9 +47,13 @@ class Joint(Spec):
         description="BODY.POINT of both bodies; at a pin with clearance the first carries the bearing, the second the "
         "journal. gear, and the cam of a cam pair: BODY",
         examples=[["crank.A", "coupler.A"]],
+        json_schema_extra={"parts": ["first", "second"]},
     )
     axis: Direction = Field(
-        (1.0, 0.0), title="Direction of axis", description="direction of the line in the second body's frame (cam: in the carrier's)"
+        (1.0, 0.0),
+        title="Direction of axis",
+        description="direction of the line in the second body's frame (cam: in the carrier's)",
+        json_schema_extra={"parts": ["x", "y"]},
     )
     model: Model = Field(
         "ideal",

@@ -69,7 +69,10 @@ class LinkageSpring(Spec):
 
     name: Name | None = Field(None, description="name of the spring", examples=["return"])
     connects: tuple[Text, Text] = Field(
-        title="Connected points", description="end points, BODY.POINT", examples=[["crank.centroid", "ground.O2"]]
+        title="Connected points",
+        description="end points, BODY.POINT",
+        examples=[["crank.centroid", "ground.O2"]],
+        json_schema_extra={"parts": ["from", "to"]},
     )
     stiffness: Stiffness = Field("0 N/mm", ge=0, description="force per elongation")
     free_length: Length = Field("0 mm", ge=0, description="length without force")
@@ -268,7 +271,9 @@ class Deviation(Spec):
 
     at: Text = Field(title="Point", description="the point, BODY.POINT", examples=["crank.A"])
     tolerance: Length = Field(ge=0, description="maximum deviation in either direction", examples=["0.05 mm"])
-    axis: Direction = Field((1.0, 0.0), title="Direction", description="direction of the deviation in the body's frame")
+    axis: Direction = Field(
+        (1.0, 0.0), title="Direction", description="direction of the deviation in the body's frame", json_schema_extra={"parts": ["x", "y"]}
+    )
     distribution: Literal["uniform", "normal"] = Field(
         "uniform", description="distribution of the deviation; normal: the tolerance is three standard deviations"
     )

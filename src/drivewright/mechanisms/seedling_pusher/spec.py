@@ -139,15 +139,23 @@ class Contact(Spec):
     damping: Damping = Field("100 N s/m", ge=0, description="normal damping of each roller contact")
     clearance: Length = Field("0 mm", ge=0, description="normal clearance of each roller on its cam")
     turns: Integer = Field(3, ge=1, le=1000, description="carrier turns to simulate; results are those of the last one")
-    material: Text = Field("16MnCr5", description=f"material of cams and rollers: {', '.join(materials.names())}")
+    material: Text = Field(
+        "16MnCr5", description=f"material of cams and rollers: {', '.join(materials.names())}", examples=list(materials.names())
+    )
 
 
 class Limits(Spec):
     """Requirements of planting and of cam design; each becomes a check."""
 
-    take_angle: tuple[Angle, Angle] = Field(("5 deg", "25 deg"), description="allowed angles of the needle below the horizontal at taking")
+    take_angle: tuple[Angle, Angle] = Field(
+        ("5 deg", "25 deg"),
+        description="allowed angles of the needle below the horizontal at taking",
+        json_schema_extra={"parts": ["minimum", "maximum"]},
+    )
     push_angle: tuple[Angle, Angle] = Field(
-        ("60 deg", "80 deg"), description="allowed angles of the needle below the horizontal at pushing"
+        ("60 deg", "80 deg"),
+        description="allowed angles of the needle below the horizontal at pushing",
+        json_schema_extra={"parts": ["minimum", "maximum"]},
     )
     angle_difference: Angle = Field("55 deg", description="required difference of push and take angle: the slope of the seedling box")
     angle_difference_tolerance: Angle = Field("2 deg", gt=0, description="allowed deviation of that difference")

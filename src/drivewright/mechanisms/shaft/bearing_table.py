@@ -97,7 +97,9 @@ class Bearing(Spec):
         (), title="Free directions", description="free directions of the outer ring of a rolling bearing in its seat"
     )
     seat_offset: tuple[Length, Length] = Field(("0 mm", "0 mm"), description="offset of the seat from the common axis, x and y")
-    seat_tilt: tuple[Angle, Angle] = Field(("0 deg", "0 deg"), description="tilt of the seat about x and y")
+    seat_tilt: tuple[Angle, Angle] = Field(
+        ("0 deg", "0 deg"), description="tilt of the seat about x and y", json_schema_extra={"parts": ["about x", "about y"]}
+    )
     housing_stiffness: StiffnessOrRigid = Field(RIGID, description="radial stiffness of the housing, in series with the bearing")
     housing_axial_stiffness: StiffnessOrRigid = Field(RIGID, description="axial stiffness of the housing")
     width: Length = Field("0 mm", ge=0, description="width over which the reaction is uniformly distributed; 0 for a point")

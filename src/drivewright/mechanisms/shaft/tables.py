@@ -2,6 +2,7 @@
 
 from typing import Literal
 
+from drivewright import materials
 from drivewright.bearings.lubricant import Lubrication
 from drivewright.mechanisms.shaft.bearing_table import Bearing
 from drivewright.mechanisms.shaft.strength_tables import NotchTable, StrengthTable
@@ -31,7 +32,7 @@ class Material(Spec):
         None,
         title="Material card",
         description="material card that supplies the keys not given here: C45, 42CrMo4, 16MnCr5 ...",
-        examples=["C45"],
+        examples=["C45", *(name for name in materials.names() if name != "C45")],
     )
     youngs_modulus: Pressure | None = Field(
         None, gt=0, description="Young's modulus; default that of the card, else 206 GPa", examples=["206 GPa"]

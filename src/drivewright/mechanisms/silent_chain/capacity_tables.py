@@ -25,6 +25,7 @@ class Wear(Spec):
         description="minimum and maximum of the coefficient: elongation and life become intervals; their geometric mean is used if the "
         "coefficient is not given",
         examples=[["5e-8 mm^3/(N m)", "2e-7 mm^3/(N m)"]],
+        json_schema_extra={"parts": ["minimum", "maximum"]},
     )
     running_time: Time = Field(
         "0 s", ge=0, description="operating time of the chain; its elongation enters the closure and the running chain"

@@ -82,7 +82,11 @@ class Plate(Spec):
         examples=["3.773 mm"],
     )
     thickness: Length | None = Field(None, gt=0, description="thickness of a plate; default: 2 mm", examples=["2 mm"])
-    lacing: tuple[Integer, Integer] = Field((1, 2), description="number of plates side by side in one pitch and in the next")
+    lacing: tuple[Integer, Integer] = Field(
+        (1, 2),
+        description="number of plates side by side in one pitch and in the next",
+        json_schema_extra={"parts": ["one pitch", "the next"]},
+    )
     back: Length | None = Field(None, gt=0, description="height of the back above the pin line; default: 0.27 pitches", examples=["2.6 mm"])
     toe: Length | None = Field(
         None, lt=0, description="height of the toe ends relative to the pin line, negative; default: -0.63 pitches", examples=["-6 mm"]
@@ -431,7 +435,10 @@ class SilentChainSpec(MechanismSpec):
     pitch: Length | None = Field(None, gt=0, description="pitch of the straight chain; default: by the chain number", examples=["9.525 mm"])
     links: Integer = Field(ge=6, le=2000, title="Number of links", description="number of links (pitches)", examples=[82])
     teeth: tuple[Integer, Integer] = Field(
-        title="Numbers of teeth", description="numbers of teeth of the driving and the driven sprocket", examples=[[35, 37]]
+        title="Numbers of teeth",
+        description="numbers of teeth of the driving and the driven sprocket",
+        examples=[[35, 37]],
+        json_schema_extra={"parts": ["driving", "driven"]},
     )
     rows: Integer | None = Field(None, ge=1, le=8, description="number of rows side by side on common pins; default: 1", examples=[2])
     row_pitch: Length | None = Field(

@@ -28,17 +28,20 @@ export function createDesigns({store, t}, {fresh, example, close}) {
     made.append(element("span", {}, text), element("small", {}, hint));
     return made;
   }
-  const preset = (kind, pictures) => name => card(t(spoken(name)), t("preset"), `preset-${kind}-${name}`,
-    pictures.includes(name) && picture(`preset.${kind}.${name}.webp`, ""), () => fresh(kind, name));
+  const preset = ({kind, pictures = [], titles = {}}) => name => card(t(titles[name] || spoken(name)), `${t("preset")} · ${t(spoken(name))}`,
+    `preset-${kind}-${name}`, pictures.includes(name) && picture(`preset.${kind}.${name}.webp`, ""), () => fresh(kind, name));
   const worked = ({name, title, moving}) => card(t(title), t("worked example"), `example-${name}`,
     picture(`example.${name}.webp`, moving && `example.${name}.moving.webp`), () => example(name));
 
-  const group = ({kind, summary, presets, pictures = [], examples = []}) =>
-    element("div", {class: "st-kind", role: "group", "aria-label": kind},
+  const group = ({kind, summary, presets, examples = [], ...more}) =>
+    element("div", {class: "st-kind", role: "group", "aria-label": t(spoken(kind))},
       element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
-      element("div", {class: "st-cards"}, ...presets.map(preset(kind, pictures)), ...examples.map(worked)));
+      element("div", {class: "st-cards"}, ...presets.map(preset({kind, ...more})), ...examples.map(worked)));
   return () => (store.state.kinds || []).map(group);
 }
+
+/** Title of a preset of the design's kind, in English. */
+export const presetTitle = ({state: {kinds = [], design}}, name) => kinds.find(({kind}) => kind === design?.kind)?.titles?.[name] || spoken(name);
 
 /** The drawings that show the variant of the design: [{name, title}], [] where its kind has none. */
 export const drawingsOf = ({state: {kinds = [], design}}) =>

@@ -1,7 +1,8 @@
 // One field of the form: its box, slider, choice or flag; what is typed goes to the server, what the server says comes back into it.
 
+import { createCombobox } from "./combobox.js";
 import { icon } from "./icons.js";
-import { decimals, quantityOf, withUnit } from "./numbers.js";
+import { decimals, quantityOf, unitsRead, unitsTyped, withUnit } from "./numbers.js";
 import { tool } from "./parts.js";
 import { element } from "./player.js";
 import { createGesture, createSlider } from "./slider.js";
@@ -9,6 +10,7 @@ import { createGesture, createSlider } from "./slider.js";
 const PAUSE = 700;                       // ms after the last key until a text is sent
 const PATIENCE = 2500;                   // ms that a sent value stays on screen without an answer
 const LONG = 12;                         // letters that do not fit into the usual box
+const MANY = 8;                          // choices from which they are searched in a list
 const COUNTED = ["quantity", "number", "integer"];
 
 /** Whether a sent text says what the field now holds. */
@@ -33,14 +35,15 @@ function tell(message, root, refusal) {
 /** The button that takes a value back to the usual one is there where that is another. */
 function offerReset(reset, {given, default: usual, optional}, t) {
   reset.hidden = !given || usual == null && !optional;
-  reset.title = usual == null ? t("Leave it out") : `${t("Back to the usual value")}: ${usual}`;
-  reset.setAttribute("aria-label", reset.title);
+  const name = usual == null ? t("Leave it out") : `${t("Back to the usual value")}: ${usual}`;
+  reset.title = `${name} (Alt+R)`;
+  reset.setAttribute("aria-label", name);
 }
 
 /** What stands for a value: {input, show(field), text(), whole}; one that is not `whole` is typed in letter by letter. */
 function createControl(field, name, t) {
   const common = {"aria-label": name, class: "st-box"};
-  if (field.kind === "choice") {
+  if (field.kind === "choice" && field.choices.length <= MANY) {
     const choice = element("select", {...common, class: "st-select st-box"});
     const none = field.optional && field.default == null ? [element("option", {value: ""}, t("not set"))] : [];
     choice.append(...none, ...field.choices.map(name => element("option", {value: name}, t(String(name)))));
@@ -50,19 +53,39 @@ function createControl(field, name, t) {
     const flag = element("input", {...common, type: "checkbox", class: "st-flag"});
     return {input: flag, show: now => { flag.checked = now.value === true; }, text: () => String(flag.checked), whole: true};
   }
+  const named = field.key === "title", many = field.kind === "choice" ? field.choices : field.suggestions || [];
+  const options = many.map(value => ({value: String(value), text: t(String(value))}));
   const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
   if (field.optional || field.value === null) box.placeholder = field.default ?? t("not set");
-  return {input: box, show: now => { if (box.value !== now.text) box.value = now.text ?? ""; }, text: () => box.value, whole: false};
+  const counted = COUNTED.includes(field.kind), told = options.length > 0;
+  const read = text => counted ? unitsRead(text) : named || told ? t(text) : text, value = text => options.find(one => one.text === text)?.value ?? text;
+  /** The text of the spec: a title that is shown in the language of the page is still the one of the spec. */
+  const text = () => counted ? unitsTyped(box.value) : named && box.value === read(spec) ? spec : value(box.value);
+  let spec = "";
+  function show(now) { spec = now.text ?? ""; if (box.value !== read(spec)) box.value = read(spec); }
+  if (told) createCombobox(box, options, name);
+  return {input: box, show, text, whole: false};
 }
 
 /** The elements of a row, and how they look when it is locked, refused or given; `back()` takes it to its usual value. */
 function createLook(row, {say, t}, back) {
   const {field} = row, control = createControl(field, row.name, t), {input} = control, message = messageOf(row.key);
-  const lock = tool("unlock", t("Lock: keep this value"), () => say({what: "lock", key: row.key, on: !row.locked})), reset = tool("reset", "", back);
+  const toggle = () => say({what: "lock", key: row.key, on: !row.locked}), lock = tool("unlock", t("Lock: keep this value"), toggle);
+  const reset = tool("reset", "", back);
+  reset.classList.add("st-reset");
+  for (const made of [lock, reset]) made.tabIndex = -1;  // a field is one stop; its keys do the same
+  input.setAttribute("aria-keyshortcuts", "Alt+L Alt+R");
   const root = element("label", {class: `st-field st-is-${field.kind}`, "data-testid": `field-${field.key}`, "data-key": field.key},
     input, nameOf(field, row.name, t), element("span", {class: "st-tools"}, reset, lock), message);
   return {
     root, input, control,
+    /** The keys of the two buttons: Alt with L and R.  Whether the event was one of them. */
+    shortcut(event) {
+      const act = {KeyL: toggle, KeyR: () => reset.hidden || back()}[event.code];
+      if (!act || !event.altKey || event.ctrlKey) return false;
+      act();
+      return true;
+    },
     slide(slider) { message.before(slider.root); root.classList.add("st-slid"); },
     refuse(refusal) {
       tell(message, root, refusal);
@@ -72,8 +95,9 @@ function createLook(row, {say, t}, back) {
       root.classList.toggle("st-locked", locked);
       if (control.whole) input.disabled = locked; else input.readOnly = locked;
       lock.replaceChildren(icon(locked ? "lock" : "unlock"));
-      lock.title = t(locked ? "Locked; click to free it" : "Lock: keep this value");
-      lock.setAttribute("aria-label", lock.title); lock.setAttribute("aria-pressed", String(locked));
+      const name = t(locked ? "Locked; click to free it" : "Lock: keep this value");
+      lock.title = `${name} (Alt+L)`;
+      lock.setAttribute("aria-label", `${name}: ${row.name}`); lock.setAttribute("aria-pressed", String(locked));
     },
     give(field) {
       root.classList.toggle("st-given", field.given);
@@ -94,11 +118,13 @@ export function createRow(field, context) {
   const {send, say, t} = context, counted = COUNTED.includes(field.kind), gesture = createGesture(field.key);
   const row = {key: field.key, field, name: context.chinese() && field.zh || field.label, refusal: null, locked: false, update, held};
   const look = createLook(row, context, () => { settle(); say({what: "unset", key: row.key}); }), {root, input, control} = look;
-  let slider = null, typed = false, sent = null, before = "", original = "", waiting = 0, patience = 0;
+  let slider = null, typed = false, sent = null, before = "", original = "", waiting = 0, patience = 0, last = null;  // text of this edit that was sent last
   row.root = root;
 
   // ---- from the server
   function held() { return typed || Boolean(slider?.dragging); }
+  /** What is in the box as the spec has it. */
+  const written = () => control.text();
   function answered() {
     if (sent === null) return true;
     return slider?.dragging ? false : agrees(row.field, sent) || (!counted && row.field.text !== before);
@@ -153,20 +179,29 @@ export function createRow(field, context) {
   }
   function moved(text, id) {
     settle();
-    if (input.value !== text) input.value = text;
+    if (written() !== text) input.value = unitsRead(text);
     sent = text;
     send({what: "set", key: row.key, text, gesture: id}, false);
   }
-  function ended() { context.flush(); if (sent !== null) expect(sent); context.released(); }
+  function ended() {
+    context.flush();
+    if (sent !== null) expect(sent);
+    show();  // the answer may have come already
+    context.released();
+  }
   function settle() { typed = false; clearTimeout(waiting); delete input.dataset.unsent; }
   function commit() {
-    const text = control.text(), known = sent ?? row.refusal?.text;
+    const text = written(), known = sent ?? row.refusal?.text;
     clearTimeout(waiting);
     delete input.dataset.unsent;
     if (known == null ? agrees(row.field, text) : text === known) return;
+    if (last === null || !text.startsWith(last) && !last.startsWith(text)) gesture.begin();  // not a number that is typed on
+    last = text;
     if (!text.trim() && (row.field.optional || row.field.default != null)) say({what: "unset", key: row.key});
     else { expect(text); send({what: "set", key: row.key, text, gesture: gesture.current()}, true); }
   }
+  /** The edit is over: the next one is another step of undo. */
+  function finish() { last = null; gesture.end(); }
   function choose() {
     const text = control.text();
     gesture.begin();
@@ -176,7 +211,8 @@ export function createRow(field, context) {
   function restore() {
     const back = original;
     settle();
-    input.value = back;
+    last = null;
+    input.value = counted ? unitsRead(back) : back;
     if (row.refusal || sent !== null || row.field.text !== back) {
       sent = null;
       say({what: "set", key: row.key, text: back, gesture: gesture.current()});
@@ -185,20 +221,23 @@ export function createRow(field, context) {
   }
   /** Arrow keys in a box: the number in it, one step on; ten with Shift. */
   function nudge(times) {
-    const found = quantityOf(input.value), step = row.field.step || 1;
+    const found = quantityOf(written()), step = row.field.step || 1;
     if (!found) return;
-    input.value = withUnit(Number((found[0] + step * times).toFixed(decimals(Math.abs(step)))), found[1]);
+    const text = withUnit(Number((found[0] + step * times).toFixed(decimals(Math.abs(step)))), found[1]);
+    input.value = unitsRead(text);
     typed = true;
-    expect(input.value);
-    send({what: "set", key: row.key, text: input.value, gesture: gesture.next()}, false);
+    last = null;
+    expect(text);
+    send({what: "set", key: row.key, text, gesture: gesture.next()}, false);
   }
 
   // ---- from the user
   function keys(event) {
     const undo = (event.ctrlKey || event.metaKey) && "zy".includes(event.key.toLowerCase()), way = {ArrowUp: 1, ArrowDown: -1}[event.key];
     if (undo && input.dataset.unsent === undefined) settle();
-    else if (event.key === "Enter") { commit(); settle(); show(); input.select(); }
+    else if (event.key === "Enter") { commit(); finish(); settle(); show(); input.select(); }
     else if (event.key === "Escape") { event.preventDefault(); restore(); }
+    else if (look.shortcut(event)) event.preventDefault();
     else if (counted && way && !row.locked) { event.preventDefault(); nudge(way * (event.shiftKey ? 10 : 1)); }
   }
   function type() {
@@ -210,10 +249,14 @@ export function createRow(field, context) {
   function leave() {
     if (context.moving) return;
     if (typed) commit();
-    settle(); show(); context.released();
+    finish(); settle(); show(); context.released();
   }
   function listen() {
-    if (control.whole) { input.addEventListener("change", choose); return; }
+    if (control.whole) {
+      input.addEventListener("change", choose);
+      input.addEventListener("keydown", event => { if (look.shortcut(event)) event.preventDefault(); });
+      return;
+    }
     input.addEventListener("focus", () => { if (!context.moving) gesture.end(); });
     input.addEventListener("input", type);
     input.addEventListener("blur", leave);
@@ -228,8 +271,11 @@ export function createRow(field, context) {
 /** A point or a pair: its parts side by side, each a field of its own. */
 export function createPair(field, context) {
   const {t, say} = context, name = context.chinese() && field.zh || field.label;
-  const rows = field.parts.map((part, index) => createRow({...part, zh: null, label: `${name} ${index + 1}`, hint: field.hint}, context));
+  const called = index => t(field.names?.[index] ?? String(index + 1));
+  const rows = field.parts.map((part, index) => createRow({...part, zh: null, label: `${name}: ${called(index)}`, hint: field.hint}, context));
+  rows.forEach((row, index) => { row.root.querySelector(".st-name").textContent = called(index); });
   const message = messageOf(field.key), reset = tool("reset", t("Back to the usual value"), () => say({what: "unset", key: field.key}));
+  reset.tabIndex = -1;
   const root = element("div", {class: "st-pair", role: "group", "aria-label": name, "data-testid": `field-${field.key}`, "data-key": field.key},
     element("div", {class: "st-pair-head"}, nameOf(field, name, t), element("span", {class: "st-tools"}, reset)),
     element("div", {class: "st-pair-parts"}, ...rows.map(row => row.root)), message);

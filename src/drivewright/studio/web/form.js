@@ -1,5 +1,6 @@
 // The left column: the design as a form or as text, a search box, and what was refused without a field.
 
+import { createDock } from "./dock.js";
 import { createFields } from "./fields.js";
 import { icon } from "./icons.js";
 import { pressable } from "./parts.js";
@@ -15,6 +16,7 @@ export function createForm(host, {store, say, t}) {
   const head = element("div", {class: "st-form-head"});
   const strip = element("div", {class: "st-strip", role: "alert", "data-testid": "message-", hidden: ""});
   const fields = createFields(panes.form, {store, say, t}, () => { if (box?.value) fields.search(box.value); });
+  const dock = createDock({store, t});
   let text = null, tab = "form", tabs = {}, box = null;
 
   // ---- the head
@@ -53,7 +55,7 @@ export function createForm(host, {store, say, t}) {
   }
   function buildHead() {
     const row = element("div", {class: "st-tabs", role: "tablist"}, tabButton("form", t("Form")), tabButton("text", t("Text")));
-    head.replaceChildren(row, searchBox());
+    head.replaceChildren(row, searchBox(), dock.button());
   }
 
   // ---- what stands below it
@@ -78,8 +80,8 @@ export function createForm(host, {store, say, t}) {
     choose(tab);
     fields.restart();
   }
-  host.append(element("div", {class: "st-form-pane"}, head, strip, panes.form, panes.text));
+  host.append(element("div", {class: "st-form-pane"}, head, dock.node, strip, panes.form, panes.text));
   const stops = [store.on(["lang"], restart), store.on(["focus"], ({focus}) => { if (focus) { choose("form"); fields.focus(focus); } }),
     store.on(["design", "refused"], () => { fields.show(); showStrip(); showText(); })];
-  return {destroy() { for (const stop of stops) stop(); fields.destroy(); host.replaceChildren(); }};
+  return {destroy() { for (const stop of stops) stop(); fields.destroy(); dock.stop(); host.replaceChildren(); }};
 }

@@ -1,12 +1,14 @@
 // The bar at the top: what is open, new drives and presets, undo, files, sharing, comparing, theme and language.
 
-import { createDesigns, drawings, drawingsOf, spoken } from "./designs.js";
+import { createDesigns, drawings, drawingsOf, presetTitle, spoken } from "./designs.js";
 import { acceptFiles } from "./files.js";
 import { icon, mark } from "./icons.js";
+import { createOverflow } from "./overflow.js";
 import { createPopovers, pressable, put, themeOf } from "./parts.js";
 import { element } from "./player.js";
 
 const NOTICE = 12000;  // ms that a complaint stays
+const LOOPBACK = /^(localhost|127\.\d+\.\d+\.\d+|\[::1\])$/;
 
 const alike = (one, other) => spoken(one).toLowerCase() === spoken(other).toLowerCase();
 
@@ -16,9 +18,10 @@ function typing(active) {
   return active.dataset.unsent !== undefined || !active.classList.contains("st-box");
 }
 
-/** A button of the bar: a sign, a word, or both. */
-function button({id, sign, title, text, look = "", ...more}, act) {
-  const inside = [...(sign ? [icon(sign)] : []), ...(text ? [element("span", {class: "st-word"}, text)] : [])];
+/** A button of the bar: a sign, a word, or both; `long` is the word beside a sign where there is room. */
+function button({id, sign, title, text, long, look = "", ...more}, act) {
+  const word = (name, given) => given ? [element("span", {class: name}, given)] : [];
+  const inside = [...(sign ? [icon(sign)] : []), ...word("st-word", text), ...word("st-long-word", long)];
   const named = {class: `st-button${look && ` st-${look}`}`, title, "aria-label": title, "data-testid": id || false};
   return pressable({...named, ...more}, act, ...inside);
 }
@@ -40,7 +43,7 @@ function createMenus({store, say, t}, popovers) {
     const pin = item(t(reference ? "Pin this design instead" : "Pin this design"), t("later changes are seen against it"), compare({with: "this"}));
     const stop = reference ? [item(t("Stop comparing"), reference.title, compare({with: "none"}))] : [];
     const head = presets.length ? [element("div", {class: "st-item-head"}, t("Compare with a preset"))] : [];
-    return [pin, ...stop, ...head, ...presets.map(name => item(t(spoken(name)), "", compare({with: "preset", name})))];
+    return [pin, ...stop, ...head, ...presets.map(name => item(t(presetTitle(store, name)), t(spoken(name)), compare({with: "preset", name})))];
   }
   /** The address of the design, to be copied. */
   function sharing({url}) {
@@ -53,7 +56,14 @@ function createMenus({store, say, t}, popovers) {
       try { await navigator.clipboard.writeText(url); } catch { document.execCommand("copy"); }
       made.firstChild.textContent = t("Copied");
     });
-    return [element("p", {class: "st-item-hint"}, t("This address holds the whole design")), element("div", {class: "st-share"}, box, copy)];
+    const file = button({title: t("Save the design as a file"), sign: "save", text: t("Save as a file"), id: "share-file"}, () => {
+      popovers.close(true);
+      say({what: "save"});
+    });
+    const here = LOOPBACK.test(location.hostname), words = here ? t("This address works on this machine only, while the studio runs. To send the design to somebody, send the file.")
+      : t("This address holds the whole design. It works where this studio can be reached; the file works everywhere.");
+    return [element("p", {class: "st-item-hint", "data-testid": "share-hint"}, words), element("div", {class: "st-share"}, box, copy),
+      element("div", {class: "st-share"}, file)];
   }
   return {comparing, sharing};
 }
@@ -66,7 +76,7 @@ export function createHead(host, {store, say, t}) {
   const designs = createDesigns({store, t}, {fresh, example, close: () => popovers.close(true)});
   const bar = element("div", {class: "st-bar"}), notice = element("div", {class: "st-notice", role: "alert", hidden: ""});
   const files = acceptFiles({say, t, tell});
-  let parts = {}, chosen = "", asked = false, failed = "", hide = 0;
+  let parts = {}, overflow = null, chosen = "", asked = false, failed = "", hide = 0;
 
   /** Shows a complaint below the bar for a while. */
   function tell(message) {
@@ -97,8 +107,8 @@ export function createHead(host, {store, say, t}) {
     dot: element("span", {class: "st-dot", title: t("not saved yet")}), preset: presetChoice(),
     fresh: button({id: "new", sign: "plus", title: t("New design"), text: t("New"), ...hanging("menu")},
       made => popovers.toggle(made, "menu", t("New design"), designs)),
-    keys: button({id: "keys", sign: "ruler", title: t("What the keys measure"), ...hanging("dialog")},
-      made => popovers.toggle(made, "dialog", t("What the keys measure"), () => drawings(store, t))),
+    keys: button({id: "keys", sign: "ruler", title: t("What the keys measure"), long: t("What the keys measure"), ...hanging("dialog")},
+      made => popovers.toggle(made, "dialog", t("What the keys measure"), () => drawings(store))),
     undo: button({id: "undo", sign: "undo", title: `${t("Undo")} (Ctrl+Z)`}, () => say({what: "undo"})),
     redo: button({id: "redo", sign: "redo", title: `${t("Redo")} (Ctrl+Y)`}, () => say({what: "redo"})),
   });
@@ -109,32 +119,35 @@ export function createHead(host, {store, say, t}) {
       made => popovers.toggle(made, "menu", t("Compare"), menus.comparing)),
   });
   const exchange = () => ({
-    open: button({id: "open", sign: "open", title: `${t("Open a design and its data files")} (Ctrl+O)`}, files.pick),
+    open: button({id: "open", sign: "open", title: `${t("Open a design and its data files")} (Ctrl+O)`, long: t("Open a file")}, files.pick),
     save: button({id: "save", sign: "save", title: `${t("Save the design as a file")} (Ctrl+S)`}, () => say({what: "save"})),
-    share: button({id: "share", sign: "share", title: t("Share as an address"), ...hanging("dialog")}, () => { asked = true; say({what: "share"}); }),
+    share: button({id: "share", sign: "share", title: t("Share as an address"), long: t("Share"), ...hanging("dialog")},
+      () => { asked = true; say({what: "share"}); }),
     report: button({id: "report", sign: "report", title: t("Download the report"), text: t("Report")},
       () => say({what: "job", name: "report", options: {}})),
   });
   const taste = () => ({
-    theme: button({id: "theme", title: t("Light or dark")}, () => store.set({theme: themeOf(store.state) === "dark" ? "light" : "dark"})),
+    theme: button({id: "theme", sign: "moon", title: t("Light or dark"), long: t("Light or dark")},
+      () => store.set({theme: themeOf(store.state) === "dark" ? "light" : "dark"})),
     language: languageButton(),
   });
 
   function build() {
-    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste()};
+    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste(),};
     popovers.close(false);
+    overflow?.stop();
+    overflow = createOverflow(t, [rule(), p.preset, held(p.keys), element("i", {class: "st-space"}),
+      held(element("div", {class: "st-split"}, p.compare, p.more)), rule(), p.open, held(p.share), p.report, rule(), p.theme, p.language]);
     bar.replaceChildren(
       element("div", {class: "st-brand"}, mark(), element("b", {}, "Drivewright")), rule(),
-      element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.preset, held(p.keys), rule(), p.undo, p.redo,
-      element("i", {class: "st-space"}), held(element("div", {class: "st-split"}, p.compare, p.more)), rule(),
-      p.open, p.save, held(p.share), p.report, rule(), p.theme, p.language);
+      element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.undo, p.redo, p.save, overflow.button, overflow.list);
     files.reword();
     showDesign(); showReference(); showJobs(); showTheme();
   }
 
   // ---- what they show
   function showPresets(design) {
-    const names = design.presets || [], key = names.join("\n"), option = name => element("option", {value: name}, t(spoken(name)));
+    const names = design.presets || [], key = names.join("\n"), option = name => element("option", {value: name}, t(presetTitle(store, name)));
     if (parts.preset.dataset.names !== key) {
       parts.preset.dataset.names = key;
       parts.preset.replaceChildren(element("option", {value: "", disabled: "", hidden: ""}, t("Preset")), ...names.map(option));
@@ -166,7 +179,7 @@ export function createHead(host, {store, say, t}) {
     if (text && text !== failed) tell(text);
     failed = text;
   }
-  function showTheme() { parts.theme.replaceChildren(icon(themeOf(store.state) === "dark" ? "sun" : "moon")); }
+  function showTheme() { parts.theme.firstChild.replaceWith(icon(themeOf(store.state) === "dark" ? "sun" : "moon")); }
   function showShared() {
     if (!asked || !store.state.shared) return;
     asked = false;
@@ -189,5 +202,5 @@ export function createHead(host, {store, say, t}) {
   host.append(bar, files.picker, notice, files.drop);
   stops.push(store.on(["lang"], build), store.on(["design"], showDesign), store.on(["reference"], showReference), store.on(["jobs"], showJobs),
     store.on(["theme"], showTheme), store.on(["shared"], showShared));
-  return {destroy() { clearTimeout(hide); popovers.destroy(); files.stop(); for (const stop of stops) stop(); host.replaceChildren(); }};
+  return {destroy() { clearTimeout(hide); popovers.destroy(); overflow?.stop(); files.stop(); for (const stop of stops) stop(); host.replaceChildren(); }};
 }

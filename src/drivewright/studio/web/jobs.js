@@ -113,12 +113,15 @@ function best(answer, {say, t, store}) {
   const found = folded(t("Unknowns"), answer.unknowns.length, ...unknowns, ...answer.findings.map(text => element("p", {class: "pn-note"}, t(text))));
   const load = button(t("Load best"), () => say({what: "load", changes: answer.changes}), {testid: "load-best", look: "main"});
   const front = answer.front.rows.length > 1 ? [button(t("Show the trade-off"), () => store.set({view: "study"}))] : [];
-  return [head, element("p", {class: "pn-note"}, t(answer.message)), ...goals, ...needs, found, element("div", {class: "pn-row"}, load, ...front)];
+  return [head, element("div", {class: "pn-row"}, load, ...front), element("p", {class: "pn-note"}, t(answer.message)), ...goals, ...needs, found];
 }
 
 export function createOptimise(host, tools) {
   const {t, store} = tools, meaning = t("Searches the unlocked dimensions for the best design that meets its requirements.");
-  const done = answer => [...(answer.history.length > 1 ? [sparkline(answer.history, t)] : []), ...best(answer, tools)];
+  const done = answer => {
+    requestAnimationFrame(() => host.scrollIntoView({block: "nearest"}));  // what was found, and the button that takes it
+    return [...(answer.history.length > 1 ? [sparkline(answer.history, t)] : []), ...best(answer, tools)];
+  };
   return createJob(host, "optimise", t("Optimise"), meaning, tools, answer => answer.changes ? done(answer) : soFar(answer, t),
     () => ({theme: themeOf(store.state)}));
 }

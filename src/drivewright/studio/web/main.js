@@ -2,6 +2,7 @@
 
 import { createForm } from "./form.js";
 import { createHead } from "./head.js";
+import { createPanes } from "./panes.js";
 import { createClock, createPlayer, element } from "./player.js";
 import { createPlots } from "./plots.js";
 import { createSide } from "./side.js";
@@ -18,7 +19,7 @@ const PLACES = [["header", "head", createHead], ["aside", "form", createForm], [
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
-    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", shared: null, focus: null, notice: "", ...taste()});
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, focus: null, notice: "", ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
   const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside
@@ -26,8 +27,12 @@ export function start(host, page) {
   const tools = {store, say, t, clock, createPlayer};
 
   const places = PLACES.map(([tag, name]) => element(tag, {class: `st-${name}`}));
-  host.replaceChildren(element("div", {class: "st"}, ...places));
-  const begin = () => PLACES.forEach(([, , create], n) => parts.push(create(places[n], tools)));
+  const row = element("div", {class: "st-panes"}), frame = element("div", {class: "st"}, ...places, row);
+  host.replaceChildren(frame);
+  function begin() {
+    PLACES.forEach(([, , create], n) => parts.push(create(places[n], tools)));
+    parts.push(createPanes(row, tools, frame, Object.fromEntries(PLACES.map(([, name], n) => [name, places[n]]))));
+  }
   const socket = joined(page, createEar(store, () => parts.length || begin()), store);
 
   const root = document.documentElement;
@@ -102,7 +107,7 @@ function createEar(store, begin) {
     result: ({gen, full, result}) => gen >= since && store.set({result: {...result, gen, full}}),
     differences: ({differences}) => state.result && store.set({result: {...state.result, differences}}),
     reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
-    work: message => store.set({work: message.state === "lost" ? IDLE : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
+    work: message => store.set({work: message.state === "lost" ? {...IDLE, state: "lost"} : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
     job: ({name, ...news}) => {
       store.set({jobs: {...state.jobs, [name]: {...state.jobs[name], ...news}}});
       if (news.state === "done") news.answer?.files?.forEach(fetched);

@@ -22,6 +22,14 @@ export const decimals = step => Math.min(Math.max(0, -Math.floor(Math.log10(step
 /** "60 rpm", as it is typed into a box. */
 export const withUnit = (number, unit) => unit ? `${number} ${unit}` : String(number);
 
+const POWERS = {"^2": "²", "^3": "³", "^-1": "⁻¹", "^-2": "⁻²", "^-3": "⁻³"}, TYPED_POWERS = Object.fromEntries(Object.entries(POWERS).map(([a, b]) => [b, a]));
+
+/** A typed quantity as it is read: "3 kg m^2" is "3 kg·m²". */
+export const unitsRead = text => text.replace(/\^-?[23](?!\d)|\^-1(?!\d)/g, power => POWERS[power] || power).replace(/(?<=[A-Za-zµ²³]) (?=[A-Za-zµ])/g, "·");
+
+/** And back, as a spec has it. */
+export const unitsTyped = text => text.replace(/⁻?[¹²³]/g, power => TYPED_POWERS[power] || power).replace(/\s*·\s*/g, " ");
+
 /** What stands behind a number that is shown. */
 export const unitText = unit => !unit || unit === "-" ? "" : unit === "deg" ? "°" : unit.startsWith("°") ? unit : `\u00a0${unit}`;
 

@@ -13,7 +13,8 @@ const LATE = 150;  // ms of work that nobody needs to be told of
 
 /** Verdict pill, what is under way, and the strip of what went wrong beside the design: a process that died, a connection that is lost. */
 function createState({store, say, t}) {
-  const title = element("h2", {}, t("Design checks")), pill = element("span", {class: "sd-pill", "data-testid": "verdict", role: "status"});
+  const title = element("h2", {class: "sd-state"}, t("Design checks"));
+  const pill = element("span", {class: "sd-pill", "data-testid": "verdict", role: "status"}), before = element("span", {class: "sd-before"});
   const part = element("i", {}), bar = element("div", {class: "sd-work", "data-testid": "progress-look"}, part);
   const cancel = button(t("Cancel"), () => say({what: "cancel", name: "look"}), {testid: "cancel-look", look: "quiet"});
   const wrong = element("span"), close = button(t("Close"), () => store.set({notice: ""}), {look: "quiet"});
@@ -21,7 +22,7 @@ function createState({store, say, t}) {
   const again = button(t("Analyse"), () => say({what: "analyse"}), {testid: "analyse", look: "quiet"});
   const longer = button(t("Run it longer"), () => say({what: "analyse", longer: true}), {testid: "analyse-longer", look: "quiet"});
   const words = element("span", {class: "pn-words"}), line = element("div", {class: "sd-line"}, words, cancel, again, longer);
-  const node = element("div", {class: "sd-top"}, element("div", {class: "sd-title"}, title, pill), line, bar, strip);
+  const node = element("div", {class: "sd-top"}, element("div", {class: "sd-title"}, title, pill, before), line, bar, strip);
   let timer = 0;
   cancel.hidden = again.hidden = longer.hidden = true;
   function working(on) {
@@ -52,14 +53,23 @@ function createState({store, say, t}) {
     close.hidden = !notice;
     put(wrong, text && t(text));
   }
+  /** Whether the analyses of the newest design are still to come. */
+  function computing() {
+    const {result, work, refused} = store.state, over = ["stopped", "over", "lost"].includes(work?.state);
+    return !over && (result ? !result.unsolved && (!result.full || Boolean(result.verdict.stale)) : !Object.keys(refused || {}).length);
+  }
+  /** A verdict that a change has overtaken stays beside what is said now, dim. */
   function verdict({result}) {
-    const given = result?.verdict, stale = given?.stale;
-    pill.className = `sd-pill is-${given?.state || "none"}${stale ? " is-stale" : ""}`;
-    pill.dataset.state = given?.state || "";
-    put(pill, given ? t(given.text) : t("no result yet"));
+    const given = result?.verdict, old = given?.stale && !result.unsolved, busy = computing();
+    const now = busy ? t("computing …") : old ? t("out of date") : given ? t(given.text) : t("no result yet");
+    pill.className = `sd-pill is-${busy || old ? "none" : given?.state || "none"}`;
+    pill.dataset.state = busy ? "computing" : old ? "stale" : given?.state || "";
+    put(pill, now);
+    before.className = `sd-before is-${given?.state || "none"}`;
+    put(before, (busy || old) && given ? t(given.text) : "");
     if (!node.classList.contains("is-working")) put(words, settled());
   }
-  return {node, stops: [store.on(["work"], work), store.on(["work", "notice"], trouble), store.on(["result"], verdict), () => clearTimeout(timer)]};
+  return {node, stops: [store.on(["work"], work), store.on(["work", "notice"], trouble), store.on(["result", "work", "refused"], verdict), () => clearTimeout(timer)]};
 }
 
 // ---------------------------------------------------------------------------------------------------- key numbers, findings
@@ -140,12 +150,24 @@ function section(name, title) {
 /** A row of words that lead to the sections; the one in view is marked. */
 function createJumps(scroll, sections, t) {
   const words = {checks: t("Checks"), numbers: t("Numbers"), sensitivity: t("Sensitivity"), optimise: t("Optimise"), study: t("Study")};
-  const placeOf = part => part.node.offsetTop - scroll.offsetTop;
-  const links = sections.map(part => button(words[part.name], () => { scroll.scrollTop = placeOf(part); }, {look: "jump"}));
+  const placeOf = part => part.node.offsetTop - scroll.offsetTop, there = part => !part.node.classList.contains("is-empty");
+  const most = () => scroll.scrollHeight - scroll.clientHeight;
+  let chosen = -1, stand = 0;  // the section that was asked for, and where that put the column
+  const links = sections.map((part, n) => button(words[part.name], () => {
+    scroll.scrollTop = placeOf(part);
+    chosen = n; stand = scroll.scrollTop;
+    observe();
+  }, {look: "jump"}));
+  /** The section that is read: the line that counts goes from the top of the column to its end as one scrolls. */
+  function current() {
+    if (chosen >= 0 && Math.abs(scroll.scrollTop - stand) < 2) return chosen;
+    chosen = -1;
+    const line = scroll.scrollTop + 8 + (most() > 0 ? scroll.scrollTop / most() : 0) * (scroll.clientHeight - 16);
+    return sections.findLastIndex(part => there(part) && placeOf(part) <= line);
+  }
   function observe() {
-    const end = scroll.scrollTop + scroll.clientHeight >= scroll.scrollHeight - 2 && scroll.scrollTop > 0;
-    const at = end ? sections.length - 1 : sections.filter(part => placeOf(part) <= scroll.scrollTop + 8).length - 1;
-    links.forEach((link, n) => link.setAttribute("aria-current", String(n === Math.max(at, 0))));
+    const at = Math.max(current(), 0);
+    links.forEach((link, n) => { link.setAttribute("aria-current", String(n === at)); link.hidden = !there(sections[n]); });
   }
   const sized = new ResizeObserver(observe);
   scroll.addEventListener("scroll", observe, {passive: true});

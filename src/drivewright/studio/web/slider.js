@@ -31,7 +31,8 @@ const short = value => String(Number(value.toPrecision(4)));
 
 /** A slider for a row of the form, `bounds` holding the ends that were typed.  `moved(text, gesture)` while it moves, `ended()` after. */
 export function createSlider(row, {bounds, t, moved, ended}) {
-  const range = element("input", {type: "range", class: "st-range", "data-testid": `slider-${row.key}`, "aria-label": row.name});
+  const range = element("input", {type: "range", class: "st-range", "data-testid": `slider-${row.key}`, "aria-label": row.name,
+    tabindex: -1});  // the arrow keys of the box do the same
   const ends = ["low", "high"].map((side, index) => pressable({class: `st-bound st-bound-${side}`, tabindex: "-1",
     title: t("Click to type another end of the slider")}, end => typeBound(end, index)));
   const slider = {root: element("div", {class: "st-slide"}, range, ...ends), range, dragging: false, show}, gesture = createGesture(row.key);

@@ -1,0 +1,85 @@
+// A text box with a list of what may stand in it: typing searches the list, arrow keys walk through it, Enter takes one.
+
+import { element } from "./player.js";
+
+const HIGH = 260;  // px that the list takes at most
+
+let lists = 0;
+
+/** Makes `input` a combobox over `options`, [{value, text}]; what is picked is typed into it and committed with Enter. */
+export function createCombobox(input, options, name) {
+  const id = `st-list-${++lists}`;
+  const list = element("ul", {class: "st-list", role: "listbox", id, "aria-label": name});
+  let open = false, shown = [], active = -1;
+
+  for (const [key, value] of Object.entries({role: "combobox", "aria-autocomplete": "list", "aria-expanded": "false", "aria-controls": id}))
+    input.setAttribute(key, value);
+  input.classList.add("st-combo");
+
+  // ---- the list
+  function place() {
+    const box = input.getBoundingClientRect(), below = innerHeight - box.bottom - 8, over = below < 140 && box.top > below;
+    const high = Math.min(HIGH, over ? box.top - 8 : below), wide = Math.max(box.width, 170);
+    Object.assign(list.style, {left: `${Math.max(4, box.right - wide)}px`, width: `${wide}px`, maxHeight: `${high}px`,
+      top: over ? "" : `${box.bottom + 2}px`, bottom: over ? `${innerHeight - box.top + 2}px` : ""});
+  }
+  function mark(at) {
+    active = at;
+    [...list.children].forEach((made, n) => made.setAttribute("aria-selected", String(n === at)));
+    const made = list.children[at];
+    if (made) { input.setAttribute("aria-activedescendant", made.id); made.scrollIntoView({block: "nearest"}); }
+    else input.removeAttribute("aria-activedescendant");
+  }
+  function show(query) {
+    if (input.readOnly || input.disabled) return;
+    const words = query.toLowerCase().split(/\s+/).filter(Boolean);
+    shown = options.filter(({value, text}) => words.every(word => `${value} ${text}`.toLowerCase().includes(word)));
+    if (!shown.length) { close(); return; }
+    list.replaceChildren(...shown.map(({text}, n) => {
+      const made = element("li", {role: "option", id: `${id}-${n}`, class: "st-option"}, text);
+      made.addEventListener("pointerdown", event => event.preventDefault());  // the box keeps the focus
+      made.addEventListener("click", () => pick(n));
+      return made;
+    }));
+    if (!open) input.closest(".st").append(list);
+    open = true;
+    input.setAttribute("aria-expanded", "true");
+    place();
+    mark(query ? -1 : shown.findIndex(({text, value}) => text === input.value || value === input.value));
+  }
+  function close() {
+    if (!open) return;
+    open = false;
+    list.remove();
+    active = -1;
+    input.setAttribute("aria-expanded", "false");
+    input.removeAttribute("aria-activedescendant");
+  }
+  function pick(n) {
+    input.value = shown[n].text;
+    close();
+    input.dispatchEvent(new Event("input"));
+    close();
+    input.dispatchEvent(new KeyboardEvent("keydown", {key: "Enter"}));
+  }
+
+  // ---- from the user
+  function keys(event) {
+    const step = {ArrowDown: 1, ArrowUp: -1}[event.key], taken = () => { event.preventDefault(); event.stopImmediatePropagation(); };
+    if (step) {
+      taken();
+      if (!open) show(""); else mark((active + step + shown.length) % shown.length);
+    } else if (open && event.key === "Enter" && active >= 0) { taken(); pick(active); }
+    else if (open && event.key === "Escape") { taken(); close(); }
+    else if (event.key === "Enter" || event.key === "Tab") close();
+  }
+  input.addEventListener("keydown", keys, {capture: true});
+  input.addEventListener("input", event => { if (event.isTrusted) show(input.value.trim()); });
+  input.addEventListener("click", () => { if (open) close(); else show(""); });
+  input.addEventListener("blur", close);
+  input.addEventListener("focus", () => addEventListener("scroll", scrolled, {capture: true, passive: true}));
+  function scrolled(event) {
+    if (document.activeElement !== input) removeEventListener("scroll", scrolled, {capture: true});
+    else if (event.target !== list) close();
+  }
+}
