@@ -94,10 +94,17 @@ def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str
         "seconds": result.provenance["seconds"],
         "analyses": analyses,
         "timings": dict(result.timings),
+        "needs": _needs(result),
         "sources": {**result.value_sources, **{f"{CHECK}{name}": analysis for name, analysis in result.check_analyses.items()}},
         "fractions": {check.name: _fraction(check) for check in result.checks},
         "numbers": _numbers(result, [item["name"] for item in told.get("headline", ())]),
     }
+
+
+def _needs(result: Result[Any]) -> dict[str, list[str]]:
+    """{analysis: itself and all that it needs} of those that have run."""
+    by_name = {analysis.name: analysis for analysis in registry.mechanism(result.mechanism).analyses}
+    return {name: sorted(_needed(name, by_name)) for name in result.timings}
 
 
 def _numbers(result: Result[Any], names: Iterable[str]) -> dict[str, dict[str, Number]]:

@@ -1,0 +1,41 @@
+// A form that is opened in the panel of a job: asks the server what may vary, shows what is refused, goes when the job begins.
+
+import { button } from "./parts.js";
+
+/**
+ * `create(tools, closed)` makes the form of the table `name`.  Returns {node, opener, open(), wanted() -> whether the design lacks its table,
+ * running(on), stops}; `opener` is the button that opens it.
+ */
+export function createSetup(name, words, tools, create) {
+  const {store, say} = tools, form = create(tools, close), opener = button(words, open, {testid: `setup-${name}`});
+  let shown = false, before = null, drive = null;
+  form.node.hidden = true;
+
+  function open() {
+    shown = true;
+    form.node.hidden = false;
+    form.refused("");
+    say({what: "propose"});
+  }
+  function close() {
+    shown = false;
+    form.node.hidden = true;
+  }
+  /** What is refused of its table. */
+  function refused({refused = {}}) {
+    const own = Object.entries(refused).filter(([key]) => key === "" || key === name || key.startsWith(`${name}.`));
+    form.refused(own.map(([, {message}]) => message).join("\n"));
+  }
+  function designed({design}) {
+    if (design && design.opened !== drive) { drive = design.opened; close(); }
+  }
+  const stops = [
+    store.on(["proposals"], ({proposals}) => { if (proposals && shown && proposals !== before) { before = proposals; form.load(proposals); } }),
+    store.on(["result"], () => shown && form.result()), store.on(["refused"], refused), store.on(["design"], designed),
+  ];
+  return {
+    node: form.node, opener, open, close, stops,
+    wanted: () => !store.state.design?.form.groups.some(group => group.key === name && group.present !== false && (group.fields.length || group.role === "table")),
+    isOpen: () => shown,
+  };
+}
