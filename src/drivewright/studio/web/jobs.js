@@ -42,7 +42,7 @@ function createJob(host, name, title, meaning, {store, say, t}, shown, options =
   return [...(setup?.stops || []), store.on(["jobs"], ({jobs}) => {
     const job = jobs?.[name] || {state: "idle"};
     if (job === before) return;
-    if (job.state === "running" && before?.state !== "running") setup?.close();
+    if (job.state !== before?.state) setup?.follow(job);
     before = job;
     bar.show(job); note.show(job);
     left.textContent = remaining(job);
@@ -127,13 +127,15 @@ function best(answer, {say, t, store}) {
   const sign = ok => icon(ok ? "ok" : "bad", "sd-sign"), words = answer.feasible ? t("all requirements met") : t("no design meets all requirements");
   const head = element("p", {class: `sd-outcome is-${answer.feasible ? "ok" : "bad"}`}, sign(answer.feasible), words);
   const goals = answer.objectives.map(goal => line(t(goal.label), goal.text, goal.name));
-  const needs = answer.requirements.map(need => element("div", {class: `sd-need is-${need.ok ? "ok" : "bad"}`}, sign(need.ok),
+  const unmet = answer.requirements.filter(need => !need.ok), met = answer.requirements.filter(need => need.ok);
+  const needs = list => list.map(need => element("div", {class: `sd-need is-${need.ok ? "ok" : "bad"}`}, sign(need.ok),
     element("span", {title: need.name}, t(spoken(need.name))), element("b", {}, need.value), element("em", {}, need.limit)));
   const unknowns = answer.unknowns.map(one => line(t(one.label), one.best, `${one.key}: ${one.lower} … ${one.upper}`));
   const found = folded(t("Unknowns"), answer.unknowns.length, ...unknowns, ...answer.findings.map(text => element("p", {class: "pn-note"}, t(text))));
   const load = button(t("Load best"), () => say({what: "load", changes: answer.changes}), {testid: "load-best", look: "main"});
   const front = answer.front.rows.length > 1 ? [button(t("Show the trade-off"), () => store.set({view: "study"}))] : [];
-  return [head, element("p", {class: "pn-note"}, t(answer.message)), ...goals, ...needs, found, element("div", {class: "pn-row"}, load, ...front)];
+  const kept = met.length ? [folded(t("Requirements met"), met.length, ...needs(met))] : [];
+  return [head, element("p", {class: "pn-note"}, t(answer.message)), element("div", {class: "pn-row"}, load, ...front), ...goals, ...needs(unmet), ...kept, found];
 }
 
 export function createOptimise(host, tools) {

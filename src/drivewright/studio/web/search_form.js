@@ -99,7 +99,7 @@ function createNeeds({store, t}, changed) {
 export function createSearchForm(tools, closed) {
   const {store, say, t} = tools, goals = createGoals(tools, changed), needs = createNeeds(tools, changed);
   const keys = createKeyList("search", tools, key => bounds(key, t), changed);
-  const method = choice([["auto", t("chosen automatically")], ["differential-evolution", t("differential evolution")], ["nsga2", "NSGA-II"]], "auto", t("Method"), "search-method", changed);
+  const method = choice([["auto", t("automatic")], ["differential-evolution", t("differential evolution")], ["nsga2", "NSGA-II"]], "auto", t("Method"), "search-method", changed);
   const budget = box("", t("Designs to try at most"), "search-budget", {inputmode: "numeric"}), estimate = element("p", {class: "pn-about", "data-testid": "search-estimate", role: "status"});
   const wrong = element("p", {class: "pn-note pn-bad", role: "alert", "data-testid": "search-refused", hidden: ""});
   const start = button(t("Start"), begin, {testid: "search-start", look: "main"}), away = button(t("Close"), closed, {testid: "search-close", look: "quiet"});
@@ -123,7 +123,7 @@ export function createSearchForm(tools, closed) {
     const missing = !unknowns.length ? t("Tick at least one dimension that may change.") : !objectives.length ? t("Choose a value to minimise or maximise.")
       : !(Number(budget.value) > 0) ? t("Give a number of designs.") : "";
     start.disabled = Boolean(missing);
-    put(estimate, missing || (each === null ? t("* designs", designs) : t("* designs, about * by one process", designs, durationText(designs * each, t))));
+    put(estimate, missing || (each === null ? t("* designs", designs) : t("* designs, at most about * by one process", designs, durationText(designs * each, t))));
   }
   /** A budget that takes some minutes at most. */
   function usual() {

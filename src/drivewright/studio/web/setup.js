@@ -4,7 +4,7 @@ import { button } from "./parts.js";
 
 /**
  * `create(tools, closed)` makes the form of the table `name`.  Returns {node, opener, open(), wanted() -> whether the design lacks its table,
- * running(on), stops}; `opener` is the button that opens it.
+ * follow(job), stops}; `opener` is the button that opens it.
  */
 export function createSetup(name, words, tools, create) {
   const {store, say} = tools, form = create(tools, close), opener = button(words, open, {testid: `setup-${name}`});
@@ -15,16 +15,25 @@ export function createSetup(name, words, tools, create) {
     shown = true;
     form.node.hidden = false;
     form.refused("");
+    form.node.closest(".sd-section").scrollIntoView({block: "start"});
     say({what: "propose"});
   }
   function close() {
     shown = false;
     form.node.hidden = true;
   }
+  /** While its job runs the form is out of the way; it comes back with the reason where the job fails. */
+  function follow({state, text}) {
+    if (!shown) return;
+    if (state === "running") form.node.closest(".sd-section").scrollIntoView({block: "start"});
+    if (state === "done" || state === "cancelled") close();
+    form.node.hidden = !shown || state === "running";
+    if (state === "failed") form.refused(text);
+  }
   /** What is refused of its table. */
   function refused({refused = {}}) {
     const own = Object.entries(refused).filter(([key]) => key === "" || key === name || key.startsWith(`${name}.`));
-    form.refused(own.map(([, {message}]) => message).join("\n"));
+    if (own.length || !shown) form.refused(own.map(([, {message}]) => message).join("\n"));
   }
   function designed({design}) {
     if (design && design.opened !== drive) { drive = design.opened; close(); }
@@ -34,8 +43,7 @@ export function createSetup(name, words, tools, create) {
     store.on(["result"], () => shown && form.result()), store.on(["refused"], refused), store.on(["design"], designed),
   ];
   return {
-    node: form.node, opener, open, close, stops,
+    node: form.node, opener, open, follow, stops,
     wanted: () => !store.state.design?.form.groups.some(group => group.key === name && group.present !== false && (group.fields.length || group.role === "table")),
-    isOpen: () => shown,
   };
 }

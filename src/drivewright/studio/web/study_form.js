@@ -101,7 +101,7 @@ export function createStudyForm(tools, closed) {
     samples.parentElement.hidden = FIXED.includes(method.value);
     start.disabled = Boolean(missing);
     put(estimate, missing || (count === null ? t("The number of cases follows from the method.")
-      : each === null ? t("* cases", count) : t("* cases, about * by one process", count, durationText(count * each, t))));
+      : each === null ? t("* cases", count) : t("* cases, at most about * by one process", count, durationText(count * each, t))));
   }
   function load({keys: found, study}) {
     ready = false;
