@@ -1,8 +1,18 @@
 // How long a search or a study takes, from the seconds that the analyses of the design took.
 
+const least = new WeakMap();  // store -> {drive, timings}
+
+/** Keep the shortest time that each analysis of this drive has taken: the first run may have compiled. */
+export function learn(store) {
+  const {result, design} = store.state, known = least.get(store), drive = design?.opened;
+  const timings = known?.drive === drive ? known.timings : {};
+  for (const [name, seconds] of Object.entries(result?.timings || {})) timings[name] = Math.min(timings[name] ?? Infinity, seconds);
+  least.set(store, {drive, timings});
+}
+
 /** Seconds of one design by the analyses that give these names, and what they need; of all default ones without names; null where unknown. */
-export function secondsOf(result, names = []) {
-  const {timings = {}, needs = {}, sources = {}} = result || {};
+export function secondsOf(store, names = []) {
+  const {needs = {}, sources = {}} = store.state.result || {}, timings = least.get(store)?.timings || {};
   const wanted = names.length ? names.map(name => sources[name]).filter(Boolean) : Object.keys(timings);
   const all = new Set(wanted.flatMap(name => needs[name] || [name])), known = [...all].map(name => timings[name]).filter(Number.isFinite);
   return known.length ? known.reduce((sum, each) => sum + each, 0) : null;

@@ -49,7 +49,9 @@ function createJob(host, name, title, meaning, {store, say, t}, shown, options =
     left.hidden = !left.textContent;
     row.hidden = job.state === "running";
     words.hidden = Boolean(job.answer) || job.state === "running";
+    const first = job.state === "running" && job.answer && !answer.childElementCount;
     answer.replaceChildren(...(job.answer ? shown(job.answer, job) : []));
+    if (first) host.closest(".sd-section").scrollIntoView({block: "start"});  // it has just been started here
   })];
 }
 

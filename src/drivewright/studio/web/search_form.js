@@ -105,8 +105,8 @@ export function createSearchForm(tools, closed) {
   const start = button(t("Start"), begin, {testid: "search-start", look: "main"}), away = button(t("Close"), closed, {testid: "search-close", look: "quiet"});
   const node = element("div", {class: "sf", role: "group", "aria-label": t("Set up the search"), "data-testid": "search-form"},
     part(t("What may change"), keys.node), part(t("What is wanted"), goals.node), part(t("Checks to respect"), needs.node),
-    part(t("How it searches"), element("label", {class: "sf-pair"}, t("Method"), method), element("label", {class: "sf-pair"}, t("Designs to try at most"), budget), estimate),
-    wrong, element("div", {class: "pn-row"}, start, away));
+    part(t("How it searches"), element("label", {class: "sf-pair"}, t("Method"), method), element("label", {class: "sf-pair"}, t("Designs to try at most"), budget)),
+    element("div", {class: "sf-foot"}, wrong, estimate, element("div", {class: "pn-row"}, start, away)));
   let table = null, ready = false;
 
   function size(several) { return members(keys.chosen().length, several, table?.population); }
@@ -119,7 +119,7 @@ export function createSearchForm(tools, closed) {
   function changed() {
     if (!ready) return;
     const {unknowns, objectives, requirements, generations} = content(), several = method.value === "nsga2" || objectives.length > 1;
-    const each = secondsOf(store.state.result, [...objectives, ...requirements].map(({value}) => value)), designs = designsOf(generations, size(several), several);
+    const each = secondsOf(store, [...objectives, ...requirements].map(({value}) => value)), designs = designsOf(generations, size(several), several);
     const missing = !unknowns.length ? t("Tick at least one dimension that may change.") : !objectives.length ? t("Choose a value to minimise or maximise.")
       : !(Number(budget.value) > 0) ? t("Give a number of designs.") : "";
     start.disabled = Boolean(missing);
@@ -127,7 +127,7 @@ export function createSearchForm(tools, closed) {
   }
   /** A budget that takes some minutes at most. */
   function usual() {
-    const each = secondsOf(store.state.result) || 0;
+    const each = secondsOf(store) || 0;
     return each > 0 ? Math.min(USUAL, Math.max(64, Math.round(LONG / each / 10) * 10)) : USUAL;
   }
   function load({keys: found, optimise}) {

@@ -1,5 +1,6 @@
 // A form that is opened in the panel of a job: asks the server what may vary, shows what is refused, goes when the job begins.
 
+import { learn } from "./costs.js";
 import { button } from "./parts.js";
 
 /**
@@ -15,9 +16,10 @@ export function createSetup(name, words, tools, create) {
     shown = true;
     form.node.hidden = false;
     form.refused("");
-    form.node.closest(".sd-section").scrollIntoView({block: "start"});
+    toTop();
     say({what: "propose"});
   }
+  function toTop() { form.node.closest(".sd-section").scrollIntoView({block: "start"}); }
   function close() {
     shown = false;
     form.node.hidden = true;
@@ -25,7 +27,6 @@ export function createSetup(name, words, tools, create) {
   /** While its job runs the form is out of the way; it comes back with the reason where the job fails. */
   function follow({state, text}) {
     if (!shown) return;
-    if (state === "running") form.node.closest(".sd-section").scrollIntoView({block: "start"});
     if (state === "done" || state === "cancelled") close();
     form.node.hidden = !shown || state === "running";
     if (state === "failed") form.refused(text);
@@ -40,7 +41,7 @@ export function createSetup(name, words, tools, create) {
   }
   const stops = [
     store.on(["proposals"], ({proposals}) => { if (proposals && shown && proposals !== before) { before = proposals; form.load(proposals); } }),
-    store.on(["result"], () => shown && form.result()), store.on(["refused"], refused), store.on(["design"], designed),
+    store.on(["result"], () => { learn(store); if (shown) form.result(); }), store.on(["refused"], refused), store.on(["design"], designed),
   ];
   return {
     node: form.node, opener, open, follow, stops,

@@ -78,7 +78,8 @@ export function createStudyForm(tools, closed) {
   const wrong = element("p", {class: "pn-note pn-bad", role: "alert", "data-testid": "study-refused", hidden: ""});
   const start = button(t("Start"), begin, {testid: "study-start", look: "main"}), away = button(t("Close"), closed, {testid: "study-close", look: "quiet"});
   const node = element("div", {class: "sf", role: "group", "aria-label": t("Set up the study"), "data-testid": "study-form"},
-    part(t("What varies"), keys.node), part(t("Cases"), sampling, estimate, kept.node), wrong, element("div", {class: "pn-row"}, start, away));
+    part(t("What varies"), keys.node), part(t("Cases"), sampling, kept.node),
+    element("div", {class: "sf-foot"}, wrong, estimate, element("div", {class: "pn-row"}, start, away)));
   let ready = false;
 
   const isRandom = entry => RANDOM.includes(entry.distribution) || entry.as_written;
@@ -95,7 +96,7 @@ export function createStudyForm(tools, closed) {
   }
   function changed() {
     if (!ready) return;
-    const {vary, values} = content(), count = cases(vary), each = secondsOf(store.state.result, values), random = vary.some(isRandom);
+    const {vary, values} = content(), count = cases(vary), each = secondsOf(store, values), random = vary.some(isRandom);
     const missing = !vary.length ? t("Tick at least one dimension that varies.") : count === 0 ? t("Give a number of levels or samples.") : "";
     sampling.hidden = !random;
     samples.parentElement.hidden = FIXED.includes(method.value);
