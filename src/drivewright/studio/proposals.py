@@ -57,6 +57,8 @@ def _fields(design: Design) -> Iterator[dict[str, Any]]:
 def _may_vary(spec: MechanismSpec, field: Mapping[str, Any]) -> bool:
     if field["kind"] not in VARIED or field["value"] is None:
         return False
+    if field["kind"] not in ("choice", "flag") and not isinstance(field["value"], (int, float)):  # "rigid" instead of a number
+        return False
     try:
         key_kind(spec, field["key"])
     except SpecError:  # a file, a list that is one value, or what a study cannot vary

@@ -12,14 +12,16 @@ search       the [optimise] of a design: a search for its best, told while it go
 sensitivity  which key moves which number: every key of a design a little down and up, one at a time
 solid        the assembly as triangles for a viewer
 study        the [study] of a design: its cases as rows of a table, and what they say
+timing       the seconds of each analysis, for an estimate
 """
 
-from drivewright.studio.jobs import fields, figures, files, fix, search, sensitivity, solid, study
+from drivewright.studio.jobs import fields, figures, files, fix, search, sensitivity, solid, study, timing
 
 # What a page may ask for: nothing that names a place on the disk, another machine, or how much of this one to take.
 JOBS = {
-    "fix": fix.fix,
     "sensitivity": sensitivity.sensitivity,
+    "fix": fix.fix,
+    "timing": timing.timing,
     "study": study.study,
     "optimise": search.optimise,
     "solid": solid.solid,

@@ -4,9 +4,10 @@ const least = new WeakMap();  // store -> {drive, timings}
 
 /** Keep the shortest time that each analysis of this drive has taken: the first run may have compiled. */
 export function learn(store) {
-  const {result, design} = store.state, known = least.get(store), drive = design?.opened;
-  const timings = known?.drive === drive ? known.timings : {};
-  for (const [name, seconds] of Object.entries(result?.timings || {})) timings[name] = Math.min(timings[name] ?? Infinity, seconds);
+  const {result, design, jobs} = store.state, known = least.get(store), drive = design?.opened;
+  const timings = known && known.drive === drive ? known.timings : {};
+  const measured = [result?.timings, jobs?.timing?.answer?.timings].flatMap(each => Object.entries(each || {}));
+  for (const [name, seconds] of measured) timings[name] = Math.min(timings[name] ?? Infinity, seconds);
   least.set(store, {drive, timings});
 }
 

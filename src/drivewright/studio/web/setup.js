@@ -1,7 +1,9 @@
 // A form that is opened in the panel of a job: asks the server what may vary, shows what is refused, goes when the job begins.
 
-import { learn } from "./costs.js";
+import { learn, secondsOf } from "./costs.js";
 import { button } from "./parts.js";
+
+const SHORT = 20;  // seconds of all analyses up to which they are timed once more, without compiling
 
 /**
  * `create(tools, closed)` makes the form of the table `name`.  Returns {node, opener, open(), wanted() -> whether the design lacks its table,
@@ -18,6 +20,7 @@ export function createSetup(name, words, tools, create) {
     form.refused("");
     toTop();
     say({what: "propose"});
+    if (!store.state.jobs?.timing && (secondsOf(store) ?? 0) < SHORT) say({what: "job", name: "timing", options: {}});
   }
   function toTop() { form.node.closest(".sd-section").scrollIntoView({block: "start"}); }
   function close() {
@@ -39,7 +42,15 @@ export function createSetup(name, words, tools, create) {
   function designed({design}) {
     if (design && design.opened !== drive) { drive = design.opened; close(); }
   }
-  const stops = [
+  let timed = null;
+  function timing({jobs}) {
+    const answer = jobs?.timing?.answer;
+    if (!answer || answer === timed) return;
+    timed = answer;
+    learn(store);
+    if (shown) form.result();
+  }
+  const stops = [store.on(["jobs"], timing),
     store.on(["proposals"], ({proposals}) => { if (proposals && shown && proposals !== before) { before = proposals; form.load(proposals); } }),
     store.on(["result"], () => { learn(store); if (shown) form.result(); }), store.on(["refused"], refused), store.on(["design"], designed),
   ];

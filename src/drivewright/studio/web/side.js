@@ -144,7 +144,7 @@ function createJumps(scroll, sections, t) {
   const links = sections.map(part => button(words[part.name], () => { scroll.scrollTop = placeOf(part); }, {look: "jump"}));
   function observe() {
     const end = scroll.scrollTop + scroll.clientHeight >= scroll.scrollHeight - 2 && scroll.scrollTop > 0;
-    const at = end ? sections.length - 1 : sections.filter(part => placeOf(part) <= scroll.scrollTop + 8).length - 1;
+    const at = end ? sections.length - 1 : sections.filter(part => placeOf(part) <= scroll.scrollTop + 40).length - 1;
     links.forEach((link, n) => link.setAttribute("aria-current", String(n === Math.max(at, 0))));
   }
   const sized = new ResizeObserver(observe);
