@@ -270,6 +270,7 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
     monkeypatch.setattr(preview, "summary", lambda result: {"verdict": "good"})
     checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
     made = SimpleNamespace(checks=checks, findings=("beware",), warnings=("beware",), outcome="partial", provenance={"seconds": 2.5})
+    made.mechanism, made.timings, made.value_sources, made.check_analyses = "cam", {"profile": 0.2}, {"lift": "motion"}, {"near": "profile"}
     assert page_result(made, None, ["a"]) == {
         "verdict": "good",
         "plots": None,
@@ -278,14 +279,17 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
         "outcome": "partial",
         "seconds": 2.5,
         "analyses": ["a"],
+        "timings": {"profile": 0.2},
+        "needs": {"profile": ["geometry", "profile"]},
+        "sources": {"lift": "motion", "check.near": "profile"},
         "fractions": {"near": 0.25, "zero": None},
-        "numbers": {"values": {}, "checks": {"near": [3.0, "mm", None, None], "zero": [1.0, "mm", None, None]}},
+        "numbers": {"values": {}, "checks": {"near": [3.0, "mm", None, None, "Says so"], "zero": [1.0, "mm", None, None, "Says so"]}},
     }
 
 
 def numbered(value, checked=1.0):
     """What a result of the page has of one headline value and one check."""
-    return {"numbers": {"values": {"lift": (value, "m", None, None)}, "checks": {"bore": (checked, "m", None, None)}}}
+    return {"numbers": {"values": {"lift": (value, "m", None, None, "")}, "checks": {"bore": (checked, "m", None, None, "")}}}
 
 
 def test_differences_are_told_as_the_page_of_a_comparison_tells_them():
@@ -297,9 +301,9 @@ def test_differences_are_told_as_the_page_of_a_comparison_tells_them():
 
 def test_numbers_of_renewed_analyses_take_over():
     both = merge_results(
-        {**result(1, "a"), **numbered(1.0, 2.0)}, {**result(2, "a"), "numbers": {"values": {"lift": (3.0, "m", None, None)}}}
+        {**result(1, "a"), **numbered(1.0, 2.0)}, {**result(2, "a"), "numbers": {"values": {"lift": (3.0, "m", None, None, "")}}}
     )
-    assert both["numbers"] == {"values": {"lift": (3.0, "m", None, None)}, "checks": {"bore": (2.0, "m", None, None)}}
+    assert both["numbers"] == {"values": {"lift": (3.0, "m", None, None, "")}, "checks": {"bore": (2.0, "m", None, None, "")}}
 
 
 def test_warming_loads_every_kind_and_tells_nothing(monkeypatch):

@@ -74,9 +74,13 @@ def test_what_is_proposed_can_be_searched(name):
 def test_a_search_is_written_in_one_step_and_runs():
     document = Document(cam())
     requirements = [{"value": "check.pressure_angle"}, {"value": "max_contact_force", "at_most": "300 N"}]
-    document.write("optimise", {"unknowns": UNKNOWNS, "objectives": OBJECTIVES, "requirements": requirements, "method": "auto", "generations": "2"})
+    document.write(
+        "optimise", {"unknowns": UNKNOWNS, "objectives": OBJECTIVES, "requirements": requirements, "method": "auto", "generations": "2"}
+    )
     table = document.design.tables["optimise"]
-    assert table["unknowns"] == [{"key": "follower.prime_radius", "lower": "30 mm", "upper": "60 mm"}]  # a bare number has the unit of its key
+    assert table["unknowns"] == [
+        {"key": "follower.prime_radius", "lower": "30 mm", "upper": "60 mm"}
+    ]  # a bare number has the unit of its key
     assert table["generations"] == 2 and table["requirements"] == requirements
     answer = JOBS["optimise"](document.design, quiet, on="serial")
     assert answer["feasible"] and set(answer["changes"]) == {"follower.prime_radius"}
@@ -85,7 +89,14 @@ def test_a_search_is_written_in_one_step_and_runs():
 
 
 def test_what_the_form_does_not_show_stays():
-    document = Document(cam(optimise__seed=7, optimise__unknowns=WRITTEN, optimise__objectives=OBJECTIVES, optimise__settings=[{"key": "drive.speed", "value": "500 rpm"}]))
+    document = Document(
+        cam(
+            optimise__seed=7,
+            optimise__unknowns=WRITTEN,
+            optimise__objectives=OBJECTIVES,
+            optimise__settings=[{"key": "drive.speed", "value": "500 rpm"}],
+        )
+    )
     document.write("optimise", {"unknowns": UNKNOWNS, "objectives": OBJECTIVES, "requirements": [], "method": "nsga2"})
     table = document.design.tables["optimise"]
     assert table["seed"] == 7 and table["settings"] and table["method"] == "nsga2" and "requirements" not in table
@@ -94,9 +105,15 @@ def test_what_the_form_does_not_show_stays():
 def test_a_study_of_levels_values_and_tolerances_is_written_and_runs():
     document = Document(cam())
     levels = {"key": "follower.prime_radius", "lower": "36", "upper": "44", "steps": "2"}
-    listed, spread = {"key": "drive.speed", "values": ["500", "600 rpm"]}, {"key": "spring.preload", "tolerance": "5 %", "distribution": "normal"}
+    listed, spread = (
+        {"key": "drive.speed", "values": ["500", "600 rpm"]},
+        {"key": "spring.preload", "tolerance": "5 %", "distribution": "normal"},
+    )
     document.write("study", {"vary": [levels, listed, spread], "samples": "3", "method": "random", "values": ["max_contact_force"]})
-    assert document.design.tables["study"]["vary"][0]["lower"] == "36 mm" and document.design.tables["study"]["vary"][1]["values"][0] == "500 rpm"
+    assert (
+        document.design.tables["study"]["vary"][0]["lower"] == "36 mm"
+        and document.design.tables["study"]["vary"][1]["values"][0] == "500 rpm"
+    )
     answer = JOBS["study"](document.design, quiet, on="serial")
     assert len(answer["rows"]) == answer["total"] == 2 * 2 * 3 and answer["failed"] == 0
     document.load(answer["load"][-1])
@@ -172,5 +189,3 @@ def test_only_a_check_that_fails_is_corrected():
         fix.fix(cam(), quiet, check="no such check")
     with pytest.raises(InputError, match="passes, so there is nothing to change"):
         fix.fix(cam(), quiet, check="pressure_angle")
-
-

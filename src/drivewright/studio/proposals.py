@@ -37,7 +37,7 @@ VARIED = {"quantity", "number", "integer", "choice", "flag"}  # kinds of fields 
 
 
 def propose(send: object, design: Design, locks: Sequence[str]) -> dict[str, Any]:
-    """{"keys": [{"key", "label", "kind", "text", "lower", "upper", "unit", "choices", "usual", "locked"}], "optimise", "study": the tables}.
+    """{"keys": [{"key", "label", "kind", "text", "lower", "upper", "unit", "choices", "usual", "locked"}], "optimise", "study": tables}.
 
     Every number, choice and flag of the design that may vary.  lower and upper are the ends of its slider; `usual` are the dimensions
     that its kind calls adjustable, which come first.

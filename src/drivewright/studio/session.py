@@ -351,7 +351,8 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise", "fix")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset add drop put take undo redo lock text load preset fresh example open share reference pin job propose start export save analyse"
+    "hello again set drag revert unset add drop put take undo redo lock text load preset fresh example open share reference pin job "
+    "propose start export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 

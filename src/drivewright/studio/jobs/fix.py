@@ -85,4 +85,9 @@ def _fix_found(design: Design, result: Result[Any], failed: Check, advice: Advic
 
 
 def _change(tables: Mapping[str, Any], change: Change) -> dict[str, str]:
-    return {"key": change.key, "label": label(dict(tables), change.key), "before": quantity(change.before, change.unit), "given": change.given}
+    return {
+        "key": change.key,
+        "label": label(dict(tables), change.key),
+        "before": quantity(change.before, change.unit),
+        "given": change.given,
+    }

@@ -88,7 +88,7 @@ function effects(target, tools) {
 }
 
 export function createSensitivity(host, tools) {
-  const {t} = tools;
+  const {store, t} = tools;
   let chosen = null;  // name of the target that was picked by hand
   function shown({targets = []}) {
     const list = element("div", {class: "sd-bars"}), option = target => element("option", {value: target.name}, t(target.label));
