@@ -112,7 +112,8 @@ def search_table(design: Design, name: str, content: Mapping[str, Any]) -> Table
     """
     if other := sorted(set(content) - set(TABLES[name])):
         raise InputError(f"a form of {name} has no {brief(other[0])}")
-    table = deepcopy(design.tables.get(name)) if isinstance(design.tables.get(name), dict) else {}
+    written = design.tables.get(name)
+    table: Tables = deepcopy(written) if isinstance(written, dict) else {}
     for part, given in content.items():
         table[part] = _part(design, table, name, part, given)
     return {part: value for part, value in table.items() if value not in (None, [], "")}

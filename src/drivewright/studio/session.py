@@ -260,7 +260,7 @@ class Session:
         found = await self._call(proposals.propose, self.document.design, sorted(self.document.locks))
         self.send({"what": "proposals", "gen": self.gen, **found})
 
-    async def start(self, name: str, table: Mapping[str, Any], options: Mapping[str, Any] | None = None) -> None:
+    async def begin(self, name: str, table: Mapping[str, Any], options: Mapping[str, Any] | None = None) -> None:
         """Write the table of a search or of a study, in one step, and begin its job."""
         if name not in proposals.TABLES:
             raise InputError(f"{brief(name)} has no table that a form could write")
@@ -352,7 +352,7 @@ TAKE_LOCKS = ("sensitivity", "optimise", "fix")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
     "hello again set drag revert unset add drop put take undo redo lock text load preset fresh example open share reference pin job "
-    "propose start export save analyse"
+    "propose begin export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 

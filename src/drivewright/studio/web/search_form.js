@@ -142,7 +142,7 @@ export function createSearchForm(tools, closed) {
     ready = true;
     changed();
   }
-  function begin() { say({what: "start", name: "optimise", table: content(), options: {theme: themeOf(store.state)}}); }
+  function begin() { say({what: "begin", name: "optimise", table: content(), options: {theme: themeOf(store.state)}}); }
   budget.addEventListener("input", changed);
   return {
     node, load,

@@ -113,7 +113,7 @@ export function createStudyForm(tools, closed) {
     ready = true;
     changed();
   }
-  function begin() { say({what: "start", name: "study", table: content(), options: {theme: themeOf(store.state)}}); }
+  function begin() { say({what: "begin", name: "study", table: content(), options: {theme: themeOf(store.state)}}); }
   node.addEventListener("input", changed);
   return {
     node, load,
