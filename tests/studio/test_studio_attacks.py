@@ -105,7 +105,7 @@ LARGE = {
     "names": {"what": "load", "changes": {f"a{n}": "1" for n in range(60_000)}},
     "a study of many keys": {"what": "begin", "name": "study", "table": {"vary": [{"key": "drive.speed", "steps": 2}] * 30_000}},
     "a search of long texts": {
-        "what": "start",
+        "what": "begin",
         "name": "optimise",
         "table": {"unknowns": [{"key": "a." * 200_000, "lower": "1" * 400_000}]},
     },

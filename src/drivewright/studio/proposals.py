@@ -29,7 +29,7 @@ ENTRIES = {  # keys that an entry of a list may have
 }
 IN_UNITS = ("lower", "upper", "tolerance", "values")  # of an entry with a key: in the unit of that key
 WHOLE = ("population", "generations", "samples", "steps")
-MOST = 1000  # entries of a list
+MOST, LONGEST = 1000, 500  # entries of a list, characters of a text in one
 VARIED = {"quantity", "number", "integer", "choice", "flag"}  # kinds of fields that may vary
 
 
@@ -134,6 +134,8 @@ def _part(design: Design, table: Tables, name: str, part: str, given: Any) -> An
 def _entry(design: Design, table: Tables, place: str, part: str, given: Any) -> Tables:
     if not isinstance(given, dict) or (set(given) - set(ENTRIES[part])):
         raise InputError(f"{place} has a form that no page sends")
+    if any(len(value) > LONGEST for value in given.values() if isinstance(value, str)):
+        raise InputError(f"{place} has a text of more than {LONGEST} characters")
     if given.get("as_written"):
         return _as_written(design, table, str(given.get("key", "")), place)
     entry = {name: value for name, value in given.items() if value not in (None, "", [])}
