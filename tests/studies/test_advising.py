@@ -137,6 +137,19 @@ def test_advice_that_runs_out_of_time_says_so(monkeypatch):
 
 
 @pytest.mark.interface
+def test_advice_on_one_check_that_leaves_keys_alone(monkeypatch):
+    def checks(spec):
+        return (at_most("small", spec.size, 0.008), at_most("smaller", spec.size, 0.007))
+
+    result, tried = toy(monkeypatch, checks, {"size": 2.0}, size="10 mm"), []
+    advised = dw.advise(result, None, checks=("small",), tried=tried.append)
+    assert [(each.check, each.changes[0].given) for each in advised.advice] == [("small", "8 mm")]
+    assert tried == list(range(1, len(tried) + 1)) and len(tried) > 3
+    assert dw.advise(result, None, held=("size",)).advice == ()
+    assert len(dw.advise(result, None).advice) == 2
+
+
+@pytest.mark.interface
 def test_a_result_keeps_its_advice(monkeypatch):
     advised = dw.advise(toy(monkeypatch, lambda spec: (at_most("small", spec.size, 0.008),), {"size": 2.0}, size="10 mm"), None)
     (record,) = advised.record()["advice"]

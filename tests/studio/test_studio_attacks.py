@@ -103,6 +103,13 @@ LARGE = {
     "a key": {"what": "set", "key": ".".join("a" * 400_000), "text": "1"},
     "a value": {"what": "set", "key": "drive.speed", "text": "1" * 900_000},
     "names": {"what": "load", "changes": {f"a{n}": "1" for n in range(60_000)}},
+    "a study of many keys": {"what": "begin", "name": "study", "table": {"vary": [{"key": "drive.speed", "steps": 2}] * 30_000}},
+    "a search of long texts": {
+        "what": "begin",
+        "name": "optimise",
+        "table": {"unknowns": [{"key": "a." * 200_000, "lower": "1" * 400_000}]},
+    },
+    "a table of a search": {"what": "begin", "name": "study", "table": {f"a{n}": 1 for n in range(60_000)}},
     "lists": {"what": "load", "changes": [[]] * 250_000},
 }
 
@@ -172,6 +179,13 @@ ODD = [
     '{"what": "drop", "list": "joints", "index": [1]}',
     '{"what": "drop", "list": {}, "index": 0}',
     '{"what": "lock", "key": null, "on": "x"}',
+    '{"what": "propose", "name": "SURROGATE"}',
+    '{"what": "begin", "name": "study", "table": {"points": "/etc/passwd"}}',
+    '{"what": "begin", "name": "study", "table": {"vary": [{"key": "SURROGATE"}]}}',
+    '{"what": "begin", "name": "study", "table": {"vary": [{"key": "drive.speed", "steps": "' + "9" * 5000 + '"}]}}',
+    '{"what": "begin", "name": "optimise", "table": {"unknowns": [[[]]]}}',
+    '{"what": "begin", "name": "optimise", "table": null}',
+    '{"what": "job", "name": "fix", "options": {"check": {}, "seconds": 1e9}}',
     '{"what": "text", "toml": 3}',
     '{"what": "text"}',
     '{"what": "text", "toml": "", "toml ": ""}',

@@ -270,6 +270,12 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
     monkeypatch.setattr(preview, "summary", lambda result: {"verdict": "good"})
     checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
     made = SimpleNamespace(checks=checks, findings=("beware",), warnings=("beware",), outcome="partial", provenance={"seconds": 2.5})
+    made.mechanism, made.timings, made.value_sources, made.check_analyses = (
+        "indexer",
+        {"stress": 0.2},
+        {"lift": "profile"},
+        {"near": "stress"},
+    )
     assert page_result(made, None, ["a"]) == {
         "verdict": "good",
         "plots": None,
@@ -278,6 +284,9 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
         "outcome": "partial",
         "seconds": 2.5,
         "analyses": ["a"],
+        "timings": {"stress": 0.2},
+        "needs": {"stress": ["profile", "stress"]},
+        "sources": {"lift": "profile", "check.near": "stress"},
         "fractions": {"near": 0.25, "zero": None},
         "numbers": {"values": {}, "checks": {"near": [3.0, "mm", None, None, "Near"], "zero": [1.0, "mm", None, None, "Zero"]}},
     }

@@ -332,6 +332,19 @@ def test_what_is_no_request_is_nothing(tab, message):
         {"what": "example", "name": "/etc/passwd"},
         {"what": "example", "name": ["disc_cam"]},
         {"what": "example"},
+        {"what": "propose", "more": 1},
+        {"what": "begin"},
+        {"what": "begin", "name": "optimise"},
+        {"what": "begin", "name": "rm", "table": {}},
+        {"what": "begin", "name": ["study"], "table": {}},
+        {"what": "begin", "name": "study", "table": [1]},
+        {"what": "begin", "name": "study", "table": {"points": "/etc/passwd"}},
+        {"what": "begin", "name": "study", "table": {"vary": [{"key": "torques.load.file", "values": ["/etc/passwd"], "also": ["x"]}]}},
+        {"what": "begin", "name": "study", "table": {"vary": [{"key": ["x"], "lower": {}, "steps": "9" * 5000}]}},
+        {"what": "begin", "name": "optimise", "table": {"settings": [{"key": "torques.load.file", "value": "/etc/passwd"}]}},
+        {"what": "begin", "name": "optimise", "table": {"unknowns": 3, "objectives": None}},
+        {"what": "job", "name": "fix", "options": {"seconds": 1e9}},
+        {"what": "job", "name": "timing", "options": {"analyses": "x"}},
     ],
 )
 def test_an_odd_request_is_answered_and_changes_nothing(tab, message):
@@ -366,6 +379,25 @@ def test_jobs_get_the_locks(tab):
     assert tab.quiet.asked[-1] == ("job", "sensitivity", 1, tab.session.document.design, {"locks": ["drive.speed"]})
     (refused,) = tab.say("set", key="drive.speed", text="1 rpm")
     assert "lock" in refused["message"]
+
+
+def test_a_search_is_written_and_begun_in_one_message_and_one_step(tab):
+    (proposals,) = tab.say("propose")
+    crank = next(each for each in proposals["keys"] if each["key"] == "drive.speed")
+    unknowns = [{name: crank[name] for name in ("key", "lower", "upper")}]
+    table = {"unknowns": unknowns, "objectives": [{"value": "mobility", "goal": "maximise"}]}
+    before = tab.toml
+    (design,) = tab.say("begin", name="optimise", table=table, options={"theme": "dark"})
+    assert "[optimise]" in design["toml"] or "[[optimise.unknowns]]" in design["toml"]
+    assert tab.quiet.asked[-1] == ("job", "optimise", 2, tab.session.document.design, {"theme": "dark", "locks": []})
+    tab.say("undo")
+    assert tab.toml == before and not tab.session.document.can_undo
+
+
+def test_a_table_that_is_refused_begins_nothing(tab):
+    asked = len(tab.quiet.asked)
+    (refused,) = tab.say("begin", name="study", table={"vary": [{"key": "drive.speed", "lower": "1 rpm", "upper": "2 rpm", "steps": "-1"}]})
+    assert refused["key"] == "study.vary.0.steps" and len(tab.quiet.asked) == asked
 
 
 def test_other_jobs_do_not(tab):

@@ -6,7 +6,7 @@ finds where the margin is 0, the number is rounded to the side that passes, and 
 
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -37,21 +37,29 @@ class OutOfTime(Exception):
     """The time for advice is over."""
 
 
-def advise(result: Result[SpecT], seconds: float | None = PATIENCE, progress: Progress | None = None) -> Result[SpecT]:
+def advise(
+    result: Result[SpecT],
+    seconds: float | None = PATIENCE,
+    progress: Progress | None = None,
+    checks: Collection[str] = (),
+    held: Collection[str] = (),
+    tried: Callable[[int], object] | None = None,
+) -> Result[SpecT]:
     """The result with advice on its failed checks, as far as some is found in so many seconds (None: however long it takes).
 
-    `progress(done, total, name)` is called with the failed checks that are done.
+    `checks` names those that are looked at, all unless given; `held` the keys that must not change.
+    `progress(done, total, name)` is called with the failed checks that are done, `tried(number)` before each design that is computed.
     A chaotic check, whose value has an interval, gets none: a step of a key would be compared with its noise.
     """
-    failed = [check for check in result.checks if not check.ok and check.bounds is None and math.isfinite(check.margin)]
+    failed = [check for check in result.checks if is_advisable(check) and (not checks or check.name in checks)]
     found: list[Advice] = []
     stopped = False
     if failed and result.outcome == "complete":
         try:
-            designs = _Designs(result, math.inf if seconds is None else time.monotonic() + seconds)
-            for checks in designs.by_analysis(failed):
-                slopes = _slopes(designs, checks)
-                for check in checks:
+            designs = _Designs(result, math.inf if seconds is None else time.monotonic() + seconds, held, tried)
+            for group in designs.by_analysis(failed):
+                slopes = _slopes(designs, group)
+                for check in group:
                     if progress:
                         progress(len(found), len(failed), "what to change")
                     found += _advice(designs, check, slopes[check.name])
@@ -60,16 +68,24 @@ def advise(result: Result[SpecT], seconds: float | None = PATIENCE, progress: Pr
     return replace(result, advice=tuple(found), advice_stopped=stopped)
 
 
+def is_advisable(check: Check) -> bool:
+    """Whether there may be advice on a check: it fails, by a margin that is a number without an interval."""
+    return not check.ok and check.bounds is None and math.isfinite(check.margin)
+
+
 # -- designs -------------------------------------------------------------------------------------------------------------------
 
 
 class _Designs:
     """Margins of the checks of a design in which some dimensions have moved."""
 
-    def __init__(self, result: Result[Any], deadline: float) -> None:
+    def __init__(
+        self, result: Result[Any], deadline: float, held: Collection[str] = (), tried: Callable[[int], object] | None = None
+    ) -> None:
         self.spec: MechanismSpec = result.spec
         self.checks: Mapping[str, Check] = {check.name: check for check in result.checks}
-        self.dimensions, self.deadline = dimensions(self.spec), deadline
+        self.dimensions, self.deadline = tuple(each for each in dimensions(self.spec) if each.key not in held), deadline
+        self._tried, self._count = tried, 0
         self.keys = tuple(each.key for each in self.dimensions)
         self.nominal = np.array([each.value for each in self.dimensions])
         self.analyses = tuple(result.provenance["analyses"])
@@ -95,7 +111,7 @@ class _Designs:
         """{check: margin} of a design (d,), nan where it has none; by the analyses that give these checks alone, or by the compiled route
         of the kind where that has them."""
         names = tuple(check.name for check in checks)
-        self._look_at_the_clock()
+        self._begin_design()
         if names not in self._evaluations:
             self._evaluations[names] = self._compiled(names) or self._by_runs(tuple(dict.fromkeys(self._owner[name] for name in names)))
         found = self._evaluations[names](design)
@@ -103,7 +119,7 @@ class _Designs:
 
     def run(self, design: Floats) -> dict[str, float]:
         """{check: margin} of all checks by a run."""
-        self._look_at_the_clock()
+        self._begin_design()
         found = self._run_all(design)
         return {name: found.get(f"{CHECK}{name}", math.nan) for name in self.checks}
 
@@ -122,9 +138,13 @@ class _Designs:
 
         return evaluate
 
-    def _look_at_the_clock(self) -> None:
+    def _begin_design(self) -> None:
+        """Another design is to be computed: OutOfTime where the time is over."""
         if time.monotonic() > self.deadline:
             raise OutOfTime
+        self._count += 1
+        if self._tried:
+            self._tried(self._count)
 
 
 def _slopes(designs: _Designs, checks: Sequence[Check]) -> dict[str, Floats]:

@@ -28,6 +28,7 @@ from drivewright.studio.input_parsing import (
     validated_spec,
     value_in,
 )
+from drivewright.studio.proposals import search_table
 from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
 
@@ -224,6 +225,12 @@ class Document:
         if design.kind != self.design.kind:
             self.locks = frozenset()
         self._accept(design)
+
+    def write(self, name: str, content: Mapping[str, Any]) -> None:
+        """The table "optimise" or "study" as its form has it; what the form does not show stays."""
+        tables = deepcopy(self.design.tables)
+        tables[name] = search_table(self.design, name, content)
+        self._accept(self.design.with_tables(tables))
 
     # -- tables and elements ---------------------------------------------------------------------------------------------------
 

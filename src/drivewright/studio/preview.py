@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 from drivewright import registry, runner
 from drivewright._jit.compilation import Compilation, watched_by
+from drivewright.execution.outputs import CHECK
 from drivewright.registry import Analysis
 from drivewright.report.comparison import difference, difference_text
 from drivewright.report.content import check_label, summary
@@ -92,9 +93,18 @@ def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str
         "outcome": result.outcome,
         "seconds": result.provenance["seconds"],
         "analyses": analyses,
+        "timings": dict(result.timings),
+        "needs": _needs(result),
+        "sources": {**result.value_sources, **{f"{CHECK}{name}": analysis for name, analysis in result.check_analyses.items()}},
         "fractions": {check.name: _fraction(check) for check in result.checks},
         "numbers": _numbers(result, [item["name"] for item in told.get("headline", ())]),
     }
+
+
+def _needs(result: Result[Any]) -> dict[str, list[str]]:
+    """{analysis: itself and all that it needs} of those that have run."""
+    by_name = {analysis.name: analysis for analysis in registry.mechanism(result.mechanism).analyses}
+    return {name: sorted(_needed(name, by_name)) for name in result.timings}
 
 
 def _numbers(result: Result[Any], names: Iterable[str]) -> dict[str, dict[str, Number]]:
@@ -145,6 +155,8 @@ def merge_results(shown: Mapping[str, Any], update: Mapping[str, Any]) -> dict[s
         "values": values,
         "headline": headline,
         "plots": _merged_plots(shown["plots"], update["plots"]),
+        "timings": {**shown.get("timings", {}), **update.get("timings", {})},
+        "sources": {**shown.get("sources", {}), **update.get("sources", {})},
         "fractions": {**shown["fractions"], **update["fractions"]},
         "numbers": _merged_numbers(shown, update),
         "verdict": {**shown["verdict"], "stale": True},

@@ -16,7 +16,7 @@ from drivewright.execution.workers import WorkerDied, WorkerFault
 from drivewright.report.dimension_drawings import drawing_files, fitting_drawings
 from drivewright.report.folder import file_name
 from drivewright.report.worked_examples import cards, preset_pictures
-from drivewright.studio import editing, translations
+from drivewright.studio import editing, proposals, translations
 from drivewright.studio.computations import Message, TabComputations
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document, without_folder
@@ -255,6 +255,20 @@ class Session:
         kept = {"kept": str(self.resources.results_folder())} if name in TAKE_RESULTS else {}
         self.computations.job(name, self.gen, self.document.design, {**options, **locks, **kept})
 
+    async def propose(self) -> None:
+        """What a search or a study of this design may vary, and what its tables say."""
+        found = await self._call(proposals.propose, self.document.design, sorted(self.document.locks))
+        self.send({"what": "proposals", "gen": self.gen, **found})
+
+    async def begin(self, name: str, table: Mapping[str, Any], options: Mapping[str, Any] | None = None) -> None:
+        """Write the table of a search or of a study, in one step, and begin its job."""
+        if name not in proposals.TABLES:
+            raise InputError(f"{brief(name)} has no table that a form could write")
+        if not isinstance(table, Mapping):
+            raise InputError("the page sent an unexpected request: a table of a search is missing")
+        await self._edit("write", ALL, name=name, content=dict(table))
+        await self.job(name, options)
+
     async def export(self, format: str, anyway: bool = False) -> None:
         """A manufacturing file."""
         await self.job("export", {"format": str(format), "anyway": bool(anyway)})
@@ -334,11 +348,11 @@ class Session:
         return without_folder(error.message if isinstance(error, SpecError) and beside else str(error), folder)
 
 
-TAKE_LOCKS = ("sensitivity", "optimise")
+TAKE_LOCKS = ("sensitivity", "optimise", "fix")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
     "hello again set drag revert unset add drop put take undo redo lock text load preset "
-    "fresh example open share reference pin job export save analyse"
+    "fresh example open share reference pin job propose begin export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 

@@ -7,17 +7,21 @@ may start processes of its own, so the process that it runs in must be no daemon
 design_keys  the keys of a design as jobs see them
 fields       fields of an analysis on the deformed solids
 figures      figures for the page
+fix          the smallest change of a dimension or two with which a failed check passes
 search       the [optimise] of a design: a search for its best, told while it goes on
 sensitivity  which key moves which number: every key of a design a little down and up, one at a time
 solid        the assembly as triangles for a viewer
 study        the [study] of a design: its cases as rows of a table, and what they say
+timing       the seconds of each analysis, for an estimate
 """
 
-from drivewright.studio.jobs import fields, figures, files, search, sensitivity, solid, study
+from drivewright.studio.jobs import fields, figures, files, fix, search, sensitivity, solid, study, timing
 
 # What a page may ask for: nothing that names a place on the disk, another machine, or how much of this one to take.
 JOBS = {
     "sensitivity": sensitivity.sensitivity,
+    "fix": fix.fix,
+    "timing": timing.timing,
     "study": study.study,
     "optimise": search.optimise,
     "solid": solid.solid,
@@ -28,6 +32,7 @@ JOBS = {
     "save": files.save,
 }
 OPTIONS = {
+    "fix": ("check", "longer"),
     "figures": ("theme", "analyses"),
     "fields": ("analysis", "run"),
     "study": ("theme",),

@@ -1,5 +1,6 @@
 // The list of design checks: a card for each, failing ones first; a card lights the parts that it concerns.
 
+import { createFix } from "./fix.js";
 import { icon, setIcon } from "./icons.js";
 import { withDifference } from "./numbers.js";
 import { pressable, put, same } from "./parts.js";
@@ -22,23 +23,25 @@ function told(check, share, t) {
   return [check.value, `${interval}${check.limit} · ${t("margin")} ${check.margin}${part}`];
 }
 
-/** One card; `show` writes only what differs. */
-function createCard(name, t, clicked) {
+/** One card with a button below it while the check fails; `show` writes only what differs. */
+function createCard(name, t, clicked, fix) {
   const mark = icon("ok", "sd-sign"), label = element("span", {class: "sd-label"}), value = element("b", {class: "sd-value"});
   const reference = element("span", {class: "sd-reference", title: t("value of the design compared with")});
   const state = element("span", {class: "sd-state"}), line = element("span", {class: "sd-limits"}), message = element("span", {class: "sd-message"});
-  const node = pressable({class: "sd-card", "data-testid": `check-${name}`, "aria-pressed": "false"}, () => clicked(name), mark,
+  const card = pressable({class: "sd-card", "data-testid": `check-${name}`, "aria-pressed": "false"}, () => clicked(name), mark,
     element("span", {class: "sd-first"}, label, reference, value), element("span", {class: "sd-second"}, state, line), message);
+  const mend = fix.offer(name), node = element("div", {class: "sd-check"}, card, mend);
   let before = "";
   function look({ok, stale, undecided}) {
     const verdict = !ok ? "bad" : undecided ? "warn" : "ok", seen = stale ? "stale" : verdict, now = `${verdict} ${seen}`;
     if (now === before) return;
     before = now;
-    for (const word of ["ok", "bad", "warn", "stale"]) node.classList.toggle(`is-${word}`, word === verdict || word === seen);
-    node.dataset.state = seen;
+    for (const word of ["ok", "bad", "warn", "stale"]) card.classList.toggle(`is-${word}`, word === verdict || word === seen);
+    card.dataset.state = seen;
+    mend.hidden = ok;
     setIcon(mark, seen);
     put(state, {ok: t("passes"), bad: t("fails"), warn: t("undecided")}[verdict]);
-    node.title = stale ? t("not up to date") : "";
+    card.title = stale ? t("not up to date") : "";
   }
   function show(check, share, other, difference) {
     const [number, limits] = told(check, share, t);
@@ -47,14 +50,15 @@ function createCard(name, t, clicked) {
     put(reference, other && other.value !== check.value ? withDifference(told(other, null, t)[0], isYesNo(check) ? "" : difference) : "");
   }
   function press(on, near) {
-    node.setAttribute("aria-pressed", String(on));
-    node.classList.toggle("is-near", near);
+    card.setAttribute("aria-pressed", String(on));
+    card.classList.toggle("is-near", near);
   }
   return {node, show, press};
 }
 
 /** The list in `host`, changed in place; what stops it, as a list. */
-export function createChecks(host, {store, t}) {
+export function createChecks(host, tools) {
+  const {store, t} = tools, fix = createFix(name => cards.get(name)?.node, tools);
   const cards = new Map(), empty = element("p", {class: "pn-note"});
   let active = null, own = null, shown = [];  // name of the card that is pressed, the parts that it has lighted, names in their order
 
@@ -74,7 +78,7 @@ export function createChecks(host, {store, t}) {
     const ordered = [...result?.checks || []].sort((a, b) => a.ok - b.ok), names = ordered.map(check => check.name);
     const others = new Map((reference?.result?.checks || []).map(check => [check.name, check]));
     for (const check of ordered) {
-      if (!cards.has(check.name)) cards.set(check.name, createCard(check.name, t, clicked));
+      if (!cards.has(check.name)) cards.set(check.name, createCard(check.name, t, clicked, fix));
       cards.get(check.name).show(check, result.fractions?.[check.name], others.get(check.name), result.differences?.checks[check.name]);
     }
     if (!same(names, shown)) arrange(names);
@@ -86,6 +90,7 @@ export function createChecks(host, {store, t}) {
     for (const name of [...cards.keys()]) if (!names.includes(name)) { cards.get(name).node.remove(); cards.delete(name); }
     names.forEach((name, n) => { const {node} = cards.get(name); if (host.children[n] !== node) host.insertBefore(node, host.children[n] || null); });
     shown = names;
+    names.forEach(fix.shown);
     press();
   }
   /** Parts lighted from elsewhere, e.g. the drawing: nothing is pressed, the first check that concerns them comes into view. */
@@ -98,5 +103,5 @@ export function createChecks(host, {store, t}) {
     press();
   }
   host.append(empty);
-  return [store.on(["result", "reference"], update), store.on(["lit"], lighted)];
+  return [store.on(["result", "reference"], update), store.on(["lit"], lighted), ...fix.stops];
 }

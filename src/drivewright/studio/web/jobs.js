@@ -1,9 +1,14 @@
 // The panels of the jobs: sensitivity as bars, the search for the best design, the study; each with its run button and progress.
 
-import { drawing, icon } from "./icons.js";
+import { durationText } from "./costs.js";
+import { historyPlot } from "./history_plot.js";
+import { icon } from "./icons.js";
 import { figure, unitText } from "./numbers.js";
 import { button, outcome, pressable, progress, themeOf } from "./parts.js";
 import { element } from "./player.js";
+import { createSearchForm } from "./search_form.js";
+import { createSetup } from "./setup.js";
+import { createStudyForm } from "./study_form.js";
 
 const BARS = 10;  // that are shown at once
 
@@ -13,20 +18,40 @@ const line = (label, value, title) => element("div", {class: "sd-number"}, eleme
 const folded = (title, count, ...inside) => element("details", {class: "sd-findings"},
   element("summary", {}, title, element("span", {class: "sd-count"}, String(count))), ...inside);
 
-/** Frame of a job's panel: run button, progress, words of the outcome; `shown(answer, job)` fills the rest. */
-function createJob(host, name, title, meaning, {store, say, t}, shown, options = () => ({})) {
-  const run = button(title, () => say({what: "job", name, options: options()}), {testid: `job-${name}`, look: "main"});
-  const bar = progress(name, {say, t}), note = outcome(t), words = about(meaning), answer = element("div", {class: "pn-answer"});
+/** How long a running job still takes, from what is done; "" before that can be told. */
+function createClock(t) {
+  let began = 0, gen = null;
+  return job => {
+    if (job.state !== "running" || !job.total || job.gen !== gen) { gen = job.gen; began = performance.now(); return ""; }
+    const part = job.done / job.total, passed = (performance.now() - began) / 1000;
+    return part > 0.02 && part < 1 && passed > 2 ? t("about * left at most", durationText(passed * (1 / part - 1), t)) : "";
+  };
+}
+
+/**
+ * Frame of a job's panel: run button, progress, words of the outcome; `shown(answer, job)` fills the rest.  `setup` is the form of its
+ * table, where it has one: it opens where the design has no table yet.
+ */
+function createJob(host, name, title, meaning, {store, say, t}, shown, options = () => ({}), setup = null) {
+  const ask = () => setup?.wanted() ? setup.open() : say({what: "job", name, options: options()});
+  const run = button(title, ask, {testid: `job-${name}`, look: "main"}), row = element("div", {class: "pn-row"}, run, ...(setup ? [setup.opener] : []));
+  const bar = progress(name, {say, t}), left = element("p", {class: "pn-about"}), note = outcome(t), words = about(meaning), answer = element("div", {class: "pn-answer"});
+  const remaining = createClock(t);
   let before = null;
-  host.append(words, run, bar.node, note.node, answer);
-  return [store.on(["jobs"], ({jobs}) => {
+  host.append(words, row, ...(setup ? [setup.node] : []), bar.node, left, note.node, answer);
+  return [...(setup?.stops || []), store.on(["jobs"], ({jobs}) => {
     const job = jobs?.[name] || {state: "idle"};
     if (job === before) return;
+    if (job.state !== before?.state) setup?.follow(job);
     before = job;
     bar.show(job); note.show(job);
-    run.hidden = job.state === "running";
+    left.textContent = remaining(job);
+    left.hidden = !left.textContent;
+    row.hidden = job.state === "running";
     words.hidden = Boolean(job.answer) || job.state === "running";
+    const first = job.state === "running" && job.answer && !answer.childElementCount;
     answer.replaceChildren(...(job.answer ? shown(job.answer, job) : []));
+    if (first) host.closest(".sd-section").scrollIntoView({block: "start"});  // it has just been started here
   })];
 }
 
@@ -46,6 +71,13 @@ function bars(target, {store, t}) {
   });
 }
 
+/** The target to begin with: the worst of the checks that fail, else the tightest one. */
+function tightest(result) {
+  const share = ({name}) => result.fractions?.[name] ?? Infinity, checks = [...result?.checks || []];
+  const [worst] = checks.sort((a, b) => a.ok - b.ok || share(a) - share(b));
+  return worst && `check.${worst.name}`;
+}
+
 /** What is shown of one target, null where there is none. */
 function effects(target, tools) {
   const {t} = tools, {still, unclear, failed} = target || {}, strong = target ? bars(target, tools) : [], weak = strong.splice(BARS);
@@ -56,8 +88,8 @@ function effects(target, tools) {
 }
 
 export function createSensitivity(host, tools) {
-  const {t} = tools;
-  let chosen = null;  // name of the target that is looked at
+  const {store, t} = tools;
+  let chosen = null;  // name of the target that was picked by hand
   function shown({targets = []}) {
     const list = element("div", {class: "sd-bars"}), option = target => element("option", {value: target.name}, t(target.label));
     const group = (kind, text) => element("optgroup", {label: text}, ...targets.filter(target => target.kind === kind).map(option));
@@ -65,11 +97,11 @@ export function createSensitivity(host, tools) {
       group("check", t("Margins of checks")), group("value", t("Values")));
     function show() {
       const target = targets.find(target => target.name === select.value);
-      chosen = target?.name;
       list.replaceChildren(...effects(target, tools));
     }
-    if (targets.some(target => target.name === chosen)) select.value = chosen;
-    select.addEventListener("change", show);
+    const first = targets.some(target => target.name === chosen) ? chosen : tightest(store.state.result);
+    if (targets.some(target => target.name === first)) select.value = first;
+    select.addEventListener("change", () => { chosen = select.value; show(); });
     show();
     return [select, about(t("Change for 1 % more of each dimension:")), list];
   }
@@ -78,28 +110,18 @@ export function createSensitivity(host, tools) {
 
 // ------------------------------------------------------------------------------------------------------------------ optimise
 
-/** Best value so far over the cases, as a stair; before there is one that meets the requirements, how far the best is from them. */
-function sparkline(history, t) {
-  const met = history.filter(([, value]) => value !== null).length > 1, last = history[history.length - 1][0];
-  const points = history.map(([n, value, violation]) => [n, met ? value : violation]).filter(([, value]) => value !== null);
-  const values = points.map(([, value]) => value), low = Math.min(...values), high = Math.max(...values);
-  const x = n => (4 + n / Math.max(last, 1) * 248).toFixed(1), y = value => (high > low ? 37 - 32 * (value - low) / (high - low) : 21).toFixed(1);
-  const stair = points.map(([n, value], i) => i ? `H${x(n)}V${y(value)}` : `M${x(n)} ${y(value)}`).join("");
-  const looks = {viewBox: "0 0 256 42", preserveAspectRatio: "none", class: "sd-spark"};
-  return drawing({...looks, role: "img", "aria-label": t("Best value over the cases")}, `${stair}H${x(last)}`);
-}
-
 /** A dotted name as words. */
 function spoken(name) {
   const text = name.replace(/^check\./, "").replaceAll("_", " ").replaceAll(".", " · ");
   return text.slice(0, 1).toUpperCase() + text.slice(1);
 }
 
-/** What the search has found so far. */
-function soFar({cases, history, objective}, t) {
+/** What the search has found so far; after it was cancelled too, with a way to keep it. */
+function soFar({cases, history, objective, best}, job, {say, t}) {
   const value = history[history.length - 1]?.[1], met = value !== null;
   const found = met ? line(t(objective.label), `${figure(value)}${unitText(objective.unit)}`) : about(t("none meets the requirements yet"));
-  return [sparkline(history, t), about(t("* designs tried", cases)), found];
+  const keep = button(t("Load best so far"), () => say({what: "load", changes: best}), {testid: "load-so-far", look: "main"});
+  return [historyPlot(history, objective, t, job.state === "running" ? job.total : 0), about(t("* designs tried", cases)), found, element("div", {class: "pn-row"}, keep)];
 }
 
 /** Objectives and requirements of the best design, and what became of the search. */
@@ -107,37 +129,41 @@ function best(answer, {say, t, store}) {
   const sign = ok => icon(ok ? "ok" : "bad", "sd-sign"), words = answer.feasible ? t("all requirements met") : t("no design meets all requirements");
   const head = element("p", {class: `sd-outcome is-${answer.feasible ? "ok" : "bad"}`}, sign(answer.feasible), words);
   const goals = answer.objectives.map(goal => line(t(goal.label), goal.text, goal.name));
-  const needs = answer.requirements.map(need => element("div", {class: `sd-need is-${need.ok ? "ok" : "bad"}`}, sign(need.ok),
+  const unmet = answer.requirements.filter(need => !need.ok), met = answer.requirements.filter(need => need.ok);
+  const needs = list => list.map(need => element("div", {class: `sd-need is-${need.ok ? "ok" : "bad"}`}, sign(need.ok),
     element("span", {title: need.name}, t(spoken(need.name))), element("b", {}, need.value), element("em", {}, need.limit)));
   const unknowns = answer.unknowns.map(one => line(t(one.label), one.best, `${one.key}: ${one.lower} … ${one.upper}`));
   const found = folded(t("Unknowns"), answer.unknowns.length, ...unknowns, ...answer.findings.map(text => element("p", {class: "pn-note"}, t(text))));
   const load = button(t("Load best"), () => say({what: "load", changes: answer.changes}), {testid: "load-best", look: "main"});
   const front = answer.front.rows.length > 1 ? [button(t("Show the trade-off"), () => store.set({view: "study"}))] : [];
-  return [head, element("div", {class: "pn-row"}, load, ...front), element("p", {class: "pn-note"}, t(answer.message)), ...goals, ...needs, found];
+  const kept = met.length ? [folded(t("Requirements met"), met.length, ...needs(met))] : [];
+  return [head, element("p", {class: "pn-note"}, t(answer.message)), element("div", {class: "pn-row"}, load, ...front), ...goals, ...needs(unmet), ...kept, found];
 }
 
 export function createOptimise(host, tools) {
   const {t, store} = tools, meaning = t("Searches the unlocked dimensions for the best design that meets its requirements.");
-  const done = answer => {
-    requestAnimationFrame(() => host.scrollIntoView({block: "nearest"}));  // what was found, and the button that takes it
-    return [...(answer.history.length > 1 ? [sparkline(answer.history, t)] : []), ...best(answer, tools)];
-  };
-  return createJob(host, "optimise", t("Optimise"), meaning, tools, answer => answer.changes ? done(answer) : soFar(answer, t),
-    () => ({theme: themeOf(store.state)}));
+  const setup = createSetup("optimise", t("Set up"), tools, createSearchForm);
+  const done = answer => [...best(answer, tools), ...(answer.history.length > 1 ? [historyPlot(answer.history, answer.objective, t)] : [])];
+  return [...createJob(host, "optimise", t("Optimise"), meaning, tools, (answer, job) => answer.changes ? done(answer) : soFar(answer, job, tools),
+    () => ({theme: themeOf(store.state)}), setup), opening("optimise", tools, answer => answer?.front?.rows.length > 1 && answer.objectives.length > 1)];
 }
 
 // --------------------------------------------------------------------------------------------------------------------- study
 
-export function createStudy(host, tools) {
-  const {store, t} = tools, open = () => store.set({view: "study"});
+/** An answer that comes while one waits for it is shown in the centre, where there is something to see. */
+function opening(name, {store}, worth) {
   let before = null;
-  const opening = store.on(["jobs"], ({jobs}) => {  // an answer that comes while one waits for it is shown
-    const job = jobs?.study, came = before === "running" && job?.state === "done";
+  return store.on(["jobs"], ({jobs}) => {
+    const job = jobs?.[name], came = before === "running" && job?.state === "done" && worth(job.answer);
     before = job?.state;
-    if (came) open();
+    if (came) store.set({view: "study"});
   });
+}
+
+export function createStudy(host, tools) {
+  const {store, t} = tools, setup = createSetup("study", t("Set up"), tools, createStudyForm);
   const shown = (answer, job) => job.state === "running" ? [] :
-    [about(t("* designs computed, * failed", answer.total, answer.failed)), button(t("Show the study"), open)];
-  const meaning = t("Computes the cases that the design's study names: sweeps, tolerances, samples.");
-  return [...createJob(host, "study", t("Run study"), meaning, tools, shown, () => ({theme: themeOf(store.state)})), opening];
+    [about(t("* designs computed, * failed", answer.total, answer.failed)), button(t("Show the study"), () => store.set({view: "study"}))];
+  const meaning = t("Computes many cases of the design: sweeps over levels, tolerances, samples.");
+  return [...createJob(host, "study", t("Run study"), meaning, tools, shown, () => ({theme: themeOf(store.state)}), setup), opening("study", tools, () => true)];
 }

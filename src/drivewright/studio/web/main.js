@@ -19,7 +19,7 @@ const PLACES = [["header", "head", createHead], ["aside", "form", createForm], [
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
-    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, focus: null, notice: "", ...taste()});
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, focus: null, notice: "", proposals: null, ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
   const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside
@@ -84,7 +84,7 @@ function createEar(store, begin) {
     },
     design: message => {
       if (message.opened) since = message.gen;
-      const afresh = message.opened ? {scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
+      const afresh = message.opened ? {proposals: null, scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
       store.set({design: {...message, opened: since}, refused: without(message.settled), ...afresh});
     },
     values: ({fields, settled, ...rest}) => {
@@ -113,6 +113,7 @@ function createEar(store, begin) {
       if (news.state === "done") news.answer?.files?.forEach(fetched);
       if (name === "save" && news.state === "failed") store.set({notice: news.text});
     },
+    proposals: message => store.set({proposals: message}),
     shared: ({fragment}) => store.set({shared: {url: `${location.origin}${location.pathname}#${fragment}`}}),
   };
 }

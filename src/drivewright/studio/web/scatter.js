@@ -268,8 +268,9 @@ export function createScatter(host, {say, t, now = () => ({})}) {
 
   return {
     load(answer) {
-      // The axes of a running study make place for the objectives.
-      const before = state.study, first = !before?.fronts.length && answer.fronts?.length;
+      // The axes of a running study make place for the objectives, and those that knew no values yet for the first value.
+      const before = state.study, valued = before?.columns.some(({role}) => role === "value");
+      const first = !before?.fronts.length && answer.fronts?.length || !valued;
       const names = [state.x, state.y, state.colour].map(n => before && !first ? before.columns[n]?.name : undefined);
       state.study = prepare(answer);
       state.hover = state.chosen = -1;

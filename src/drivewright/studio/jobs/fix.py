@@ -1,0 +1,93 @@
+"""What to change so that a check which fails passes: the smallest change of one or two dimensions, verified by a run."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from drivewright import runner
+from drivewright.advice import Advice, Change
+from drivewright.errors import InputError, UnknownName
+from drivewright.report.content import check_label
+from drivewright.result import Check, Result
+from drivewright.steps import detailed
+from drivewright.studies.adjustable import dimensions
+from drivewright.studies.advising import advise, is_advisable
+from drivewright.studio.design import Design
+from drivewright.studio.jobs.design_keys import is_locked, label
+from drivewright.studio.jobs.progress import Progress
+from drivewright.view.text import SIGNS, quantity
+
+PATIENCE = 30.0  # seconds of the search for a change
+LONGER = 10  # times as long, where a person asks for it
+
+
+def fix(design: Design, progress: Progress, check: str = "", longer: bool = False, locks: Sequence[str] = ()) -> dict[str, Any]:
+    """The change of one or two dimensions with which a failed check passes; keys that are locked stay.
+
+    {"check", "changes": [{"key", "label", "before", "given"}], "load": {key: text}, "value", "limit", "also_passes", "then_fails": labels
+    of other checks whose verdict turns, "reason": why there is no change, "" where there is one, "stopped": the time was over}.
+    """
+    spec = design.spec_on_screen()
+    with detailed(progress) as step:
+        result = runner.run(spec, progress=step)
+    failed = _check_named(result, check)
+    held = {each.key for each in dimensions(spec) if is_locked(design.tables, each.key, locks)}
+    free = len(dimensions(spec)) - len(held)
+    seconds = PATIENCE * (LONGER if longer else 1)
+    stopped, found = False, None
+    if is_advisable(failed) and free:
+        advised = advise(
+            result, seconds, checks=(check,), held=held, tried=lambda number: progress(0, 0, f"design {number} is being computed")
+        )
+        stopped, found = advised.advice_stopped, next(iter(advised.advice), None)
+    if found is None:
+        reason = _reason(failed, result, free, stopped, seconds)
+        return {"check": check, "changes": [], "load": {}, "reason": reason, "stopped": stopped}
+    return _fix_found(design, result, failed, found)
+
+
+def _check_named(result: Result[Any], name: str) -> Check:
+    known = {each.name: each for each in result.checks}
+    if name not in known:
+        raise UnknownName("check", name, known)
+    if known[name].ok:
+        raise InputError(f"{check_label(known[name])}: this check passes, so there is nothing to change")
+    return known[name]
+
+
+def _reason(failed: Check, result: Result[Any], free: int, stopped: bool, seconds: float) -> str:
+    """Why there is no change to propose, in a sentence."""
+    if result.outcome != "complete":
+        return "the run of this design did not end, so no change can be compared with it"
+    if failed.bounds is not None:
+        return "the value of this check has an interval: the effect of a small change cannot be told from chance"
+    if not is_advisable(failed):
+        return "this check has no number that a change could improve"
+    if not free:
+        return "no dimension that may change is free; unlock one"
+    if stopped:
+        return f"no change was found within {seconds:.0f} s"
+    return "no change of one or two dimensions within their ranges makes this check pass"
+
+
+def _fix_found(design: Design, result: Result[Any], failed: Check, advice: Advice) -> dict[str, Any]:
+    labels = {each.name: check_label(each) for each in result.checks}
+    return {
+        "check": failed.name,
+        "changes": [_change(design.tables, change) for change in advice.changes],
+        "load": {change.key: change.given for change in advice.changes},
+        "value": quantity(advice.value, failed.unit),
+        "limit": f"{SIGNS[failed.sense]} {quantity(failed.limit, failed.unit)}",
+        "also_passes": [labels[name] for name in advice.also_passes],
+        "then_fails": [labels[name] for name in advice.then_fails],
+        "reason": "",
+        "stopped": False,
+    }
+
+
+def _change(tables: Mapping[str, Any], change: Change) -> dict[str, str]:
+    return {
+        "key": change.key,
+        "label": label(dict(tables), change.key),
+        "before": quantity(change.before, change.unit),
+        "given": change.given,
+    }
