@@ -11,7 +11,8 @@ from drivewright._jit.compilation import Compilation, watched_by
 from drivewright.registry import Analysis
 from drivewright.report.comparison import difference, difference_text
 from drivewright.report.content import check_label, summary
-from drivewright.report.pack import pack_handles, pack_plot_groups, pack_scene
+from drivewright.report.pack import pack_handles, pack_scene
+from drivewright.report.pack_plots import pack_every_plot
 from drivewright.result import Result, Value
 from drivewright.scene import Scene
 from drivewright.studio.design import Design
@@ -82,11 +83,10 @@ def _scene(spec, model):
 
 def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str]) -> dict[str, Any]:
     """Plain dictionary of a result for the page; `analyses` says whose answers it holds."""
-    groups = pack_plot_groups(result, scene, tuple(known_plots(result).values())) if scene else None
     told = summary(result)
     return {
         **told,
-        "plots": groups,
+        "plots": pack_every_plot(result, scene, tuple(known_plots(result).values())),
         "findings": list(result.findings),
         "warnings": list(result.warnings),
         "outcome": result.outcome,
@@ -158,10 +158,14 @@ def _merged_numbers(shown, update):
 
 def _merged_plots(shown, update):
     """Plots of the same name renewed, where the cycle is still the same kind of cycle."""
-    if not shown or not update or shown["cycle"]["unit"] != update["cycle"]["unit"]:
+    if not shown or not update or _cycle_unit(shown) != _cycle_unit(update):
         return shown
     fresh = {plot["name"]: plot for plot in update["plots"]}
-    return {"cycle": update["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
+    return {**shown, "cycle": update["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
+
+
+def _cycle_unit(plots: Mapping[str, Any]) -> str | None:
+    return plots["cycle"] and plots["cycle"]["unit"]
 
 
 def affordable_analyses(analyses: Iterable[Analysis[Any, Any]], seconds: Mapping[str, float], budget: float) -> list[str]:
