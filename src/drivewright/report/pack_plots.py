@@ -13,6 +13,7 @@ from drivewright.report.pack import MOST_ROWS, along, envelope_rows, floats, pac
 from drivewright.result import Check, Plot, Result
 from drivewright.scene import Scene
 from drivewright.view.panels import Panel, decimals, drawable, panels, span
+from drivewright.view.text import display_unit
 
 DRAWN = ("line", "points", "stems", "bars")  # styles that a page draws itself
 MOST_SHOWN, MOST_FAILED = 4, 2  # panels that a page opens with, and those among them that show failed checks
@@ -23,7 +24,7 @@ def pack_every_plot(result: Result[Any], scene: Scene | None, plots: Sequence[Pl
     """{"cycle", "plots", "first", "diagrams"}; None where the result has no plots.
 
     plots: as of `pack_plot_groups`, each panel with an `id`, "plot/column" of its first line.  A panel over something else than the
-    cycle has an `axis` {"label", "unit", "low", "high", "names", "places"} and its `u` in the unit of it; `names` are the texts of an
+    cycle has an `axis` {"label", "unit", "factor" from SI, "low", "high", "names", "places"} and its `u` in that unit; `names` are the texts of an
     axis without numbers, `equal` says that both axes have one scale, `phase` where on the cycle each of its points is.  A plot
     that a page cannot draw has no panels, but `picture`.  `first` are the panels to begin with, `diagrams` those of the drive
     that belong under its drawing, on the axis that points to the right.
@@ -82,7 +83,8 @@ def _packed_plot(result: Result[Any], scene: Scene | None, plot: Plot, linked: P
         packed = linked["panels"]
     else:
         drawn, phase = panels(result, plot), _phase(result, scene, plot)
-        packed = [_apart(each, phase, len(drawn)) for each in drawn]
+        factor = display_unit(result.tables[plot.table][plot.x].unit, result.units)[0]
+        packed = [_apart(each, phase, len(drawn), factor) for each in drawn]
     return {**about, "panels": [{**panel, "id": f"{plot.name}/{panel['name']}"} for panel in packed]}
 
 
@@ -93,8 +95,8 @@ def _phase(result: Result[Any], scene: Scene | None, plot: Plot) -> Floats | Non
     return along(result.tables[plot.table].columns[0].data, scene)
 
 
-def _apart(panel: Panel, phase: Floats | None, count: int) -> Packed:
-    """A panel over something else than the cycle."""
+def _apart(panel: Panel, phase: Floats | None, count: int, factor: float) -> Packed:
+    """A panel over something else than the cycle; `factor` is the unit of x per SI unit."""
     x, names = _places(panel.x.data)
     own = [x if each.x is None else np.asarray(each.x, float) for each in panel.series]
     low, high = (-0.5, len(x) - 0.5) if names is not None or panel.style == "bars" else span(own)
@@ -118,6 +120,7 @@ def _apart(panel: Panel, phase: Floats | None, count: int) -> Packed:
         "axis": {
             "label": panel.x.label,
             "unit": panel.x.unit,
+            "factor": float(factor),
             "low": float(low),
             "high": float(high),
             "names": names,
@@ -130,6 +133,7 @@ def _apart(panel: Panel, phase: Floats | None, count: int) -> Packed:
                 "unit": each.unit,
                 "role": each.role,
                 "dashed": each.dashed,
+                **({"marked": True} if each.marker else {}),
                 "data": floats(np.asarray(each.data, float)[rows]),
                 **({"x": floats(place[rows])} if each.x is not None else {}),
                 **({"ends": [floats(end[rows]) for end in each.ends]} if each.ends else {}),

@@ -75,6 +75,7 @@ export function createPanel(packed, cycle, shared, extra) {
     if (!visible || !at) return;
     const now = current(), x = now ? Math.round(at.toX(now.place)) : -99;
     cursor.style.transform = `translateX(${panel.path ? -99 : x}px)`;
+    node.classList.toggle("dw-idle", !now);
     panel.series.forEach((_, n) => {
       const value = now ? now.values[n] : NaN, y = at.toY(value), inside = value >= at.low && value <= at.high, other = behind.map(run => run.lines[n]).find(Boolean);
       numbers[n].textContent = fixed(value, panel.decimals);

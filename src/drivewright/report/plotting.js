@@ -96,7 +96,7 @@ function across(axis, {from, to, w}) {
   return found.values.map(value => [(value - axis.start) / axis.scale, tickText(value, found.decimals) + (axis.unit === "°" ? "°" : "")]);
 }
 
-function axes(context, panel, axis, at, colours, bare) {
+function axes(context, panel, axis, at, colours, foot) {
   const {w, h, margin, low, high, toX, toY} = at;
   const up = panel.log ? powers(low, high) : ticks(low, high, Math.max(2, h / 23), panel.series[0].unit);
   context.font = FONT; context.lineWidth = 1;
@@ -113,11 +113,11 @@ function axes(context, panel, axis, at, colours, bare) {
   for (const [place, text] of across(axis, at)) {
     const x = toX(place);
     rule(context, x, margin.top, x, margin.top + h, colours.grid);
-    if (bare) continue;
+    if (!foot) continue;
     context.textAlign = x > margin.left + w - 12 ? "right" : "center";
     context.fillText(text, x > margin.left + w - 12 ? margin.left + w + 12 : x, margin.top + h + 5);
   }
-  if (bare) return;
+  if (!foot) return;
   context.textAlign = "center";
   context.fillText(axis.label + (axis.unit && axis.unit !== "°" ? ` [${axis.unit}]` : ""), margin.left + w / 2, margin.top + h + 20);
 }
@@ -132,7 +132,7 @@ function phases(context, {marks}, {margin, h, toX}, colours) {
 }
 
 /** Names of what stands along the axis, each on its line; one that has no room is left out. */
-function places(context, axis, {margin, h, toX}, colours, bare) {
+function places(context, axis, {margin, h, toX}, colours, named) {
   let free = -Infinity;
   context.font = FONT; context.textAlign = "left"; context.textBaseline = "top"; context.lineWidth = 1;
   for (const [at, name] of axis.places) {
@@ -140,7 +140,7 @@ function places(context, axis, {margin, h, toX}, colours, bare) {
     context.setLineDash([2, 3]);
     rule(context, x, margin.top, x, margin.top + h, colours.muted);
     context.setLineDash([]);
-    if (bare || x < free) continue;
+    if (!named || x < free) continue;
     context.fillStyle = colours.muted;
     context.fillText(name, x + 3, margin.top + 1);
     free = x + 9 + context.measureText(name).width;
@@ -201,12 +201,12 @@ function intervals(context, at, u, [low, high], isolated) {
 }
 
 /** Points, and below them the stems that they stand on. */
-function marks(context, panel, at, u, values) {
+function marks(context, panel, at, u, values, size = 1.8) {
   const foot = at.toY(panel.log ? at.low : 0);
   for (let i = 0; i < u.length; i++) {
     const [x, y] = point(at, u, values, i);
     if (!Number.isFinite(y)) continue;
-    context.beginPath(); context.arc(x, y, 1.8, 0, 2 * Math.PI); context.fill();
+    context.beginPath(); context.arc(x, y, size, 0, 2 * Math.PI); context.fill();
     if (panel.style === "stems") { context.beginPath(); context.moveTo(x, foot); context.lineTo(x, y); context.stroke(); }
   }
 }
@@ -244,15 +244,16 @@ function curves(context, panel, behind, at, colours) {
     if (ends.length) intervals(context, at, u, ends, !joined);
     context.setLineDash(dashed ? [5, 3] : []); context.lineWidth = dashed ? 1.2 : 1.8;
     joined || dashed ? curve(context, at, u, values) : marks(context, panel, at, u, values);
+    context.setLineDash([]);
+    if (joined && line.marked) marks(context, panel, at, u, values, 3);
   }
-  context.setLineDash([]);
   context.restore();
 }
 
-/** Draws a panel; `at` is its layout.  `bare`: without what is said below the axis, for one that stands above others. */
-export function paintPanel(context, panel, axis, behind, at, colours, bare = false) {
-  axes(context, panel, axis, at, colours, bare);
-  places(context, axis, at, colours, bare);
+/** Draws a panel; `at` is its layout.  `foot`: with what is said below the axis, `named`: with the names of what stands along it. */
+export function paintPanel(context, panel, axis, behind, at, colours, {foot = true, named = true} = {}) {
+  axes(context, panel, axis, at, colours, foot);
+  places(context, axis, at, colours, named);
   curves(context, panel, behind, at, colours);
   limits(context, panel, at, colours);
 }

@@ -1,5 +1,6 @@
 // The plots pane below: which panels are shown, the runs drawn behind them, its height.
 
+import { overlays, translated } from "./overlays.js";
 import { createPictures } from "./pictures.js";
 import { createPicker } from "./picker.js";
 import { csvText, saveText, svgText } from "./plotfiles.js";
@@ -9,7 +10,7 @@ import { createPlots } from "./plots.js";
 import { createRuns } from "./runs.js";
 import { createSplitter } from "./splitter.js";
 
-const KEPT = "drivewright-plots", BEHIND = {colour: "muted", dash: [4, 3]};
+const KEPT = "drivewright-plots";
 
 /** Plots of a result in the language of the page: the panels that `chosen` names, in the order of the names. */
 export function chosenPlots({cycle, plots, first}, chosen, t) {
@@ -18,12 +19,6 @@ export function chosenPlots({cycle, plots, first}, chosen, t) {
   const best = ({panels}) => Math.min(...panels.map(({id}) => rank(id)));
   return {cycle: cycle && {...cycle, label: t(cycle.label), marks: cycle.marks.map(([u, label]) => [u, t(label)])},
     plots: own.sort((a, b) => best(a) - best(b)).map(plot => ({...plot, title: t(plot.title), panels: plot.panels.map(panel => translated(panel, t))}))};
-}
-
-function translated(one, t) {
-  const axis = one.axis && {...one.axis, label: t(one.axis.label), names: one.axis.names?.map(text => t(text)) ?? null};
-  return {...one, title: t(one.title), ...(axis ? {axis} : {}), series: one.series.map(series => ({...series, label: t(series.label)})),
-    limits: one.limits.map(([value, text]) => [value, t(text)])};
 }
 
 const recalled = () => { try { return JSON.parse(localStorage.getItem(KEPT)) || {}; } catch { return {}; } };
@@ -65,10 +60,8 @@ export function createBottom(host, tools) {
   }
   function compare() {
     if (!plots) return;
-    const {reference, kept} = store.state, ids = chosen();
-    const shown = (kept || []).filter(({on}) => on).map(run => ({...run, packed: chosenPlots(run.plots, ids, t)}));
-    const other = reference?.result?.plots ? [{...BEHIND, name: t(reference.title), packed: chosenPlots(reference.result.plots, ids, t)}] : [];
-    plots.compare([...other, ...shown]);
+    const ids = chosen();
+    plots.compare(overlays(store.state, t).map(({plots: theirs, ...run}) => ({...run, packed: chosenPlots(theirs, ids, t)})));
   }
   const exported = (state, plot) => {
     const save = (ending, type, text) => {
