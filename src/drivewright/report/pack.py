@@ -13,7 +13,7 @@ from drivewright.units import System
 from drivewright.view.motion import fractions
 from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.panels import STANDING, decimals, drawable, panels
-from drivewright.view.text import display_unit, shown_scale
+from drivewright.view.text import display_unit, quantity, shown_scale
 
 FINENESS = 3e-5  # curves become chords within this part of the scene's size: under a pixel at twenty-fold zoom
 MOST_ROWS = 2000  # a longer table is thinned: more points than a plot is wide
@@ -81,11 +81,25 @@ def pack_scene(scene: Scene, system: System = "mm") -> dict[str, Any]:
         "bodies": bodies,
         "observers": observers,
         "traces": traces,
+        **({"labels": _labels(scene, order, system)} if scene.labels else {}),
         "motions": list(motions),
         "shapes": [packed for _, packed in pool.values()],
         "frames": len(scene.cycle),
         "u": floats(fractions(scene.cycle)),
     }
+
+
+def _labels(scene: Scene, order: Sequence[str], system: System) -> list[dict[str, Any]]:
+    """Words on the drawing, numbers in the unit people read; `body` is the number of the body that carries one, -1 of the frame."""
+    return [
+        {
+            "text": " ".join(part for part in (label.text, "" if label.value is None else quantity(label.value, label.unit, 4, system)) if part),
+            "body": order.index(label.body) if label.body else -1,
+            "point": [float(part) for part in label.point],
+            "above": label.above,
+        }
+        for label in scene.labels
+    ]
 
 
 def _fineness(size: float) -> float:

@@ -108,6 +108,7 @@ def _apart(panel: Panel, phase: Floats | None, count: int, factor: float) -> Pac
     return {
         "name": panel.series[0].name,
         "title": panel.title if count == 1 or len(panel.series) > 1 else panel.series[0].label,
+        "label": panel.label,
         "low": panel.low,
         "high": panel.high,
         "decimals": int(decimals(panel.low, panel.high)),

@@ -4,7 +4,7 @@ import { overlays, panelsOf, translated } from "./overlays.js";
 import { element, fitCanvas, fixed, watchTheme } from "./player.js";
 import { axisOf, layout, paintPanel, runOf, unitText, unpacked, valueAt } from "./plotting.js";
 
-const LEFT = 62, RIGHT = 16, FOOT = 38, GAP = 7, ROW = 62;  // px
+const LEFT = 62, RIGHT = 16, FOOT = 38, GAP = 19, ROW = 66;  // px
 
 /** Room that the drawing leaves on its left and right, so that the numbers of the diagrams stand beside what is drawn. */
 export const SIDES = LEFT + 6;
@@ -42,10 +42,10 @@ export function createDiagrams(host, getPlayer, {store, t}, shown) {
   }
   /** A word and the numbers of each row. */
   function title() {
-    const made = rows.map(({panel}) => element("div", {class: "dg-head", "data-testid": `diagram-${panel.id}`}, element("b", {}, panel.title),
-      ...panel.series.map(one => element("span", {class: "dg-now", style: `--chip: var(--${one.role})`}, ...(panel.series.length > 1 ? [element("i", {}), one.label, " "] : []),
+    const made = rows.map(({panel}) => element("div", {class: "dg-head", "data-testid": `diagram-${panel.id}`}, element("b", {}, panel.label || panel.title),
+      ...panel.series.map(one => element("span", {class: "dg-now", title: one.label, style: `--chip: var(--${one.role})`}, ...(panel.series.length > 1 ? [element("i", {}), element("em", {}, one.label)] : []),
         element("output", {}), unitText(one.unit)))));
-    if (heads.dataset.shape !== (heads.dataset.shape = JSON.stringify(rows.map(({panel}) => [panel.title, panel.series.map(({label, unit}) => [label, unit])])))) heads.replaceChildren(...made);
+    if (heads.dataset.shape !== (heads.dataset.shape = JSON.stringify(rows.map(({panel}) => [panel.label, panel.title, panel.series.map(({label, unit}) => [label, unit])])))) heads.replaceChildren(...made);
   }
 
   function draw(always = false) {
@@ -62,7 +62,7 @@ export function createDiagrams(host, getPlayer, {store, t}, shown) {
       const margin = {left: LEFT, right: RIGHT, top: n * tall + GAP, bottom: height - (n + 1) * tall};
       const at = layout(panel, axis, behind, {width, height, margin, ends});
       paintPanel(context, panel, axis, behind, at, theme.colours, {foot: last, named: false});
-      if (heads.children[n]) heads.children[n].style.transform = `translateY(${Math.round(n * tall + GAP)}px)`;
+      if (heads.children[n]) heads.children[n].style.transform = `translateY(${Math.round(n * tall + 2)}px)`;
       return at;
     });
     show();
