@@ -20,23 +20,26 @@ MOST_SHOWN, MOST_FAILED = 4, 2  # panels that a page opens with, and those among
 Packed: TypeAlias = dict[str, Any]
 
 
-def pack_every_plot(result: Result[Any], scene: Scene | None, plots: Sequence[Plot]) -> Packed | None:
+def pack_every_plot(result: Result[Any], scene: Scene | None, plots: Sequence[Plot], quick: bool = False) -> Packed | None:
     """{"cycle", "plots", "first", "diagrams"}; None where the result has no plots.
 
     plots: as of `pack_plot_groups`, each panel with an `id`, "plot/column" of its first line.  A panel over something else than the
     cycle has an `axis` {"label", "unit", "factor" from SI, "low", "high", "names", "places"} and its `u` in that unit; `names` are the texts of an
     axis without numbers, `equal` says that both axes have one scale, `phase` where on the cycle each of its points is.  A plot
     that a page cannot draw has no panels, but `picture`.  `first` are the panels to begin with, `diagrams` those of the drive
-    that belong under its drawing, on the axis that points to the right.
+    that belong under its drawing, on the axis that points to the right.  `quick`, while a design changes: of the plots that are not over
+    the cycle only those that the drive names.
     """
-    shown = drawable(result, plots)
-    if not shown:
+    if not (shown := drawable(result, plots)):
         return None
+    known = registry.mechanism(result.mechanism)
+    named = [pattern.partition("/")[0] for pattern in (*known.main_plots, *known.diagrams)]
     linked = pack_plot_groups(result, scene, shown) if scene else None
     found = {plot["name"]: plot for plot in linked["plots"]} if linked else {}
+    if quick:
+        shown = tuple(plot for plot in shown if plot.name in found or any(fnmatchcase(plot.name, name) for name in named))
     packed = [_packed_plot(result, scene, plot, found.get(plot.name)) for plot in shown]
     ids = {plot.name: [panel["id"] for panel in each["panels"]] for plot, each in zip(shown, packed, strict=True)}
-    known = registry.mechanism(result.mechanism)
     every = [each for own in ids.values() for each in own]
     diagrams = _chosen(every, known.diagrams)
     cycle = pack_cycle(scene, result.units) if scene else None

@@ -43,6 +43,7 @@ export function createPlots(host, packed, {clock, extra}) {
     const wanted = structure(next);
     if (wanted === shape) grouped(next).flatMap(group => group.panels).forEach((panel, n) => panels[n].update(panel, next.cycle));
     else { build(next); shape = wanted; behind(); }
+    if (next.plots) next.plots.forEach(({stale}, n) => host.children[n].classList.toggle("dw-stale", Boolean(stale)));
   }
 
   function compare(other) {

@@ -40,7 +40,7 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
     send(json.dumps({"scene": packed, "remarks": remarks}, allow_nan=False))
     if not affordable:
         return None
-    return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
+    return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable, quick=True)
 
 
 def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:
@@ -81,12 +81,12 @@ def _scene(spec, model):
         return None, [f"no motion to show: {runner.failure_reason(spec, error)}"]
 
 
-def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str]) -> dict[str, Any]:
-    """Plain dictionary of a result for the page; `analyses` says whose answers it holds."""
+def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str], quick: bool = False) -> dict[str, Any]:
+    """Plain dictionary of a result for the page; `analyses` says whose answers it holds, `quick` that a design is just changing."""
     told = summary(result)
     return {
         **told,
-        "plots": pack_every_plot(result, scene, tuple(known_plots(result).values())),
+        "plots": pack_every_plot(result, scene, tuple(known_plots(result).values()), quick),
         "findings": list(result.findings),
         "warnings": list(result.warnings),
         "outcome": result.outcome,

@@ -65,8 +65,8 @@ export function createBottom(host, tools) {
   }
   const exported = (state, plot) => {
     const save = (ending, type, text) => {
-      const title = t("Download this plot as *", ending.toUpperCase()), name = `${store.state.design.name || kind()}-${plot.name}.${ending}`;
-      return pressable({class: "bt-export", "data-testid": `plot-${ending}`, title, "aria-label": `${plot.title}: ${title}`}, () => saveText(name, type, text(state())), ending.toUpperCase());
+      const title = t("Download this plot as *", ending.toUpperCase()), stem = store.state.design.name || kind();
+      return pressable({class: "bt-export", "data-testid": `plot-${ending}`, title, "aria-label": `${plot.title}: ${title}`}, () => saveText(`${stem}-${state().panel.id.replace("/", "-")}.${ending}`, type, text(state())), ending.toUpperCase());
     };
     return [element("span", {class: "bt-exports"}, save("svg", "image/svg+xml", one => svgText(one, store.state.design.title)), save("csv", "text/csv", csvText))];
   };

@@ -33,9 +33,9 @@ export function createPicker({t}, choice) {
     const boxes = [], refresh = () => boxes.forEach(one => one.show()), none = element("p", {class: "st-item-hint", hidden: ""}, t("nothing found"));
     const groups = choice.plots().map(plot => {
       const title = t(plot.title), add = (...about) => { const one = box(...about, refresh); boxes.push(one); return one.made; };
-      const own = plot.panels.length > 1 ? plot.panels.map(panel => add([panel.id], t(panel.title), "bt-pick bt-part", `pick-${panel.id}`)) : [];
+      const own = plot.panels.length > 1 ? plot.panels.map(panel => add([panel.id], panel.series.map(one => t(one.label)).join(", "), "bt-pick bt-part", `pick-${panel.id}`)) : [];
       const whole = add(idsOf(plot), plot.picture ? `${title} (${t("picture")})` : title, "bt-pick", `pick-${plot.name}`);
-      return {text: [title, plot.title, ...plot.panels.map(panel => t(panel.title))].join(" ").toLowerCase(), node: element("div", {}, whole, ...own)};
+      return {text: [title, plot.title, ...plot.panels.flatMap(panel => panel.series.map(one => t(one.label)))].join(" ").toLowerCase(), node: element("div", {}, whole, ...own)};
     });
     search.addEventListener("input", () => {
       const wanted = search.value.trim().toLowerCase();
