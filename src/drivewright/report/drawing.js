@@ -254,7 +254,7 @@ export function createView() {
     },
     /** Scale and centre that show a box within margins. */
     fitting([x0, y0, x1, y1], {top, right, bottom, left}) {
-      const w = this.width - left - right, h = this.height - top - bottom;
+      const w = Math.max(this.width - left - right, LEAST), h = Math.max(this.height - top - bottom, LEAST);
       const scale = Math.max(Math.min(w / Math.max(x1 - x0, 1e-9), h / Math.max(y1 - y0, 1e-9)), 1e-6);
       return {scale, centre: [(x0 + x1) / 2 + (right - left) / 2 / scale, (y0 + y1) / 2 + (top - bottom) / 2 / scale]};
     },
@@ -310,4 +310,4 @@ export function steer(canvas, view, redraw, moved, clicked) {
   }, {passive: false});
 }
 
-const SMALL = 0.45, SHAKE = 4;  // of the window, before it is fitted anew; px of a hand that clicks
+const SMALL = 0.45, SHAKE = 4, LEAST = 24;  // of the window, before it is fitted anew; px of a hand that clicks; px that a fitted drawing has

@@ -98,7 +98,7 @@ function across(axis, {from, to, w}) {
 
 function axes(context, panel, axis, at, colours, foot) {
   const {w, h, margin, low, high, toX, toY} = at;
-  const up = panel.log ? powers(low, high) : ticks(low, high, Math.max(2, h / 23), panel.series[0].unit);
+  const up = panel.log ? powers(low, high) : ticks(low, high, Math.max(h < 60 ? 3 : 2, h / 23), panel.series[0].unit);
   context.font = FONT; context.lineWidth = 1;
   phases(context, axis, at, colours);
   context.fillStyle = colours.line;
