@@ -74,7 +74,7 @@ def test_the_pane_begins_with_the_main_plots_and_shows_what_is_chosen(studio, ta
     assert page.get_by_test_id("plot-motion.rocker").locator(".dw-plot").count() == 2
     assert set(names(page)) == {"plot-motion.rocker", "plot-drive", "plot-spectrum.rocker", "plot-path.coupler_point"}
     page.reload()
-    until(page, f"{STATE}?.result?.full === true", 60)
+    until(page, "window.drivewright?.state.result?.full === true", 60)
     assert "plot-spectrum.rocker" in names(page), "the choice is remembered"
     page.get_by_test_id("plot-picker").click()
     page.get_by_test_id("plot-none").click()
@@ -130,7 +130,12 @@ def test_a_plot_is_an_svg_file_with_title_and_units(studio, tab):
     name, text = downloaded(page, "plot-svg", 1)
     root = ET.fromstring(text)
     said = [node.text for node in root.iter("{http://www.w3.org/2000/svg}text")]
-    assert name.endswith(".svg") and "Angular velocity of rocker" in said and "Angular velocity of rocker [rpm]" in said and "crank angle" in said
+    assert (
+        name.endswith(".svg")
+        and "Angular velocity of rocker" in said
+        and "Angular velocity of rocker [rpm]" in said
+        and "crank angle" in said
+    )
     first = next(root.iter("{http://www.w3.org/2000/svg}rect"))
     assert first.get("fill") == "#ffffff", "on white, whatever the theme"
     assert max(len(node.get("d")) for node in root.iter("{http://www.w3.org/2000/svg}path")) > 2000, "the curve itself"
@@ -151,7 +156,7 @@ def test_the_upper_edge_moves_by_hand_and_by_keys_and_is_remembered(studio, tab)
     assert tall == pytest.approx(before + 104, abs=3)
     until(page, f"Math.abs(document.querySelector('[role=separator]').getAttribute('aria-valuenow') - {tall}) < 3")
     page.reload()
-    until(page, f"{STATE}?.result?.full === true", 60)
+    until(page, "window.drivewright?.state.result?.full === true", 60)
     assert height(page) == pytest.approx(tall, abs=3)
     page.get_by_test_id("plots-edge").dblclick()
     assert height(page) == pytest.approx(before, abs=3)

@@ -68,7 +68,11 @@ def test_a_changing_design_has_only_the_plots_that_the_drive_names(shaft):
 def test_a_panel_that_shows_a_failed_check_comes_first(shaft):
     result, _ = shaft
     failed = Check("play", 2.0, 1.0, "<=", "mm", "too much")
-    plots = (Plot("lift", "Lift", "t", "x", ("lift",)), Plot("gap", "Gap", "t", "x", ("gap", "play")), Plot("other", "Other", "t", "x", ("other",)))
+    plots = (
+        Plot("lift", "Lift", "t", "x", ("lift",)),
+        Plot("gap", "Gap", "t", "x", ("gap", "play")),
+        Plot("other", "Other", "t", "x", ("other",)),
+    )
     ids = {"lift": ["lift/lift"], "gap": ["gap/gap", "gap/play"], "other": ["other/other"]}
     told = type(result)(**{**vars(result), "checks": (failed,)})
     assert first_panels(told, plots, ids, ("lift",)) == ["gap/play", "lift/lift"]

@@ -269,7 +269,9 @@ def test_a_whole_result_without_a_scene_has_no_plots(four_bar, without_a_scene, 
 def test_findings_and_the_outcome_come_along(monkeypatch):
     monkeypatch.setattr(preview, "summary", lambda result: {"verdict": "good"})
     checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
-    made = SimpleNamespace(checks=checks, findings=("beware",), warnings=("beware",), outcome="partial", provenance={"seconds": 2.5}, mechanism="")
+    made = SimpleNamespace(
+        checks=checks, findings=("beware",), warnings=("beware",), outcome="partial", provenance={"seconds": 2.5}, mechanism=""
+    )
     assert page_result(made, None, ["a"]) == {
         "verdict": "good",
         "plots": None,

@@ -93,7 +93,9 @@ def _labels(scene: Scene, order: Sequence[str], system: System) -> list[dict[str
     """Words on the drawing, numbers in the unit people read; `body` is the number of the body that carries one, -1 of the frame."""
     return [
         {
-            "text": " ".join(part for part in (label.text, "" if label.value is None else quantity(label.value, label.unit, 4, system)) if part),
+            "text": " ".join(
+                part for part in (label.text, "" if label.value is None else quantity(label.value, label.unit, 4, system)) if part
+            ),
             "body": order.index(label.body) if label.body else -1,
             "point": [float(part) for part in label.point],
             "above": label.above,

@@ -1,4 +1,4 @@
-"""All plots of a result as JSON for a page that offers a choice of them: over the cycle, over anything else, and those drawn as pictures."""
+"""All plots of a result as JSON for a page that offers a choice: over the cycle, over anything else, and those drawn as pictures."""
 
 from collections.abc import Iterable, Sequence
 from fnmatch import fnmatchcase

@@ -11,9 +11,11 @@ const idsOf = ({name, panels, picture}) => picture ? [name] : panels.map(({id}) 
 export function createPicker({t}, choice) {
   const popovers = createPopovers(), count = element("span", {class: "st-word"});
   const open = pressable({class: "st-button", "data-testid": "plot-picker", "aria-haspopup": "dialog", "aria-expanded": "false"},
-    made => popovers.toggle(made, "dialog", t("Choose plots"), list), icon("search"), count);
+    made => { fit(); popovers.toggle(made, "dialog", t("Choose plots"), list); }, icon("search"), count);
   const node = element("div", {class: "st-hold bt-hold"}, open);
 
+  /** The list has the room above the pane, however tall that is. */
+  const fit = () => node.style.setProperty("--bt-room", `${Math.max(180, Math.round(open.getBoundingClientRect().top) - 16)}px`);
   function box(ids, text, look, testid, refresh) {
     const input = element("input", {type: "checkbox", "data-testid": testid});
     input.addEventListener("change", () => {
@@ -48,6 +50,7 @@ export function createPicker({t}, choice) {
     return [element("div", {class: "bt-search"}, search, usual, clear), element("div", {class: "bt-list"}, ...groups.map(group => group.node), none)];
   }
   return {node, destroy: popovers.destroy, show() {
+    fit();
     const every = choice.plots().flatMap(idsOf), shown = choice.chosen().filter(id => every.includes(id)).length;
     put(count, t("* of * shown", shown, every.length));
     open.title = t("Choose plots"); open.setAttribute("aria-label", `${t("Choose plots")}: ${count.textContent}`);
