@@ -24,8 +24,8 @@ def pack_every_plot(result: Result[Any], scene: Scene | None, plots: Sequence[Pl
     """{"cycle", "plots", "first", "diagrams"}; None where the result has no plots.
 
     plots: as of `pack_plot_groups`, each panel with an `id`, "plot/column" of its first line.  A panel over something else than the
-    cycle has an `axis` {"label", "unit", "factor" from SI, "low", "high", "names", "places"} and its `u` in that unit; `names` are the texts of an
-    axis without numbers, `equal` says that both axes have one scale, `phase` where on the cycle each of its points is.  A plot
+    cycle has an `axis` {"label", "unit", "factor" from SI, "low", "high", "names", "places"} and its `u` in that unit; `names` are the
+    texts of an axis without numbers, `equal` says that both axes have one scale, `phase` where on the cycle each of its points is.  A plot
     that a page cannot draw has no panels, but `picture`.  `first` are the panels to begin with, `diagrams` those of the drive
     that belong under its drawing, on the axis that points to the right.  `quick`, while a design changes: of the plots that are not over
     the cycle only those that the drive names.
@@ -49,7 +49,7 @@ def pack_every_plot(result: Result[Any], scene: Scene | None, plots: Sequence[Pl
 def first_panels(
     result: Result[Any], plots: Sequence[Plot], ids: dict[str, list[str]], main: Sequence[str], apart: Sequence[str] = ()
 ) -> list[str]:
-    """Panels that a page opens with, none of those shown `apart`: a few that show failed checks, then what the drive calls its main ones."""
+    """Panels that a page opens with, none of those shown `apart`: a few that show failed checks, then the main ones of the drive."""
     every = [each for own in ids.values() for each in own]
     failing = [each for check in result.checks if not check.ok for each in _showing(check, plots, ids) if each not in apart]
     leading = [each for each in (_chosen(every, main) or every) if each not in apart]
