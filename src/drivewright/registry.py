@@ -88,6 +88,8 @@ class Mechanism(Generic[SpecT, ModelT]):
     supplied: Callable[[SpecT], Mapping[str, float]] | None = None
     sources: tuple[str, ...] = ()
     headline: tuple[str, ...] = ()  # value names shown first; "*" stands for what users name
+    main_plots: tuple[str, ...] = ()  # "plot" or "plot/column" that a page opens with, in this order, "*" as above; () for the first ones
+    diagrams: tuple[str, ...] = ()  # the same of plots whose x is what points to the right in the scene: they stand under it
     adjustable: Mapping[str, float] = field(default_factory=dict)  # {key, with "*": greatest factor} of what advice may change
     compile_ahead: Callable[[SpecT], Sequence[Callable[[], object]]] | None = None  # what compiles the kernels that a run comes to last
     dimensions: "tuple[DimensionSheet, ...]" = ()  # drawings that show what its keys measure

@@ -218,6 +218,20 @@ class Handle(NamedTuple):
     label: str = ""
 
 
+class Label(NamedTuple):
+    """A word on the drawing, or a number with its unit, beside `point` (x, y) [m] in the frame of `body` ("": the machine frame).
+
+    `value` [in the SI `unit`] stands behind the text; `above` says on which side of the point both stand.
+    """
+
+    text: str
+    point: Point
+    body: str = ""
+    above: bool = True
+    value: float | None = None
+    unit: str = ""
+
+
 @dataclass(frozen=True)
 class Scene:
     """One cycle of a mechanism.  `cycle` (frames,) is the driving quantity; first and last frame close the cycle."""
@@ -232,6 +246,7 @@ class Scene:
     table: str = ""  # name of the result's table that shares this cycle, for the linked cursor
     marks: tuple[tuple[float, str], ...] = ()  # (cycle value, label)
     handles: tuple[Handle, ...] = ()  # what a hand can move
+    labels: tuple[Label, ...] = ()  # names and numbers on the drawing
 
 
 @dataclass(frozen=True)

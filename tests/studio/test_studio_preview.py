@@ -200,7 +200,7 @@ def test_every_analysis_has_its_own_seconds(four_bar, monkeypatch):
         return "result"
 
     monkeypatch.setattr(preview.runner, "run", run)
-    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: (result, analyses))
+    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses, quick=False: (result, analyses))
     assert preview.analyse(lambda what: None, four_bar) == (("result", ["a", "b", "c"]), {"a": 1, "b": 11, "c": 21})
 
 
@@ -252,7 +252,7 @@ def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a
     told = []
     found = preview.draw(told.append, four_bar, ["motion"])
     assert json.loads(told[0]) == {"scene": None, "remarks": ["no motion to show: the loop stays open"]}
-    assert found["plots"] is None and found["values"]
+    assert found["plots"]["cycle"] is None and found["values"]
     without_a_scene.scene = None
     preview.draw(told.append, four_bar, ())
     assert json.loads(told[1]) == {"scene": None, "remarks": []}

@@ -62,7 +62,7 @@ export function nice(largest) {
 }
 
 const ROLES = ["surface", "canvas", "line", "grid", "grid-strong", "ink", "muted", "accent", "cursor", "bad", "raised",
-  "steel", "blue", "orange", "green", "violet", "ground"];
+  "steel", "blue", "orange", "green", "violet", "ground", "run-1", "run-2", "run-3", "run-4"];
 
 /** Colours of the host by role, and a call when the theme changes (the reader's preference, or data-theme / class of the page). */
 export function watchTheme(host, changed) {

@@ -165,6 +165,26 @@ export function createPainter(scene) {
     });
   }
 
+  /** Words beside their points, on a ground of their own so that they can be read over lines; one that would cover another is left out. */
+  function labels(context, view, observer, phase, colours, {hidden, scale}) {
+    const [low, part] = locate(scene.u, phase), eye = poseAt(observer.motion, low, part), taken = [];
+    context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
+    context.font = "11.5px system-ui, sans-serif"; context.textAlign = "center"; context.textBaseline = "middle";
+    for (const {text, body, point, above} of scene.labels || []) {
+      const carrier = scene.bodies[body];
+      if (carrier && hidden.has(carrier.title)) continue;
+      const [x, y] = carry(point, seenFrom(carrier ? poseOf(carrier, low, part, scale) : STILL, eye)), wide = context.measureText(text).width + 8;
+      const px = view.toX(x), py = view.toY(y) + (above ? -11 : 11), box = [px - wide / 2, py - 8, px + wide / 2, py + 8];
+      if (taken.some(other => box[0] < other[2] && box[2] > other[0] && box[1] < other[3] && box[3] > other[1])) continue;
+      taken.push(box);
+      context.fillStyle = colours.canvas; context.globalAlpha = 0.8;
+      context.fillRect(box[0], box[1], wide, 16);
+      context.globalAlpha = 1; context.fillStyle = colours.ink;
+      context.fillText(text, px, py);
+    }
+    context.textAlign = "left"; context.textBaseline = "alphabetic";
+  }
+
   /** The scene as one that another is compared with: thin and grey. */
   function behind(context, view, observer, phase, colours, switches) {
     bodies(context, view, observer, phase, colours, switches, COMPARED);
@@ -191,6 +211,7 @@ export function createPainter(scene) {
     if (switches.ghosts) for (let n = 0; n < GHOSTS; n++) bodies(context, view, observer, n / GHOSTS, colours, switches, GHOST);
     if (switches.traces) tracks(context, view, observer, phase, colours, switches.scale);
     bodies(context, view, observer, phase, colours, switches);
+    if (scene.labels) labels(context, view, observer, phase, colours, switches);
     scaleBar(context, view, colours);
   }
 
@@ -233,7 +254,7 @@ export function createView() {
     },
     /** Scale and centre that show a box within margins. */
     fitting([x0, y0, x1, y1], {top, right, bottom, left}) {
-      const w = this.width - left - right, h = this.height - top - bottom;
+      const w = Math.max(this.width - left - right, LEAST), h = Math.max(this.height - top - bottom, LEAST);
       const scale = Math.max(Math.min(w / Math.max(x1 - x0, 1e-9), h / Math.max(y1 - y0, 1e-9)), 1e-6);
       return {scale, centre: [(x0 + x1) / 2 + (right - left) / 2 / scale, (y0 + y1) / 2 + (top - bottom) / 2 / scale]};
     },
@@ -289,4 +310,4 @@ export function steer(canvas, view, redraw, moved, clicked) {
   }, {passive: false});
 }
 
-const SMALL = 0.45, SHAKE = 4;  // of the window, before it is fitted anew; px of a hand that clicks
+const SMALL = 0.45, SHAKE = 4, LEAST = 24;  // of the window, before it is fitted anew; px of a hand that clicks; px that a fitted drawing has

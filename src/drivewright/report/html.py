@@ -28,7 +28,16 @@ if TYPE_CHECKING:
 HERE = Path(__file__).parent
 SETTINGS: Any = {"autoescape": True, "trim_blocks": True, "lstrip_blocks": True}  # of every Jinja environment
 NO_LETTERHEAD = Letterhead().content()
-MODULES = ("clock.js", "scene.js", "drawing.js", "controls.js", "player.js", "plots.js")  # each behind those that it imports
+MODULES = (
+    "clock.js",
+    "scene.js",
+    "drawing.js",
+    "controls.js",
+    "player.js",
+    "plotting.js",
+    "panel.js",
+    "plots.js",
+)  # each behind those that it imports
 
 
 def write_report(

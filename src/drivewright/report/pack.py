@@ -13,7 +13,7 @@ from drivewright.units import System
 from drivewright.view.motion import fractions
 from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.panels import STANDING, decimals, drawable, panels
-from drivewright.view.text import display_unit, shown_scale
+from drivewright.view.text import display_unit, quantity, shown_scale
 
 FINENESS = 3e-5  # curves become chords within this part of the scene's size: under a pixel at twenty-fold zoom
 MOST_ROWS = 2000  # a longer table is thinned: more points than a plot is wide
@@ -75,17 +75,33 @@ def pack_scene(scene: Scene, system: System = "mm") -> dict[str, Any]:
     ]
     period = float(scene.period) if np.isfinite(scene.period) and scene.period > 0 else None
     return {
-        "cycle": _cycle(scene, system),
+        "cycle": pack_cycle(scene, system),
         **({} if system == "mm" else {"length": list(display_unit("m", system))}),
         "period": period,
         "bodies": bodies,
         "observers": observers,
         "traces": traces,
+        **({"labels": _labels(scene, order, system)} if scene.labels else {}),
         "motions": list(motions),
         "shapes": [packed for _, packed in pool.values()],
         "frames": len(scene.cycle),
         "u": floats(fractions(scene.cycle)),
     }
+
+
+def _labels(scene: Scene, order: Sequence[str], system: System) -> list[dict[str, Any]]:
+    """Words on the drawing, numbers in the unit people read; `body` is the number of the body that carries one, -1 of the frame."""
+    return [
+        {
+            "text": " ".join(
+                part for part in (label.text, "" if label.value is None else quantity(label.value, label.unit, 4, system)) if part
+            ),
+            "body": order.index(label.body) if label.body else -1,
+            "point": [float(part) for part in label.point],
+            "above": label.above,
+        }
+        for label in scene.labels
+    ]
 
 
 def _fineness(size: float) -> float:
@@ -101,7 +117,7 @@ def _magnified(body: Body, motions: dict[str, int]) -> dict[str, float]:
     return {"rest": _pooled(body.rest, motions), "magnified": float(body.magnified), **limit}
 
 
-def _cycle(scene: Scene, system: System) -> dict[str, Any]:
+def pack_cycle(scene: Scene, system: System) -> dict[str, Any]:
     """The driving quantity in the unit people read, with its marks as (0 ... 1, label)."""
     shown = shown_scale(scene.cycle_unit, system=system)
     start, span = float(scene.cycle[0]), float(scene.cycle[-1] - scene.cycle[0])
@@ -139,7 +155,7 @@ def pack_plot_groups(result: Result[Any], scene: Scene, plots: Sequence[Plot]) -
     """
     main = result.tables.get(scene.table)
     chosen = [
-        (plot, _along(result.tables[plot.table][plot.x].data, scene))
+        (plot, along(result.tables[plot.table][plot.x].data, scene))
         for plot in drawable(result, plots)
         if main and plot.x == main.columns[0].name and not plot.equal and plot.style not in STANDING
     ]
@@ -148,10 +164,10 @@ def pack_plot_groups(result: Result[Any], scene: Scene, plots: Sequence[Plot]) -
         for plot, u in chosen
         if u is not None
     ]
-    return {"cycle": _cycle(scene, result.units), "plots": packed} if packed else None
+    return {"cycle": pack_cycle(scene, result.units), "plots": packed} if packed else None
 
 
-def _along(x: ArrayLike, scene: Scene) -> Floats | None:
+def along(x: ArrayLike, scene: Scene) -> Floats | None:
     """x as 0 ... 1 along the scene's closed cycle, wherever on it x starts; None where x covers more than one cycle."""
     u = (np.asarray(x, float) - scene.cycle[0]) / (scene.cycle[-1] - scene.cycle[0])
     if not len(u) or not np.all(np.isfinite(u)) or np.ptp(u) > 1 + 1e-6:
@@ -166,6 +182,7 @@ def _panels(panels, u, scene, system):
         rows = order[envelope_rows([each[order] for s in panel.series for each in (s.data, *s.ends)])]
         title = panel.title if len(panels) == 1 or len(panel.series) > 1 else panel.series[0].label
         yield {
+            "name": panel.series[0].name,
             "title": title,
             "low": panel.low,
             "high": panel.high,

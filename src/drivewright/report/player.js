@@ -15,7 +15,7 @@ export { createClock, element, fitCanvas, fixed, floats, nice, watchTheme } from
 /**
  * A player inside `host`.  Options: clock (shared with plots; it outlives the player), autoplay, duration [s per cycle at speed 1],
  * text (English text -> text shown), picked (called with the name of a body that is clicked), drawn (called after each drawing),
- * held (whether a hand holds something, so that the view stays).
+ * held (whether a hand holds something, so that the view stays), sides (px left free beside the drawing, 0 for the usual).
  * Returns {clock, view, stage, frame, poseOf(body number, phase), load(scene), compare(scene | null), fit(), redraw(), setFrame(name), setGhosts(on), setTraces(on),
  * setExaggeration(scale), highlight(names), destroy()}.
  * What has been drawn can be read from the host: data-phase, data-frame, and data-gen where the scene has a `gen`.
@@ -57,7 +57,7 @@ export function createPlayer(host, packed, options = {}) {
   /** Box around the scene and the one it is compared with, and the margins that the labels leave. */
   function sight() {
     const boxes = [state, state.reference].filter(Boolean).map(({painter, observer}) => painter.extent(observer, switches.scale));
-    const ends = boxes.flatMap(([x0, y0, x1, y1]) => [x0, y0, x1, y1]), across = Math.min(34, view.width / 8);
+    const ends = boxes.flatMap(([x0, y0, x1, y1]) => [x0, y0, x1, y1]), across = options.sides?.() || Math.min(34, view.width / 8);
     return [boxOf(ends), {top: 26 + top.offsetHeight, right: across, bottom: 44, left: across}];
   }
   function fit() {

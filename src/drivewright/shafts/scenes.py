@@ -11,7 +11,7 @@ import numpy as np
 from drivewright._typing import Floats
 from drivewright.bearings import BallBearing, RollerBearing
 from drivewright.bearings.drawing import bearing_section
-from drivewright.scene import Body, Frame, Scene, Shape
+from drivewright.scene import Body, Frame, Label, Scene, Shape
 from drivewright.shafts import drawing
 from drivewright.shafts.beam import Beam, elastic_line
 from drivewright.shafts.loaded import ShaftLoads, forces_along
@@ -53,12 +53,13 @@ def shaft_scene(
     shape: BentShape | None,
     direction: Floats,
     loads: ShaftLoads,
-    gears: Iterable[DrawnGear] = (),
+    gears: Sequence[DrawnGear] = (),
     rolling: Mapping[str, BallBearing | RollerBearing] | None = None,
+    stations: Mapping[str, float] | None = None,
 ) -> Scene:
     """The shaft that bends as `shape` (None: it stays straight), its supports, gears and loads along `direction` (x, y) of the unit loads.
 
-    rolling: the rolling bearings among its supports, by name.
+    rolling: the rolling bearings among its supports, by name; stations: places [m] on it, by name.
     """
     phase = np.linspace(0.0, 2 * np.pi, FRAMES)
     part, still = 0.5 * (1 - np.cos(phase)), np.zeros((FRAMES, 3))
@@ -89,8 +90,36 @@ def shaft_scene(
     for n, (place, force) in enumerate(forces_along(loads, direction, ARROWS)):
         if abs(force) > NO_FORCE:
             bodies.append(riding(f"load.{n}", "load", drawing.load_arrow(shaft, place, force), place, "orange"))
+    slices = {name: f"shaft.{np.abs(middles - place).argmin()}" for name, place in (stations or {}).items()}
+    labels = (*_names(shaft, bodies, gears, stations or {}, slices), *_forces(bodies, loads, direction))
     frame = Frame("side", "seen from the side, exaggerated", still, axes=("z", _up(direction)))
-    return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (frame,))
+    return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (frame,), labels=labels)
+
+
+def _names(
+    shaft: Shaft, bodies: Sequence[Body], gears: Iterable[DrawnGear], stations: Mapping[str, float], slices: Mapping[str, str]
+) -> Iterator[Label]:
+    """Supports below, gears and stations above."""
+    found = {body.name: body for body in bodies}
+    for support in shaft.supports:
+        foot = min(float(shape.outline.points()[:, 1].min()) for shape in found[f"bearing.{support.name}"].shapes)
+        yield Label(support.name, (support.position, foot), f"bearing.{support.name}", above=False)
+    for gear in gears:
+        yield Label(gear.name, (0.0, gear.pitch_diameter / 2), f"gear.{gear.name}")
+    for name, place in stations.items():
+        radius = drawing.radius_at(shaft, min(place, shaft.length * (1 - 1e-12)))
+        yield Label(name, (0.0, radius), slices[name])
+
+
+def _forces(bodies: Sequence[Body], loads: ShaftLoads, direction: Floats) -> Iterator[Label]:
+    """The force of every arrow; of a line load at its two ends."""
+    found = {body.name: body for body in bodies}
+    for n, (_, force) in enumerate(forces_along(loads, direction, ARROWS)):
+        along = n - len(loads.points)
+        if f"load.{n}" not in found or along >= 0 and along % ARROWS not in (0, ARROWS - 1):
+            continue
+        tail = max((point for shape in found[f"load.{n}"].shapes for point in shape.outline.points()), key=lambda point: abs(point[1]))
+        yield Label("", (float(tail[0]), float(tail[1])), f"load.{n}", bool(tail[1] > 0), abs(force), "N" if along < 0 else "N/m")
 
 
 def _up(direction: Floats) -> str:

@@ -12,7 +12,8 @@ from drivewright.execution.outputs import CHECK
 from drivewright.registry import Analysis
 from drivewright.report.comparison import difference, difference_text
 from drivewright.report.content import check_label, summary
-from drivewright.report.pack import pack_handles, pack_plot_groups, pack_scene
+from drivewright.report.pack import pack_handles, pack_scene
+from drivewright.report.pack_plots import pack_every_plot
 from drivewright.result import Result, Value
 from drivewright.scene import Scene
 from drivewright.studio.design import Design
@@ -40,7 +41,7 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
     send(json.dumps({"scene": packed, "remarks": remarks}, allow_nan=False))
     if not affordable:
         return None
-    return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
+    return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable, quick=True)
 
 
 def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:
@@ -81,13 +82,12 @@ def _scene(spec, model):
         return None, [f"no motion to show: {runner.failure_reason(spec, error)}"]
 
 
-def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str]) -> dict[str, Any]:
-    """Plain dictionary of a result for the page; `analyses` says whose answers it holds."""
-    groups = pack_plot_groups(result, scene, tuple(known_plots(result).values())) if scene else None
+def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str], quick: bool = False) -> dict[str, Any]:
+    """Plain dictionary of a result for the page; `analyses` says whose answers it holds, `quick` that a design is just changing."""
     told = summary(result)
     return {
         **told,
-        "plots": groups,
+        "plots": pack_every_plot(result, scene, tuple(known_plots(result).values()), quick),
         "findings": list(result.findings),
         "warnings": list(result.warnings),
         "outcome": result.outcome,
@@ -170,10 +170,14 @@ def _merged_numbers(shown, update):
 
 def _merged_plots(shown, update):
     """Plots of the same name renewed, where the cycle is still the same kind of cycle."""
-    if not shown or not update or shown["cycle"]["unit"] != update["cycle"]["unit"]:
+    if not shown or not update or _cycle_unit(shown) != _cycle_unit(update):
         return shown
     fresh = {plot["name"]: plot for plot in update["plots"]}
-    return {"cycle": update["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
+    return {**shown, "cycle": update["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
+
+
+def _cycle_unit(plots: Mapping[str, Any]) -> str | None:
+    return plots["cycle"] and plots["cycle"]["unit"]
 
 
 def affordable_analyses(analyses: Iterable[Analysis[Any, Any]], seconds: Mapping[str, float], budget: float) -> list[str]:

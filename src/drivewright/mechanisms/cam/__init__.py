@@ -58,6 +58,7 @@ mechanism = Mechanism(
         "manufacture.hub_diameter": 1.5,
         "manufacture.cutter_diameter": 10.0,
     },
+    main_plots=("motion/lift", "kinematics/velocity", "kinematics/acceleration", "pressure_angle", "curvature"),
     headline=(
         "lift",
         "valve.lift",

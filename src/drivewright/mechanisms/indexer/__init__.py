@@ -122,6 +122,7 @@ mechanism = Mechanism(
         "motor.ratio": 5.0,
         "motor.rated_torque": 5.0,
     },
+    main_plots=("motion/wheel", "pressure_angle", "play", "stiffness", "pin_forces"),
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,

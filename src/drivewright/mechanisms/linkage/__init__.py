@@ -65,6 +65,7 @@ mechanism = Mechanism(
         "joints.*.bearing_radius": 3.0,
         "springs.*.stiffness": 4.0,
     },
+    main_plots=("motion.*", "drive", "forces"),
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,

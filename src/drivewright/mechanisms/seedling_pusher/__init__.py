@@ -85,6 +85,7 @@ mechanism = Mechanism(
         "lever.*": 1.3,
         "cams.*": 1.5,
     },
+    main_plots=("rod/rod", "contact_force", "pressure_angle", "convexity", "needle"),
     headline=(
         "tip.track_height",
         "tip.track_width",

@@ -107,6 +107,8 @@ mechanism = Mechanism(
         "bearings.*.static_rating": 5.0,
         "bearings.*.dynamic_rating": 5.0,
     },
+    main_plots=("haigh", "unit_load", "modes", "campbell", "shares"),
+    diagrams=("diagram/shear", "diagram/moment", "diagram/deflection", "diagram/slope", "stress/stress"),
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,

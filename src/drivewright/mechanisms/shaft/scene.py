@@ -13,7 +13,8 @@ from drivewright.shafts.scenes import BentShape, DrawnGear, shaft_scene
 def scene(model: ShaftModel) -> Scene:
     """The shaft under its loads; without loads under a force at the last station."""
     gears = [DrawnGear(gear.name, gear.position, gear.pitch_diameter, gear.face_width) for gear in model.spec.gears]
-    return shaft_scene(model.shaft, _bent_shape(model), model.direction, model.loads, gears, model.rolling)
+    stations = {station.name: station.position for station in model.spec.stations}
+    return shaft_scene(model.shaft, _bent_shape(model), model.direction, model.loads, gears, model.rolling, stations)
 
 
 def _bent_shape(model: ShaftModel) -> BentShape | None:

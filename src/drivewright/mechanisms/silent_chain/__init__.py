@@ -123,6 +123,7 @@ mechanism = Mechanism(
         "plate.apothem": 1.3,
         "drive.preload": 3.0,
     },
+    main_plots=("centre_distance", "running/tension", "spectrum", "trade_off"),
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,

@@ -1,10 +1,10 @@
 // The page: what comes from the server goes into the store, every part of the page hears what concerns it.
 
+import { createBottom } from "./bottom.js";
 import { createForm } from "./form.js";
 import { createHead } from "./head.js";
 import { createPanes } from "./panes.js";
 import { createClock, createPlayer, element } from "./player.js";
-import { createPlots } from "./plots.js";
 import { createSide } from "./side.js";
 import { createStore } from "./store.js";
 import { createViews } from "./views.js";
@@ -19,7 +19,7 @@ const PLACES = [["header", "head", createHead], ["aside", "form", createForm], [
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
-    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, focus: null, notice: "", proposals: null, ...taste()});
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
   const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside
@@ -43,29 +43,6 @@ export function start(host, page) {
   store.on(["design"], ({design}) => design && remember(sessionStorage, KEPT, {toml: design.toml, files: design.files}));
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
   return () => { socket.leave(); parts.forEach(part => part.destroy()); };
-}
-
-/** The plots below, when there is a result with plots over the cycle. */
-function createBottom(host, {store, t, clock}) {
-  let plots = null, lang = "";
-  const stop = store.on(["result", "reference", "lang"], ({result, reference, lang: now}) => {
-    const packed = result && result.plots && translated(result.plots, t);
-    if (plots && (!packed || now !== lang)) { plots.destroy(); plots = null; }
-    lang = now;
-    host.classList.toggle("st-none", !packed);
-    if (!packed) return;
-    if (plots) plots.update(packed); else plots = createPlots(host, packed, {clock});
-    plots.compare(reference && reference.result.plots ? translated(reference.result.plots, t) : null);
-  });
-  return {destroy() { stop(); plots?.destroy(); }};
-}
-
-/** Labels of plots in the language of the page. */
-function translated(packed, t) {
-  const panel = one => ({...one, title: t(one.title), series: one.series.map(series => ({...series, label: t(series.label)})),
-    limits: one.limits.map(([value, text]) => [value, t(text)])});
-  const cycle = {...packed.cycle, label: t(packed.cycle.label), marks: packed.cycle.marks.map(([u, label]) => [u, t(label)])};
-  return {cycle, plots: packed.plots.map(plot => ({...plot, title: t(plot.title), panels: plot.panels.map(panel)}))};
 }
 
 // ------------------------------------------------------------------------------------------------------- from the server

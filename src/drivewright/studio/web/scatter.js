@@ -3,7 +3,7 @@
 import { figure, powered, supported, unitText } from "./numbers.js";
 import { button } from "./parts.js";
 import { element, fitCanvas, fixed, watchTheme } from "./player.js";
-import { ticks } from "./plots.js";
+import { ticks } from "./plotting.js";
 import { circle, cross, rule, shade, shortened } from "./strokes.js";
 
 const MARGIN = {left: 66, right: 18, top: 14, bottom: 46};

@@ -1,5 +1,6 @@
 // The centre: the moving mechanism, its solids, its figures, and the designs of a study, one at a time.
 
+import { SIDES, createDiagrams } from "./diagrams.js";
 import { createFigures } from "./figures.js";
 import { createHandles } from "./handles.js";
 import { pressable } from "./parts.js";
@@ -19,6 +20,7 @@ function createMotion(host, tools) {
   const handles = createHandles(() => player, tools);
   let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
   host.append(stage, note);
+  const diagrams = createDiagrams(host, () => player, tools, () => player?.fit());
   const picked = name => store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
     const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
@@ -26,7 +28,8 @@ function createMotion(host, tools) {
     shown = scene;
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => player && handles.draw(), held: handles.held});
+      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => { if (player) { handles.draw(); diagrams.draw(); } },
+        sides: () => diagrams.active() ? SIDES : 0, held: handles.held});
       player.stage.append(handles.layer);
       player.highlight(store.state.lit);
     }
@@ -57,7 +60,7 @@ function createMotion(host, tools) {
   return {
     open() {}, close() {},
     reword() { if (player) load(shown); remark(store.state.scene); },
-    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); player?.destroy(); },
+    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); diagrams.destroy(); player?.destroy(); },
   };
 }
 
