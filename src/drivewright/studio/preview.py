@@ -11,6 +11,7 @@ from drivewright._jit.compilation import Compilation, watched_by
 from drivewright.registry import Analysis
 from drivewright.report.comparison import difference, difference_text
 from drivewright.report.content import check_label, summary
+from drivewright.report.features import pack_features
 from drivewright.report.pack import pack_handles, pack_plot_groups, pack_scene
 from drivewright.result import Result, Value
 from drivewright.scene import Scene
@@ -35,7 +36,7 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
     spec = design.spec_on_screen()
     model = runner.build(spec)
     scene, remarks = _scene(spec, model)
-    packed = {**pack_scene(scene), "handles": pack_handles(scene)} if scene else None
+    packed = {**pack_scene(scene), "handles": pack_handles(scene), "features": pack_features(scene)} if scene else None
     send(json.dumps({"scene": packed, "remarks": remarks}, allow_nan=False))
     if not affordable:
         return None

@@ -2,6 +2,7 @@
 
 import { createFigures } from "./figures.js";
 import { createHandles } from "./handles.js";
+import { createMeasure } from "./measure.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
@@ -16,21 +17,24 @@ const FIRST = "the first drawing after installation compiles for up to a minute"
 function createMotion(host, tools) {
   const {store, t, clock, createPlayer} = tools;
   const stage = element("div", {class: "vw-player"}), note = element("div", {class: "vw-note", role: "status", hidden: ""});
-  const handles = createHandles(() => player, tools);
   let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
+  const handles = createHandles(() => player, tools), measure = createMeasure(() => player, tools);
   host.append(stage, note);
-  const picked = name => store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
+  const picked = name => measure.active() || store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
     const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
     drive = store.state.design?.opened;
     shown = scene;
+    measure.expect(afresh);
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => player && handles.draw(), held: handles.held});
+      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => { if (player) { handles.draw(); measure.draw(); } }, held: handles.held, tools: [measure.button]});
       player.stage.append(handles.layer);
+      measure.attach(player);
       player.highlight(store.state.lit);
     }
     handles.load(scene.scene);
+    measure.load(scene.scene);
     if (compared) player.compare(compared);
   }
   function remark(scene) {
@@ -56,8 +60,8 @@ function createMotion(host, tools) {
   const stops = [store.on(["scene"], update), store.on(["reference"], reference), store.on(["lit"], ({lit}) => player?.highlight(lit))];
   return {
     open() {}, close() {},
-    reword() { if (player) load(shown); remark(store.state.scene); },
-    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); player?.destroy(); },
+    reword() { if (player) { measure.reword(); load(shown); } remark(store.state.scene); },
+    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); measure.destroy(); player?.destroy(); },
   };
 }
 
