@@ -3,6 +3,7 @@
 import { createFigures } from "./figures.js";
 import { createHandles } from "./handles.js";
 import { createMeasure } from "./measure.js";
+import { createMotionForm } from "./motion_form.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
@@ -67,7 +68,7 @@ function createMotion(host, tools) {
 
 // ---------------------------------------------------------------------------------------------------------------- the centre
 
-const PANES = {motion: createMotion, solid: createSolids, figures: createFigures, study: createStudies};
+const PANES = {motion: createMotion, programme: createMotionForm, solid: createSolids, figures: createFigures, study: createStudies};
 
 /** The centre inside `host`: tabs, and what each shows; `createPlayer` of report/player.js, `clock` shared with the plots. */
 export function createViews(host, tools) {
@@ -79,16 +80,16 @@ export function createViews(host, tools) {
     places[name] = element("div", {class: `vw-pane vw-${name}`, role: "tabpanel", "aria-labelledby": `view-tab-${name}`, hidden: ""});
   }
   function keys(event) {
-    const step = {ArrowRight: 1, ArrowLeft: -1}[event.key];
+    const step = {ArrowRight: 1, ArrowLeft: -1}[event.key], offered = names.filter(name => !tabs[name].hidden);
     if (!step) return;
-    const next = names[(names.indexOf(store.state.view) + step + names.length) % names.length];
+    const next = offered[(offered.indexOf(store.state.view) + step + offered.length) % offered.length];
     event.preventDefault();
     store.set({view: next});
     tabs[next].focus();
   }
   /** All words in the language of the page: a view that cannot change its words is made anew. */
   function reword() {
-    const words = {motion: t("Motion"), solid: t("Solid"), figures: t("Figures"), study: t("Study")};
+    const words = {motion: t("Motion"), programme: t("Programme"), solid: t("Solid"), figures: t("Figures"), study: t("Study")};
     row.setAttribute("aria-label", t("Views"));
     for (const name of names) {
       tabs[name].textContent = words[name];
@@ -98,6 +99,12 @@ export function createViews(host, tools) {
       views[name] = PANES[name](places[name], tools);
     }
     show(store.state);
+  }
+  /** A kind of drive without a list of segments has no programme to edit. */
+  function offer({design, kinds, view}) {
+    if (!design) return;
+    tabs.programme.hidden = !kinds.find(({kind}) => kind === design.kind)?.programme;
+    if (tabs.programme.hidden && view === "programme") store.set({view: "motion"});
   }
   function show({view}) {
     for (const name of names) {
@@ -113,6 +120,6 @@ export function createViews(host, tools) {
   row.addEventListener("keydown", keys);
   host.classList.add("vw");
   host.replaceChildren(row, frame);
-  const stops = [store.on(["lang"], reword), store.on(["view"], show)];
+  const stops = [store.on(["lang"], reword), store.on(["view"], show), store.on(["design", "kinds"], offer)];
   return {destroy() { stops.forEach(stop => stop()); for (const view of Object.values(views)) view.destroy(); host.replaceChildren(); }};
 }
