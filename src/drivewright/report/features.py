@@ -1,4 +1,4 @@
-"""What can be measured on a packed scene: the straight lines and arcs of its outlines, exact, which the chords of a picture no longer show."""
+"""What can be measured on a packed scene: lines and arcs of its outlines, exact, which the chords of a picture no longer show."""
 
 from typing import Any
 

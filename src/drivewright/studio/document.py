@@ -28,6 +28,7 @@ from drivewright.studio.input_parsing import (
     validated_spec,
     value_in,
 )
+from drivewright.studio.opening import LARGEST
 from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
 
@@ -256,11 +257,16 @@ class Document:
         info, given = self._several(key)
         if not info.table or not isinstance(given, list):
             raise SpecError("is no list of tables", key)
-        arranged = [_arranged(info.table, given, key, **element) for element in elements]
+        uses = [element["of"] for element in elements if element["of"] is not None]
+        if any(uses.count(number) > 2 for number in set(uses)):
+            raise SpecError("an element is wanted more than twice; a message must not grow without end", key)
         tables = deepcopy(self.design.tables)
         insert_parents(tables, spec_class(self.design), [*key.split("."), "0"])
-        set_key(tables, key, arranged)
-        self._accept(self.design.with_tables(tables))
+        set_key(tables, key, [_arranged(info.table, given, key, **element) for element in elements])
+        design = self.design.with_tables(tables)
+        if len(design.toml()) > max(LARGEST, len(self.design.toml())):
+            raise SpecError("is too much for the studio with these elements", key)
+        self._accept(design)
 
     def put(self, key: str) -> None:
         """An optional table, or an entry of a table whose keys the user chooses ("bodies.NAME"), with what it needs."""

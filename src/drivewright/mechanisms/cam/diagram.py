@@ -32,7 +32,10 @@ def diagram(model: CamModel) -> MotionDiagram:
 @cache
 def laws() -> tuple[LawChoice, ...]:
     """The laws that a segment may take without a file."""
-    return (LawChoice("dwell"), *(LawChoice(name, STARTS.get(name, {})) for name in motion.names() if name in STARTS or _goes_without(name)))
+    return (
+        LawChoice("dwell"),
+        *(LawChoice(name, STARTS.get(name, {})) for name in motion.names() if name in STARTS or _goes_without(name)),
+    )
 
 
 def _goes_without(name):

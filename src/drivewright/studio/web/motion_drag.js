@@ -49,7 +49,7 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
     }
   }
   function at({kind, k}, segment) {
-    if (kind === "border") return [plot.toX(segment.start), plot.rowAt(0)[0] - 2];
+    if (kind === "border") return [plot.toX(segment.start), 12];
     if (kind === "lift") return [plot.toX(segment.end), plot.toY(segment.to)];
     const [u, s] = segment.points[k];
     return [plot.toX(segment.start + u * segment.angle), plot.toY(segment.from + s * segment.rise)];
@@ -102,7 +102,8 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
     const {segments} = current(), other = partnerOf(segments, n), [own, next] = numbersOf({kind: "lift", n}), step = stepOf(own);
     const levels = segments.filter((_, k) => k !== n && k !== other - 1).map(segment => segment.from), upon = snap && levels.find(level => Math.abs(plot.toY(level) - plot.toY(to)) < NEAR);
     const onLevel = typeof upon === "number" && Math.abs(upon - segments[n].from) > 1e-9 ? upon : null;
-    const wanted = (onLevel ?? to) - segments[n].from, rise = tidy(Math.round((onLevel === null ? onGrid(wanted / own.factor, snap ? step : step / 10) : wanted / own.factor) * 1e9) / 1e9);
+    const wanted = (onLevel ?? to) - segments[n].from, exact = wanted / own.factor;
+    const rise = tidy(Math.round((onLevel === null ? onGrid(exact, snap ? step : step / 10) : exact) * 1e5) / 1e5);  // courses are single precision
     const rest = tidy(Math.round((next.value - (rise - own.value) * own.factor / next.factor) * 1e9) / 1e9);
     if (!rise || !rest) return "";
     send({[own.key]: `${rise} ${own.unit}`, [next.key]: `${rest} ${next.unit}`}, gesture, {[`${n} rise`]: rise * own.factor, [`${other} rise`]: rest * next.factor});

@@ -78,7 +78,7 @@ export function taker(segments, n, rise) {
 /** Another law for segment `n`; `texts.rise(number)` writes a rise, with the unit that segments have. */
 export function withLaw({segments, keys, lawKeys, laws, dwell}, n, law, texts) {
   const segment = segments[n], chosen = laws.find(({name}) => name === law), still = !moves(segment);
-  const own = law === dwell ? 0 : still ? strokeOf(segments) / 4 : segment.rise, change = segment.rise - own, other = change ? taker(segments, n, change) : n;
+  const own = law === dwell ? 0 : still ? Number((strokeOf(segments) / 4).toPrecision(3)) : segment.rise, change = segment.rise - own, other = change ? taker(segments, n, change) : n;
   if (!chosen || segment.absolute || other < 0) return null;
   const changes = {...Object.fromEntries(lawKeys.map(key => [key, ""])), ...chosen.parameters, [keys.law]: law, [keys.rise]: own ? texts.rise(own, n) : ""};
   return segments.map((each, k) => ({of: k, changes: k === n ? changes : k === other ? {[keys.rise]: texts.rise(each.rise + change, k)} : {}}));
