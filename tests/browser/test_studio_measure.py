@@ -83,7 +83,7 @@ def test_measurements_follow_the_design_and_are_removed(studio, tab):
     page.get_by_test_id("measure").click()
     enter(page, "bodies.crank.points.A.0", "36 mm")
     until(page, "document.querySelector('[data-testid=measure-value]').textContent.startsWith('36.000')")
-    assert page.locator(".ms-svg text").inner_html() == "36.000\xa0mm"
+    assert page.locator(".ms-svg text").text_content() == "36.000\xa0mm"
     page.get_by_test_id("measure-drop").click()
     assert page.get_by_test_id("measure-panel").is_hidden()
 
@@ -111,8 +111,8 @@ def drag(page, name, dx, dy):
 
 def settled(page, before, what="angle"):
     until(page, f"JSON.stringify({TEXTS.format(what)}) !== {before!r}")
-    drawn(page)
     page.wait_for_timeout(300)  # the last step of the hand
+    until(page, "window.drivewright.state.scene.gen === window.drivewright.state.design.gen")
     return page.evaluate(TEXTS.format(what))
 
 

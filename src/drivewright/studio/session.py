@@ -341,7 +341,10 @@ class Session:
 
 TAKE_LOCKS = ("sensitivity", "optimise")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
-WORDS = "hello again set drag revert unset add drop arrange put take undo redo lock text load preset fresh example open share reference pin job export save analyse"
+WORDS = (
+    "hello again set drag revert unset add drop arrange put take undo redo lock text load preset fresh example open share "
+    "reference pin job export save analyse"
+)
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 
 
