@@ -163,6 +163,24 @@ def test_laws_are_chosen_and_their_jumps_told(studio, tab):
     assert sum(degrees(page.evaluate(TEXTS.format("angle")))) == pytest.approx(360)
 
 
+def test_a_list_is_edited_as_the_design_has_it_where_the_drawing_is_late(studio, tab):
+    page = tab(shared(studio, "disc_cam"))
+    page.get_by_test_id("view-programme").click()
+    page.evaluate("window.before = window.drivewright.state.scene")
+    page.get_by_test_id("programme-segment-2").click()
+    page.get_by_test_id("programme-law").select_option("cycloidal")  # the dwell
+    until(page, f"{TEXTS.format('rise')}[2] !== ''")
+    until(page, "window.drivewright.state.scene.gen === window.drivewright.state.design.gen")
+    page.evaluate("window.drivewright.set({scene: window.before})")
+    assert page.get_by_test_id("programme-border-1").is_disabled()
+    page.get_by_test_id("programme-drop").click()
+    until(page, f"{TEXTS.format('angle')}.length === 2")
+    until(page, "window.drivewright.state.scene.gen === window.drivewright.state.design.gen")
+    assert not page.evaluate("Object.keys(window.drivewright.state.refused).length")
+    rises = [float(text.removesuffix(" mm")) for text in page.evaluate(TEXTS.format("rise"))]
+    assert sum(rises) == pytest.approx(0) and sum(degrees(page.evaluate(TEXTS.format("angle")))) == pytest.approx(360)
+
+
 def test_a_drive_without_segments_has_no_programme(studio, tab):
     page = tab(studio)
     assert page.get_by_test_id("view-programme").is_hidden()

@@ -13,10 +13,10 @@ const DEGREE = Math.PI / 180;
 const tidy = value => Number(value.toPrecision(12));
 
 /**
- * The buttons upon the diagram.  `current()` is the programme as drawn, `number(n, name)` a key of a segment, `hold(numbers)` draws what a
+ * The buttons upon the diagram.  `drawn()` is the programme as drawn, `isCurrent()` whether the design has the same segments, `number(n, name)` a key of a segment, `hold(numbers)` draws what a
  * hand holds, `select(n)` chooses a segment.
  */
-export function createMotionDrag({layer, stage, plot, current, number, hold, select, tools}) {
+export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, hold, select, tools}) {
   const {say, t, clock} = tools, bubble = element("output", {class: "hd-bubble", hidden: ""}), nudges = createGesture("programme");
   let buttons = new Map(), grip = null, pending = 0, swept = false;
   layer.append(bubble);
@@ -29,19 +29,19 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
     ...segments.flatMap(({points}, n) => points.slice(1, -1).map((_, k) => ({kind: "point", n, k: k + 1}))),
   ];
   const idOf = ({kind, n, k}) => `programme-${kind}-${n}${k === undefined ? "" : `-${k}`}`;
-  const numbersOf = ({kind, n}) => kind === "border" ? [number(n - 1, "angle"), number(n, "angle")] : kind === "lift" ? [number(n, "rise"), number(partnerOf(current().segments, n), "rise")] : [];
-  const can = (n, name) => { const {segments} = current(); return name === "angle" ? borderMoves(segments, n + 1) || borderMoves(segments, n) : partnerOf(segments, n) >= 0 || giverOf(segments, n) >= 0; };
+  const numbersOf = ({kind, n}) => kind === "border" ? [number(n - 1, "angle"), number(n, "angle")] : kind === "lift" ? [number(n, "rise"), number(partnerOf(drawn().segments, n), "rise")] : [];
+  const can = (n, name) => { const {segments} = drawn(); return name === "angle" ? borderMoves(segments, n + 1) || borderMoves(segments, n) : partnerOf(segments, n) >= 0 || giverOf(segments, n) >= 0; };
   /** The segment whose lift ends where the rise of `n` begins to count: the one that has `n` as its partner. */
   const giverOf = (segments, n) => segments.findIndex((_, k) => partnerOf(segments, k) === n);
 
   function place(selected) {
-    const programme = current(), wanted = things(programme), seen = new Set(wanted.map(idOf));
+    const programme = drawn(), wanted = things(programme), seen = new Set(wanted.map(idOf));
     for (const [id, made] of buttons) if (!seen.has(id)) { made.remove(); buttons.delete(id); }
     for (const thing of wanted) {
       const id = idOf(thing), made = buttons.get(id) || create(thing, id), segment = programme.segments[thing.n];
       if (thing.kind === "segment") strip(made, segment, thing.n, selected);
       else {
-        const [x, y] = at(thing, segment), free = thing.kind === "point" || numbersOf(thing).every(Boolean);
+        const [x, y] = at(thing, segment), free = isCurrent() && (thing.kind === "point" || numbersOf(thing).every(Boolean));
         made.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
         made.disabled = !free;
         describe(made, thing, programme);
@@ -88,7 +88,7 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
   // ---- a step of the hand
   /** Moves border `n` to an angle [rad]; `snap` to whole degrees, and where both segments are equally long; null for exactly there.  Answers the words of the snap. */
   function moveBorder(n, to, snap, gesture) {
-    const {segments} = current(), [before, after] = numbersOf({kind: "border", n}), from = segments[n - 1].start, end = segments[n].end;
+    const {segments} = drawn(), [before, after] = numbersOf({kind: "border", n}), from = segments[n - 1].start, end = segments[n].end;
     const equal = (from + end) / 2, same = snap && Math.abs(plot.toX(to) - plot.toX(equal)) < NEAR, step = (snap ? 1 : snap === null ? 0 : FREE) * DEGREE;
     const kept = Math.min(Math.max(same ? equal : onGrid(to, step), from + LEAST), end - LEAST);
     const first = tidy(Math.round((kept - from) / before.factor * 1e9) / 1e9), change = first - before.value;
@@ -99,7 +99,7 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
   }
   /** Moves the lift at the end of segment `n`; the next segment that moves takes up the difference. */
   function moveLift(n, to, snap, gesture) {
-    const {segments} = current(), other = partnerOf(segments, n), [own, next] = numbersOf({kind: "lift", n}), step = stepOf(own);
+    const {segments} = drawn(), other = partnerOf(segments, n), [own, next] = numbersOf({kind: "lift", n}), step = stepOf(own);
     const levels = segments.filter((_, k) => k !== n && k !== other - 1).map(segment => segment.from), upon = snap && levels.find(level => Math.abs(plot.toY(level) - plot.toY(to)) < NEAR);
     const onLevel = typeof upon === "number" && Math.abs(upon - segments[n].from) > 1e-9 ? upon : null;
     const wanted = (onLevel ?? to) - segments[n].from, exact = wanted / own.factor;
@@ -113,7 +113,7 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
   const stepOf = ({factor}) => nice(Math.max(Math.abs(plot.fromY(0) - plot.fromY(FINE)) / factor, 1e-9) * 1.999);
   /** Moves point `k` of the spline of segment `n` to (u, s). */
   function movePoint(n, k, [u, s], gesture) {
-    const {segments, list, keys: names} = current(), {points} = segments[n], round = value => tidy(Math.round(value * 1e3) / 1e3);
+    const {segments, list, keys: names} = drawn(), {points} = segments[n], round = value => tidy(Math.round(value * 1e3) / 1e3);
     const at = [round(Math.min(Math.max(u, points[k - 1][0] + 0.01), points[k + 1][0] - 0.01)), round(s)];
     const next = points.map((point, each) => each === k ? at : point);
     send({[`${list}.${n}.${names.points}`]: JSON.stringify(next)}, gesture, {});
@@ -127,10 +127,10 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
   const pixel = event => { const area = stage.getBoundingClientRect(); return [event.clientX - area.left, event.clientY - area.top]; };
   function press(event, made, thing) {
     event.preventDefault(); event.stopPropagation();
-    const [x, y] = pixel(event), [ox, oy] = at(thing, current().segments[thing.n]);
+    const [x, y] = pixel(event), [ox, oy] = at(thing, drawn().segments[thing.n]);
     made.focus({preventScroll: true});
     made.setPointerCapture(event.pointerId);
-    grip = {made, thing, off: [x - ox, y - oy], last: null, gesture: createGesture(idOf(thing)).current(), words: ""};
+    grip = {made, thing, off: [x - ox, y - oy], last: null, gesture: createGesture(idOf(thing)).drawn(), words: ""};
     made.classList.add("is-held");
     for (const [name, act] of Object.entries(WHILE_HELD)) made.addEventListener(name, act);
     showBubble();
@@ -144,14 +144,14 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
   function follow() {
     pending = 0;
     if (!grip?.last) return;
-    const {thing: {kind, n, k}, last: [x, y], free, gesture} = grip, segment = current().segments[n];
+    const {thing: {kind, n, k}, last: [x, y], free, gesture} = grip, segment = drawn().segments[n];
     if (kind === "border") grip.words = moveBorder(n, plot.fromX(x), !free, gesture);
     else if (kind === "lift") grip.words = moveLift(n, plot.fromY(y), !free, gesture);
     else movePoint(n, k, [(plot.fromX(x) - segment.start) / segment.angle, (plot.fromY(y) - segment.from) / segment.rise], gesture);
     showBubble();
   }
   function showBubble() {
-    const {made, thing, words} = grip, [x, y] = at(thing, current().segments[thing.n]);
+    const {made, thing, words} = grip, [x, y] = at(thing, drawn().segments[thing.n]);
     bubble.hidden = false;
     put(bubble, `${made.getAttribute("aria-valuetext")}${words ? ` · ${words}` : ""}`);
     const wide = bubble.offsetWidth, left = x + 14 + wide > layer.clientWidth ? x - 14 - wide : x + 14;
@@ -175,7 +175,7 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
 
   // ---- keys and typing
   function keys(event, {kind, n, k}) {
-    const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key], times = event.shiftKey ? 10 : 1, segment = current().segments[n];
+    const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key], times = event.shiftKey ? 10 : 1, segment = drawn().segments[n];
     if (event.key === "Escape" && grip) { const {gesture} = grip; event.preventDefault(); event.stopPropagation(); end(); hold(null); say({what: "revert", gesture}); return; }
     if (!step || !(kind === "point" || numbersOf({kind, n}).every(Boolean))) return;
     event.preventDefault(); event.stopPropagation();
@@ -187,24 +187,24 @@ export function createMotionDrag({layer, stage, plot, current, number, hold, sel
   }
   /** A typed angle or rise of segment `n`: the border behind it moves, or the one before the last; the lift at its end, or at its start. */
   function typed(n, name, text) {
-    const [value, unit] = quantityOf(text) || [], own = number(n, name), {segments} = current();
+    const [value, unit] = quantityOf(text) || [], own = number(n, name), {segments} = drawn();
     if (!Number.isFinite(value) || !own) return;
-    if (unit && unit !== own.unit && !(unit === "°" && own.unit === "deg")) { say({what: "set", key: own.key, text}); return; }
-    const wanted = value * own.factor, gesture = createGesture(own.key).current();
+    if (!isCurrent() || unit && unit !== own.unit && !(unit === "°" && own.unit === "deg")) { say({what: "set", key: own.key, text: unit ? text : `${value} ${own.unit}`}); return; }
+    const wanted = value * own.factor, gesture = createGesture(own.key).drawn();
     if (name === "angle") borderMoves(segments, n + 1) ? moveBorder(n + 1, segments[n].start + wanted, null, gesture) : moveBorder(n, segments[n].end - wanted, null, gesture);
     else if (partnerOf(segments, n) >= 0) exactLift(n, wanted, gesture);
     else { const giver = giverOf(segments, n); exactLift(giver, segments[giver].rise + segments[n].rise - wanted, gesture); }
     hold(null);
   }
   function exactLift(n, rise, gesture) {
-    const other = partnerOf(current().segments, n), [own, next] = numbersOf({kind: "lift", n}), first = tidy(rise / own.factor);
+    const other = partnerOf(drawn().segments, n), [own, next] = numbersOf({kind: "lift", n}), first = tidy(rise / own.factor);
     const rest = tidy(next.value - (first - own.value) * own.factor / next.factor);
     if (first && rest) send({[own.key]: `${first} ${own.unit}`, [next.key]: `${rest} ${next.unit}`}, gesture, {[`${n} rise`]: first * own.factor, [`${other} rise`]: rest * next.factor});
   }
 
   // ---- the clock, where nothing else is under the hand
-  function sweep(event) { clock.pause(); clock.set(plot.fromX(pixel(event)[0]) / current().cycle.span); }
-  stage.addEventListener("pointerdown", event => { if (event.target.tagName === "CANVAS" && current()) { swept = true; event.target.setPointerCapture(event.pointerId); sweep(event); } });
+  function sweep(event) { clock.pause(); clock.set(plot.fromX(pixel(event)[0]) / drawn().cycle.span); }
+  stage.addEventListener("pointerdown", event => { if (event.target.tagName === "CANVAS" && drawn()) { swept = true; event.target.setPointerCapture(event.pointerId); sweep(event); } });
   stage.addEventListener("pointermove", event => { if (swept) sweep(event); });
   for (const name of ["pointerup", "pointercancel"]) stage.addEventListener(name, () => { swept = false; });
   return {place, can, typed, held: () => grip !== null, reword() { buttons.forEach(made => made.remove()); buttons = new Map(); }, destroy() { if (grip) end(); }};

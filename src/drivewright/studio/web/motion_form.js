@@ -15,11 +15,12 @@ export function createMotionForm(host, tools) {
   const {store, say, t, clock} = tools;
   const canvas = element("canvas", {class: "mf-canvas"}), cursor = element("div", {class: "dw-cursor mf-cursor"}), layer = element("div", {class: "mf-layer"});
   const stage = element("div", {class: "mf-stage", "data-testid": "programme"}, canvas, cursor, layer), bar = element("div", {class: "mf-bar"}), status = element("p", {class: "mf-status", role: "status", "data-testid": "programme-continuity"});
-  let programme = null, packed = null, fields = new Map(), selected = 0, held = null, opened = false, timer = 0, shown = null;
+  let programme = null, packed = null, fields = new Map(), selected = 0, held = null, opened = false, timer = 0;
+  let shown = null, design = null, current = true;  // as drawn; as the form has it; whether the segments of both are the same
   host.classList.add("mf");
   host.append(bar, stage, status);
   const theme = watchTheme(host, () => render()), plot = createMotionPlot(canvas, () => place());
-  const drag = createMotionDrag({layer, stage, plot, current: () => shown, number, hold, select, tools});
+  const drag = createMotionDrag({layer, stage, plot, drawn: () => shown, isCurrent: () => current, number, hold, select, tools});
 
   // ---- numbers of the form
   const keyOf = (n, name) => `${programme.list}.${n}.${programme.keys[name]}`;
@@ -31,7 +32,7 @@ export function createMotionForm(host, tools) {
   const tidy = value => Number(value.toPrecision(12));
   const texts = {
     rise(value, n) {
-      const {unit} = fields.get(keyOf(n, "rise")) || {}, own = Math.abs(programme.segments[n].rise) > 0 && FACTORS[unit] ? unit : programme.lift.angular ? "deg" : "mm";
+      const {unit} = fields.get(keyOf(n, "rise")) || {}, own = Math.abs(design.segments[n].rise) > 0 && FACTORS[unit] ? unit : programme.lift.angular ? "deg" : "mm";
       return `${tidy(Math.round(value / FACTORS[own] * 1e9) / 1e9)} ${own}`;
     },
     half(n) { const {unit, value} = fields.get(keyOf(n, "angle")), first = tidy(value / 2); return [`${first} ${unit}`, `${tidy(value - first)} ${unit}`]; },
@@ -47,12 +48,26 @@ export function createMotionForm(host, tools) {
     const {unit, value} = fields.get(keyOf(n, name)) || {}, factor = FACTORS[unit];
     return held?.[`${n} ${name}`] ?? (factor && typeof value === "number" ? factor * value : segment[name]);
   });
+  /** The segments as the form has them: what is edited, for a scene may be late, or never come where the design has no solution. */
+  function readDesign() {
+    const {list, keys, segments, dwell} = programme, made = [];
+    const si = key => { const {unit, value} = fields.get(key) || {}; return typeof value === "number" ? value * (FACTORS[unit] || 1) : 0; };
+    for (let n = 0, level = segments[0]?.course[1][0] || 0; fields.has(`${list}.${n}.${keys.angle}`); n++) {
+      const law = fields.get(keyOf(n, "law"))?.text, absolute = segments.some(segment => segment.absolute && segment.law === law), rise = absolute || law === dwell ? 0 : si(keyOf(n, "rise"));
+      const drawn = absolute && segments[n]?.law === law ? segments[n].course[1] : [level, level + rise];
+      made.push({law, absolute, rise, angle: si(keyOf(n, "angle")), from: drawn[0], to: drawn.at(-1)});
+      level = drawn.at(-1);
+    }
+    return {...programme, segments: made};
+  }
   function render() {
     if (!programme || !opened) return;
-    const count = [...fields.keys()].filter(key => key.startsWith(`${programme.list}.`) && key.endsWith(`.${programme.keys.angle}`)).length;
-    const same = count === programme.segments.length, own = name => same ? designed(name) : programme.segments.map(segment => segment[name]);
+    design = readDesign();
+    current = design.segments.length === programme.segments.length && design.segments.every(({law}, n) => law === programme.segments[n].law);
+    const own = name => current ? designed(name) : programme.segments.map(segment => segment[name]);
     shown = stretched(programme, own("angle"), own("rise"));
-    selected = Math.min(selected, shown.segments.length - 1);
+    selected = Math.max(0, Math.min(selected, design.segments.length - 1));
+    stage.classList.toggle("is-old", !current);
     const jumps = jumpsOf(shown), peaks = peaksOf(shown, jumps), {factors, titles} = words(peaks);
     plot.show({programme: shown, jumps, selected, factors, titles, held: drag.held(), axis: `${t(shown.cycle.label)} [${shown.cycle.unit}]`}, theme.colours);
     place(); tell(jumps, titles);
@@ -89,33 +104,35 @@ export function createMotionForm(host, tools) {
     const law = element("select", {class: "pn-select mf-law", "data-testid": "programme-law", "aria-label": t("Motion law")});
     const box = (name, label) => element("input", {type: "text", class: "st-box mf-box", "data-testid": `programme-${name}`, "aria-label": label, autocomplete: "off"});
     const angle = box("angle", t("Angle of the segment")), rise = box("rise", t("Rise of the segment"));
-    law.addEventListener("change", () => { const next = withLaw(shown, selected, law.value, texts); next ? arrange(next) : fill(); });
+    law.addEventListener("change", () => { const next = withLaw(design, selected, law.value, texts); next ? arrange(next) : fill(); });
     for (const [input, name] of [[angle, "angle"], [rise, "rise"]]) {
       input.addEventListener("keydown", event => { if (event.key === "Enter") { input.dataset.unsent = ""; drag.typed(selected, name, input.value); delete input.dataset.unsent; } });
       input.addEventListener("blur", () => fill());
     }
-    const add = button(t("Add a dwell"), () => { const next = withDwell(shown, selected, texts); if (next) { arrange(next); selected += 1; } }, {testid: "programme-add", title: t("The chosen segment is halved, and a dwell follows it")});
-    const drop = button(t("Remove"), () => { const next = without(shown, selected, texts); if (next) arrange(next); }, {testid: "programme-drop", title: t("Its angle goes to a neighbour, its rise to another segment")});
+    const add = button(t("Add a dwell"), () => { const next = withDwell(design, selected, texts); if (next) { arrange(next); selected += 1; } }, {testid: "programme-add", title: t("The chosen segment is halved, and a dwell follows it")});
+    const drop = button(t("Remove"), () => { const next = without(design, selected, texts); if (next) arrange(next); }, {testid: "programme-drop", title: t("Its angle goes to a neighbour, its rise to another segment")});
     const name = element("b", {class: "mf-name"});
     const label = (text, input) => element("label", {class: "so-control"}, element("span", {}, text), input);
     parts = {law, angle, rise, add, drop, name};
     bar.replaceChildren(name, label(t("Motion law"), law), label(t("Angle"), angle), label(t("Rise"), rise), add, drop);
     canvas.setAttribute("role", "img"); canvas.setAttribute("aria-label", t("Lift, velocity, acceleration and jerk over the cycle"));
   }
-  const arrange = elements => say({what: "arrange", list: programme.list, elements});
+  let waiting = false;  // for the answer to another list
+  function arrange(elements) { waiting = true; say({what: "arrange", list: programme.list, elements}); fill(); }
   function fill() {
-    if (!shown || !parts) return;
-    const segment = shown.segments[selected], fixed = segment.absolute, choices = shown.laws.map(({name}) => name), all = choices.includes(segment.law) ? choices : [segment.law, ...choices];
-    put(parts.name, t("Segment * of *", selected + 1, shown.segments.length));
+    const segment = design?.segments[selected];
+    if (!segment || !parts) return;
+    const fixed = segment.absolute, choices = design.laws.map(({name}) => name), all = choices.includes(segment.law) ? choices : [segment.law, ...choices];
+    put(parts.name, t("Segment * of *", selected + 1, design.segments.length));
     if (parts.law.dataset.all !== all.join()) { parts.law.dataset.all = all.join(); parts.law.replaceChildren(...all.map(name => element("option", {value: name}, t(name)))); }
-    for (const option of parts.law.options) option.disabled = option.value !== segment.law && !withLaw(shown, selected, option.value, texts);
-    parts.law.value = segment.law; parts.law.disabled = fixed;
+    for (const option of parts.law.options) option.disabled = option.value !== segment.law && !withLaw(design, selected, option.value, texts);
+    parts.law.value = segment.law; parts.law.disabled = fixed || waiting;
     for (const name of ["angle", "rise"]) {
       const own = number(selected, name), box = parts[name], value = own && (held?.[`${selected} ${name}`] ?? own.value * own.factor) / own.factor;
-      box.disabled = !own || fixed || !drag.can(selected, name);
+      box.disabled = !own || fixed || current && !drag.can(selected, name);
       if (document.activeElement !== box) box.value = own ? `${tidy(Math.round(value * 1e6) / 1e6)} ${own.unit}` : "";
     }
-    parts.add.disabled = !withDwell(shown, selected, texts); parts.drop.disabled = !without(shown, selected, texts);
+    parts.add.disabled = waiting || !withDwell(design, selected, texts); parts.drop.disabled = waiting || !without(design, selected, texts);
   }
   function select(n) { selected = n; render(); }
 
@@ -126,8 +143,9 @@ export function createMotionForm(host, tools) {
     if (numbers) held = {...held, ...numbers}; else timer = setTimeout(() => { held = null; render(); }, WAIT);
     render();
   }
-  function designChanged({design}) {
-    fields = new Map((design?.form?.groups || []).flatMap(group => group.fields.map(field => [field.key, field])));
+  function designChanged({design: next}) {
+    waiting = false;
+    fields = new Map((next?.form?.groups || []).flatMap(group => group.fields.map(field => [field.key, field])));
     if (held && !drag.held() && programme && Object.entries(held).every(([name, value]) => {
       const own = number(...[0, 1].map(k => k ? name.split(" ")[1] : Number(name.split(" ")[0])));
       return !own || Math.abs(own.value * own.factor - value) < 1e-9;
@@ -141,7 +159,7 @@ export function createMotionForm(host, tools) {
     render();
   }
   build();
-  const stops = [store.on(["design"], designChanged), store.on(["scene"], sceneChanged), clock.subscribe(follow)];
+  const stops = [store.on(["design"], designChanged), store.on(["scene"], sceneChanged), store.on(["refused"], () => { waiting = false; fill(); }), clock.subscribe(follow)];
   return {
     open() { opened = true; render(); },
     close() { opened = false; },
