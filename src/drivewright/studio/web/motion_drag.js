@@ -130,7 +130,7 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
     const [x, y] = pixel(event), [ox, oy] = at(thing, drawn().segments[thing.n]);
     made.focus({preventScroll: true});
     made.setPointerCapture(event.pointerId);
-    grip = {made, thing, off: [x - ox, y - oy], last: null, gesture: createGesture(idOf(thing)).drawn(), words: ""};
+    grip = {made, thing, off: [x - ox, y - oy], last: null, gesture: createGesture(idOf(thing)).current(), words: ""};
     made.classList.add("is-held");
     for (const [name, act] of Object.entries(WHILE_HELD)) made.addEventListener(name, act);
     showBubble();
@@ -190,7 +190,7 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
     const [value, unit] = quantityOf(text) || [], own = number(n, name), {segments} = drawn();
     if (!Number.isFinite(value) || !own) return;
     if (!isCurrent() || unit && unit !== own.unit && !(unit === "°" && own.unit === "deg")) { say({what: "set", key: own.key, text: unit ? text : `${value} ${own.unit}`}); return; }
-    const wanted = value * own.factor, gesture = createGesture(own.key).drawn();
+    const wanted = value * own.factor, gesture = createGesture(own.key).current();
     if (name === "angle") borderMoves(segments, n + 1) ? moveBorder(n + 1, segments[n].start + wanted, null, gesture) : moveBorder(n, segments[n].end - wanted, null, gesture);
     else if (partnerOf(segments, n) >= 0) exactLift(n, wanted, gesture);
     else { const giver = giverOf(segments, n); exactLift(giver, segments[giver].rise + segments[n].rise - wanted, gesture); }
