@@ -206,7 +206,7 @@ ODD = [
     '{"what": "arrange", "list": "joints", "elements": [{"of": [0], "changes": {}}]}',
     '{"what": "arrange", "list": "joints", "elements": [{"of": 0.5, "changes": {}}]}',
     '{"what": "arrange", "list": "joints", "elements": [{"of": true, "changes": []}]}',
-    '{"what": "arrange", "list": "joints", "elements": [{"of": 0, "changes": {"": "1"}}]}',
+    '{"what": "arrange", "list": "joints", "elements": [{"of": 0, "changes": {"name": ""}}]}',
     '{"what": "arrange", "list": "joints", "elements": [{"of": null, "changes": {"SURROGATE": "1"}}]}',
     '{"what": "arrange", "list": "drive", "elements": []}',
     '{"what": "arrange", "list": "bodies", "elements": []}',
