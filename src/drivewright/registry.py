@@ -22,6 +22,7 @@ from drivewright.errors import InputError
 
 if TYPE_CHECKING:
     from drivewright.dimensions import DimensionSheet
+    from drivewright.motion_diagram import MotionDiagram
     from drivewright.result import Answer, Answers, Plot, Result, SpecLike
     from drivewright.scene import Drawing, Part, Scene
 
@@ -63,7 +64,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     """All that the house knows of a kind of drive.
 
     `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots` (or `plots(result)`, where they depend on it),
-    `drawings(model)` and `parts(model)` show it;
+    `drawings(model)` and `parts(model)` show it, `programme(model)` draws its motion for whoever edits it;
     `verify(model, result)` re-computes it on independent routes, with a `LeftOut` in place of the rows of one that is not to be had;
     `batch(spec, keys, names)` gives a fast evaluation of many designs (n, keys) in SI -> {name: (n,)} for values, and checks as
     `check.NAME` (their margins), or None where it does not cover them; a design that it cannot speak for is nan in every name.
@@ -80,6 +81,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     analyses: tuple[Analysis[SpecT, ModelT], ...]
     folder: Path
     scene: "Callable[[ModelT], Scene] | None" = None
+    programme: "Callable[[ModelT], MotionDiagram] | None" = None  # its motion, where the spec has a list of segments
     plots: "tuple[Plot, ...] | Callable[[Result[Any]], tuple[Plot, ...]]" = ()
     drawings: "Callable[[ModelT], tuple[Drawing, ...]] | None" = None
     parts: "Callable[[ModelT], tuple[Part, ...]] | None" = None

@@ -111,6 +111,9 @@ LARGE = {
     },
     "a table of a search": {"what": "begin", "name": "study", "table": {f"a{n}": 1 for n in range(60_000)}},
     "lists": {"what": "load", "changes": [[]] * 250_000},
+    "elements": {"what": "arrange", "list": "joints", "elements": [{"of": 0, "changes": {}}] * 30_000},
+    "an element again and again": {"what": "arrange", "list": "joints", "elements": [{"of": 0, "changes": {}}] * 1_200},
+    "a new element": {"what": "arrange", "list": "joints", "elements": [{"of": None, "changes": {".".join("a" * 200): "1" * 9_000}}] * 90},
 }
 
 
@@ -209,6 +212,21 @@ ODD = [
     '{"what": "read", "text": "x"}',
     '{"what": "__init__"}',
     '{"what": {"a": 1}}',
+    '{"what": "arrange"}',
+    '{"what": "arrange", "list": "joints", "elements": 3}',
+    '{"what": "arrange", "list": "joints", "elements": [3]}',
+    '{"what": "arrange", "list": "joints", "elements": [{"of": 0}]}',
+    '{"what": "arrange", "list": "joints", "elements": [{"of": -1, "changes": {}}]}',
+    '{"what": "arrange", "list": "joints", "elements": [{"of": [0], "changes": {}}]}',
+    '{"what": "arrange", "list": "joints", "elements": [{"of": 0.5, "changes": {}}]}',
+    '{"what": "arrange", "list": "joints", "elements": [{"of": true, "changes": []}]}',
+    '{"what": "arrange", "list": "joints", "elements": [{"of": 0, "changes": {"name": ""}}]}',
+    '{"what": "arrange", "list": "joints", "elements": [{"of": null, "changes": {"SURROGATE": "1"}}]}',
+    '{"what": "arrange", "list": "drive", "elements": []}',
+    '{"what": "arrange", "list": "bodies", "elements": []}',
+    '{"what": "arrange", "list": {"a": 1}, "elements": []}',
+    '{"what": "drag", "changes": {"a.b": "1"}, "gesture": {"a": 1}}',
+    '{"what": "revert", "gesture": [1]}',
 ]
 ODD = [odd.replace("SURROGATE", SURROGATE) for odd in ODD]
 FRAMES = [

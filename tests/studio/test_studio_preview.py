@@ -211,7 +211,7 @@ def test_a_drawing_is_told_before_the_answers(four_bar):
         told.append(json.loads(what))
 
     assert preview.draw(tell, four_bar, ()) is None
-    assert [set(each) for each in told] == [{"scene", "remarks"}] and told[0]["remarks"] == []
+    assert [set(each) for each in told] == [{"scene", "remarks", "programme"}] and told[0]["remarks"] == []
     assert {body["name"] for body in told[0]["scene"]["bodies"]} >= {"crank", "coupler", "rocker"}
     found = preview.draw(tell, four_bar, ["motion"])
     assert told[1] == told[0] and found["analyses"] == ["motion"]
@@ -243,7 +243,7 @@ def without_a_scene(four_bar, monkeypatch):
         raise DoesNotAssemble("the loop stays open")
 
     known = registry.mechanism(four_bar.kind)
-    fake = SimpleNamespace(scene=scene, analyses=known.analyses)
+    fake = SimpleNamespace(scene=scene, programme=None, analyses=known.analyses)
     monkeypatch.setattr(preview, "registry", SimpleNamespace(mechanism=lambda kind: fake))
     return fake
 
@@ -251,11 +251,11 @@ def without_a_scene(four_bar, monkeypatch):
 def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a_scene):
     told = []
     found = preview.draw(told.append, four_bar, ["motion"])
-    assert json.loads(told[0]) == {"scene": None, "remarks": ["no motion to show: the loop stays open"]}
+    assert json.loads(told[0]) == {"scene": None, "remarks": ["no motion to show: the loop stays open"], "programme": None}
     assert found["plots"]["cycle"] is None and found["values"]
     without_a_scene.scene = None
     preview.draw(told.append, four_bar, ())
-    assert json.loads(told[1]) == {"scene": None, "remarks": []}
+    assert json.loads(told[1]) == {"scene": None, "remarks": [], "programme": None}
 
 
 def test_a_whole_result_without_a_scene_has_no_plots(four_bar, without_a_scene, monkeypatch):

@@ -61,7 +61,7 @@ export function nice(largest) {
   return [5, 2, 1].find(step => step * power <= largest * 1.000001) * power;
 }
 
-const ROLES = ["surface", "canvas", "line", "grid", "grid-strong", "ink", "muted", "accent", "cursor", "bad", "raised",
+const ROLES = ["surface", "canvas", "line", "grid", "grid-strong", "ink", "muted", "accent", "cursor", "bad", "warn", "raised",
   "steel", "blue", "orange", "green", "violet", "ground", "run-1", "run-2", "run-3", "run-4"];
 
 /** Colours of the host by role, and a call when the theme changes (the reader's preference, or data-theme / class of the page). */

@@ -15,8 +15,9 @@ export { createClock, element, fitCanvas, fixed, floats, nice, watchTheme } from
 /**
  * A player inside `host`.  Options: clock (shared with plots; it outlives the player), autoplay, duration [s per cycle at speed 1],
  * text (English text -> text shown), picked (called with the name of a body that is clicked), drawn (called after each drawing),
- * held (whether a hand holds something, so that the view stays), sides (px left free beside the drawing, 0 for the usual).
- * Returns {clock, view, stage, frame, poseOf(body number, phase), load(scene), compare(scene | null), fit(), redraw(), setFrame(name), setGhosts(on), setTraces(on),
+ * held (whether a hand holds something, so that the view stays), sides (px left free beside the drawing, 0 for the usual),
+ * tools (further elements at the end of the bar).
+ * Returns {clock, view, stage, scene, frame, poseOf(body number, phase, real), load(scene), compare(scene | null), fit(), redraw(), setFrame(name), setGhosts(on), setTraces(on),
  * setExaggeration(scale), highlight(names), destroy()}.
  * What has been drawn can be read from the host: data-phase, data-frame, and data-gen where the scene has a `gen`.
  */
@@ -131,7 +132,7 @@ export function createPlayer(host, packed, options = {}) {
     legend.replaceChildren(...chips.values());
     top.replaceChildren(legend, ...(observers.length > 1 ? [frames.node] : []));
     bar.replaceChildren(play, scrub.node, element("div", {class: "dw-readout"}, value, phase), element("div", {class: "dw-pace"}, speed.node, rate),
-      ...(most ? [exaggeration.node] : []), ghosts, ...(paths.length ? [traces] : []), button(text(TEXT.fit), fit, "fit"));
+      ...(most ? [exaggeration.node] : []), ghosts, ...(paths.length ? [traces] : []), button(text(TEXT.fit), fit, "fit"), ...(options.tools || []));
     return {play, ghosts, traces, scrub, speed, exaggeration, frames, chips, value, phase, rate};
   }
 
@@ -193,16 +194,17 @@ export function createPlayer(host, packed, options = {}) {
 
   host.addEventListener("keydown", keys);
   canvas.addEventListener("dblclick", fit);
-  /** Pose [x, y, angle] of a body by its number at a phase, -1 for the machine frame, as the observer sees it. */
-  function bodyPose(number, phase) {
-    const [low, part] = locate(state.scene.u, phase), eye = poseAt(state.observer.motion, low, part);
-    return seenFrom(number < 0 ? STILL : poseOf(state.scene.bodies[number], low, part, switches.scale), eye);
+  /** Pose [x, y, angle] of a body by its number at a phase, -1 for the machine frame, as the observer sees it; `real` with its play in true size. */
+  function bodyPose(number, phase, real = false) {
+    const [low, part] = locate(state.scene.u, phase), eye = poseAt(state.observer.motion, low, part), body = state.scene.bodies[number];
+    return seenFrom(number < 0 ? STILL : poseOf(body, low, part, real ? 1 / (body.magnified || 1) : switches.scale), eye);
   }
 
   const player = {
     clock, view, stage, poseOf: bodyPose, load, compare, fit, redraw, setFrame, setGhosts, setTraces, setExaggeration,
     highlight(list) { switches.lit = new Set(list); redraw(); },
     get frame() { return state.observer.name; },
+    get scene() { return state.scene; },
     destroy() { unsubscribe(); unwatch(); theme.stop(); surface.stop(); clock.see(player, false); host.removeEventListener("keydown", keys); host.replaceChildren(); },
   };
   load(packed);

@@ -4,7 +4,7 @@ A change that is refused raises SpecError in the words of the command line and l
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from copy import copy, deepcopy
 from pathlib import Path
 from typing import Any
@@ -28,6 +28,7 @@ from drivewright.studio.input_parsing import (
     validated_spec,
     value_in,
 )
+from drivewright.studio.opening import LARGEST
 from drivewright.studio.proposals import search_table
 from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
@@ -254,6 +255,26 @@ class Document:
         set_key(tables, key, [element for number, element in enumerate(given) if number != int(index)])
         self._accept(self.design.with_tables(tables))
 
+    def arrange(self, key: str, elements: Sequence[Mapping[str, Any]]) -> None:
+        """A list of tables with other elements, as one step.
+
+        Each is {"of": number of the element that it was, None for a new one, "changes": {key: typed text; "" takes it out}}.
+        """
+        key = form_key(self.design.tables, key)
+        info, given = self._several(key)
+        if not info.table or not isinstance(given, list):
+            raise SpecError("is no list of tables", key)
+        uses = [element["of"] for element in elements if element["of"] is not None]
+        if any(uses.count(number) > 2 for number in set(uses)):
+            raise SpecError("an element is wanted more than twice; a message must not grow without end", key)
+        tables = deepcopy(self.design.tables)
+        insert_parents(tables, spec_class(self.design), [*key.split("."), "0"])
+        set_key(tables, key, [_arranged(info.table, given, key, **element) for element in elements])
+        design = self.design.with_tables(tables)
+        if len(design.toml()) > max(LARGEST, len(self.design.toml())):
+            raise SpecError("is too much for the studio with these elements", key)
+        self._accept(design)
+
     def put(self, key: str) -> None:
         """An optional table, or an entry of a table whose keys the user chooses ("bodies.NAME"), with what it needs."""
         *above, name = key.split(".")
@@ -280,6 +301,19 @@ class Document:
             raise SpecError("is no list, so it has no elements", key)
         given = value_in(self.design.tables, key)
         return info, deepcopy(given if given is not ABSENT else info.initial_value or ({} if info.kind == "names" else []))
+
+
+def _arranged(model, given, key, of, changes):
+    """The raw table of an element that `Document.arrange` is asked for."""
+    if of is not None and not (isinstance(of, int) and 0 <= of < len(given)):
+        raise SpecError(f"has no element {of}; it has {len(given)}", key)
+    table = {} if of is None else deepcopy(given[of])
+    for name, text in changes.items():
+        if text.strip():
+            enter_text(table, model, name, text)
+        elif value_in(table, name) is not ABSENT:
+            remove_key(table, name)
+    return table
 
 
 def without_folder(message: str, *folders: Path) -> str:

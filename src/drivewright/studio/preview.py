@@ -12,8 +12,10 @@ from drivewright.execution.outputs import CHECK
 from drivewright.registry import Analysis
 from drivewright.report.comparison import difference, difference_text
 from drivewright.report.content import check_label, summary
+from drivewright.report.features import pack_features
 from drivewright.report.pack import pack_handles, pack_scene
 from drivewright.report.pack_plots import pack_every_plot
+from drivewright.report.programme import pack_programme
 from drivewright.result import Result, Value
 from drivewright.scene import Scene
 from drivewright.studio.design import Design
@@ -37,8 +39,8 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
     spec = design.spec_on_screen()
     model = runner.build(spec)
     scene, remarks = _scene(spec, model)
-    packed = {**pack_scene(scene), "handles": pack_handles(scene)} if scene else None
-    send(json.dumps({"scene": packed, "remarks": remarks}, allow_nan=False))
+    packed = {**pack_scene(scene), "handles": pack_handles(scene), "features": pack_features(scene)} if scene else None
+    send(json.dumps({"scene": packed, "remarks": remarks, "programme": _programme(spec, model)}, allow_nan=False))
     if not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable, quick=True)
@@ -80,6 +82,17 @@ def _scene(spec, model):
         raise
     except Exception as error:  # a drawing that fails must not cost the numbers
         return None, [f"no motion to show: {runner.failure_reason(spec, error)}"]
+
+
+def _programme(spec, model):
+    """The packed motion programme, None where the kind has none that can be edited."""
+    diagram = registry.mechanism(spec.mechanism).programme
+    try:
+        return pack_programme(diagram(model)) if diagram else None
+    except MemoryError:
+        raise
+    except Exception:  # one view less must not cost the others
+        return None
 
 
 def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str], quick: bool = False) -> dict[str, Any]:

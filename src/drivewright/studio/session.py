@@ -167,6 +167,11 @@ class Session:
         """An element less."""
         await self._edit("drop", ALL, key=_key(list), index=index)
 
+    async def arrange(self, list: str, elements: Sequence[Mapping[str, Any]]) -> None:
+        """The elements of a list anew: each one of before or none, {"of": number | null}, with "changes" {name: text as typed}."""
+        asked = [{"of": each.get("of"), "changes": {_key(name): str(text) for name, text in each["changes"].items()}} for each in elements]
+        await self._edit("arrange", ALL, key=_key(list), elements=asked)
+
     async def put(self, table: str) -> None:
         """An optional table in."""
         await self._edit("put", key=_key(table))
@@ -351,7 +356,7 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise", "fix")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset add drop put take undo redo lock text load preset "
+    "hello again set drag revert unset add drop arrange put take undo redo lock text load preset "
     "fresh example open share reference pin job propose begin export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
@@ -382,6 +387,7 @@ def _offered(kinds):
             "summary": registry.mechanism(kind).summary,
             "presets": _presets(kind),
             "titles": translations.preset_titles(kind),
+            "programme": registry.mechanism(kind).programme is not None,
             "pictures": sorted(preset_pictures(kind)),
             "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
             "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],

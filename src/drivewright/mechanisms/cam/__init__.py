@@ -6,6 +6,7 @@ from drivewright.mechanisms.cam import film, geometry, loads, profiles, surge
 from drivewright.mechanisms.cam.batch import batch
 from drivewright.mechanisms.cam.build import build
 from drivewright.mechanisms.cam.claims import claims
+from drivewright.mechanisms.cam.diagram import diagram
 from drivewright.mechanisms.cam.dimensions import SHEETS
 from drivewright.mechanisms.cam.energy import energy
 from drivewright.mechanisms.cam.scene import PLOTS, drawings, parts, scene
@@ -35,6 +36,7 @@ mechanism = Mechanism(
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     scene=scene,
+    programme=diagram,
     dimensions=SHEETS,
     plots=PLOTS,
     drawings=drawings,

@@ -4,7 +4,7 @@ import { createDrag } from "./dragging.js";
 import { element } from "./player.js";
 
 const APART = 15, SAME = 6;  // px: handles that coincide are drawn so far from each other
-const FACTORS = {m: 1, mm: 1e-3, cm: 1e-2, um: 1e-6, "µm": 1e-6, in: 0.0254, inch: 0.0254, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "": 1};
+export const FACTORS = {m: 1, mm: 1e-3, cm: 1e-2, um: 1e-6, "µm": 1e-6, in: 0.0254, inch: 0.0254, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "": 1};
 
 /** The keys that a handle moves: the two components of a point, or one number. */
 export const keysOf = ({key, direction}) => direction ? [key] : [`${key}.0`, `${key}.1`];

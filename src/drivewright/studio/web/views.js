@@ -3,6 +3,8 @@
 import { SIDES, createDiagrams } from "./diagrams.js";
 import { createFigures } from "./figures.js";
 import { createHandles } from "./handles.js";
+import { createMeasure } from "./measure.js";
+import { createMotionForm } from "./motion_form.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
@@ -17,23 +19,26 @@ const FIRST = "the first drawing after installation compiles for up to a minute"
 function createMotion(host, tools) {
   const {store, t, clock, createPlayer} = tools;
   const stage = element("div", {class: "vw-player"}), note = element("div", {class: "vw-note", role: "status", hidden: ""});
-  const handles = createHandles(() => player, tools);
   let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
+  const handles = createHandles(() => player, tools), measure = createMeasure(() => player, tools);
   host.append(stage, note);
   const diagrams = createDiagrams(host, () => player, tools, () => player?.fit());
-  const picked = name => store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
+  const picked = name => measure.active() || store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
     const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
     drive = store.state.design?.opened;
     shown = scene;
+    measure.expect(afresh);
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => { if (player) { handles.draw(); diagrams.draw(); } },
-        sides: () => diagrams.active() ? SIDES : 0, held: handles.held});
+      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => { if (player) { handles.draw(); measure.draw(); diagrams.draw(); } },
+        sides: () => diagrams.active() ? SIDES : 0, held: handles.held, tools: [measure.button]});
       player.stage.append(handles.layer);
+      measure.attach(player);
       player.highlight(store.state.lit);
     }
     handles.load(scene.scene);
+    measure.load(scene.scene);
     if (compared) player.compare(compared);
   }
   function remark(scene) {
@@ -59,14 +64,14 @@ function createMotion(host, tools) {
   const stops = [store.on(["scene"], update), store.on(["reference"], reference), store.on(["lit"], ({lit}) => player?.highlight(lit))];
   return {
     open() {}, close() {},
-    reword() { if (player) load(shown); remark(store.state.scene); },
-    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); diagrams.destroy(); player?.destroy(); },
+    reword() { if (player) { measure.reword(); load(shown); } remark(store.state.scene); },
+    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); measure.destroy(); diagrams.destroy(); player?.destroy(); },
   };
 }
 
 // ---------------------------------------------------------------------------------------------------------------- the centre
 
-const PANES = {motion: createMotion, solid: createSolids, figures: createFigures, study: createStudies};
+const PANES = {motion: createMotion, programme: createMotionForm, solid: createSolids, figures: createFigures, study: createStudies};
 
 /** The centre inside `host`: tabs, and what each shows; `createPlayer` of report/player.js, `clock` shared with the plots. */
 export function createViews(host, tools) {
@@ -78,16 +83,16 @@ export function createViews(host, tools) {
     places[name] = element("div", {class: `vw-pane vw-${name}`, role: "tabpanel", "aria-labelledby": `view-tab-${name}`, hidden: ""});
   }
   function keys(event) {
-    const step = {ArrowRight: 1, ArrowLeft: -1}[event.key];
+    const step = {ArrowRight: 1, ArrowLeft: -1}[event.key], offered = names.filter(name => !tabs[name].hidden);
     if (!step) return;
-    const next = names[(names.indexOf(store.state.view) + step + names.length) % names.length];
+    const next = offered[(offered.indexOf(store.state.view) + step + offered.length) % offered.length];
     event.preventDefault();
     store.set({view: next});
     tabs[next].focus();
   }
   /** All words in the language of the page: a view that cannot change its words is made anew. */
   function reword() {
-    const words = {motion: t("Motion"), solid: t("Solid"), figures: t("Figures"), study: t("Study")};
+    const words = {motion: t("Motion"), programme: t("Programme"), solid: t("Solid"), figures: t("Figures"), study: t("Study")};
     row.setAttribute("aria-label", t("Views"));
     for (const name of names) {
       tabs[name].textContent = words[name];
@@ -97,6 +102,12 @@ export function createViews(host, tools) {
       views[name] = PANES[name](places[name], tools);
     }
     show(store.state);
+  }
+  /** A kind of drive without a list of segments has no programme to edit. */
+  function offer({design, kinds, view}) {
+    if (!design) return;
+    tabs.programme.hidden = !kinds.find(({kind}) => kind === design.kind)?.programme;
+    if (tabs.programme.hidden && view === "programme") store.set({view: "motion"});
   }
   function show({view}) {
     for (const name of names) {
@@ -112,6 +123,6 @@ export function createViews(host, tools) {
   row.addEventListener("keydown", keys);
   host.classList.add("vw");
   host.replaceChildren(row, frame);
-  const stops = [store.on(["lang"], reword), store.on(["view"], show)];
+  const stops = [store.on(["lang"], reword), store.on(["view"], show), store.on(["design", "kinds"], offer)];
   return {destroy() { stops.forEach(stop => stop()); for (const view of Object.values(views)) view.destroy(); host.replaceChildren(); }};
 }

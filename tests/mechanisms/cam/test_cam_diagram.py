@@ -1,0 +1,83 @@
+"""The motion programme as a diagram: its courses are the motion of the model, and every law offered makes a cam."""
+
+import base64
+
+import numpy as np
+import pytest
+from places import EXAMPLES
+
+from drivewright import registry, runner
+from drivewright.mechanisms.cam.diagram import laws
+from drivewright.report.programme import pack_programme
+from drivewright.spec import from_document, load, read_document
+from drivewright.studio.design import Design
+from drivewright.studio.document import Document
+
+KINDS_WITHOUT = ("indexer", "linkage", "shaft", "silent-chain")
+
+
+def model_of(name):
+    return runner.build(load(EXAMPLES / f"{name}.toml"))
+
+
+def diagram_of(model):
+    return registry.mechanism("cam").programme(model)
+
+
+@pytest.mark.parametrize("name", ["disc_cam", "yoke_cam", "oscillating_cam", "valve_train"])
+def test_courses_are_the_motion_that_the_segments_state(name):
+    model = model_of(name)
+    diagram, stated = diagram_of(model), model.programme.stated
+    assert sum(segment.angle for segment in diagram.segments) == pytest.approx(diagram.cycle)
+    start = 0.0
+    for segment in diagram.segments:
+        theta, *course = segment.course
+        assert theta[0] == 0.0 and theta[-1] == pytest.approx(segment.angle)
+        inside = (
+            (theta > 1e-6)
+            & (theta < segment.angle - 1e-6)
+            & (np.append(np.diff(theta), 1.0) > 1e-9)
+            & (np.append(1.0, np.diff(theta)) > 1e-9)
+        )
+        for ours, exact in zip(course, stated(start + theta[inside]), strict=True):
+            assert ours[inside] == pytest.approx(exact, rel=1e-6, abs=1e-9 + 1e-9 * np.max(np.abs(exact)))
+        start += segment.angle
+
+
+def test_a_jump_stands_as_two_values_at_one_angle():
+    document = read_document(EXAMPLES / "disc_cam.toml")
+    document["programme"][0]["law"] = "parabolic"
+    segment = diagram_of(runner.build(from_document(document))).segments[0]
+    theta, _, _, acceleration, _ = segment.course
+    twice = np.flatnonzero(np.diff(theta) < 1e-9)
+    assert theta[twice] == pytest.approx([np.pi / 4])
+    assert acceleration[twice] == pytest.approx(-acceleration[twice + 1]) and abs(acceleration[twice[0]]) > 0
+
+
+@pytest.mark.parametrize("choice", laws(), ids=lambda choice: choice.name)
+def test_every_law_offered_makes_a_motion_with_the_parameters_it_starts_with(choice):
+    cam = Document(Design(read_document(EXAMPLES / "disc_cam.toml"), EXAMPLES), "cam")
+    rest = {"rise": ""} if choice.name == "dwell" else {}
+    others = {"rise": "-10 mm"}, {"law": "cycloidal", "rise": "10 mm"}
+    if choice.name == "dwell":
+        elements = [{"of": 0, "changes": {"law": choice.name, **rest}}, *({"of": n + 1, "changes": each} for n, each in enumerate(others))]
+    else:
+        elements = [{"of": 0, "changes": {"law": choice.name, **choice.parameters}}, *({"of": n + 1, "changes": {}} for n in range(2))]
+    cam.arrange("programme", elements)
+    diagram = diagram_of(runner.build(cam.design.spec()))
+    assert diagram.segments[0].law == choice.name
+    assert bool(diagram.segments[0].points) == (choice.name == "spline")
+
+
+def test_the_packed_diagram_is_plain_data_with_units():
+    packed = pack_programme(diagram_of(model_of("disc_cam")))
+    assert packed["lift"]["unit"] == "mm" and packed["cycle"]["unit"] == "°" and packed["speed"] == pytest.approx(2 * np.pi * 10)
+    lift = np.frombuffer(base64.b64decode(packed["segments"][0]["course"][1]), "<f4")
+    assert lift[0] == pytest.approx(0, abs=1e-12) and lift[-1] == pytest.approx(0.02)
+    assert [segment["rise"] for segment in packed["segments"]] == pytest.approx([0.02, -0.02, 0])
+    assert pack_programme(diagram_of(model_of("oscillating_cam")))["lift"]["unit"] == "°"
+
+
+@pytest.mark.parametrize("kind", KINDS_WITHOUT)
+def test_kinds_without_a_list_of_segments_have_no_diagram(kind):
+    assert registry.mechanism(kind).programme is None
