@@ -74,7 +74,7 @@ class Tab:
 
     @property
     def toml(self):
-        return self.session.document.design.toml()
+        return self.session.document.design.text()
 
 
 @pytest.fixture
@@ -121,6 +121,16 @@ def test_a_change_sends_its_field_only(tab):
     assert tab.quiet.asked[-1][:2] == ("update", 2)
 
 
+def test_the_text_of_the_spec_follows_a_drag_and_does_not_hold_it_up(tab, monkeypatch):
+    monkeypatch.setattr("drivewright.studio.session.REST", 60.0)
+    made = []
+    monkeypatch.setattr("drivewright.studio.design.source_text", lambda source, tables: made.append(tables) or "text")
+    (values,) = tab.say("set", key="drive.speed", text="150 rpm", gesture="a")
+    assert "toml" not in values and not made and values["fields"]
+    (after,) = tab.say("source")
+    assert after["toml"] == "text" and len(made) == 1
+
+
 def test_a_refusal_has_the_words_of_the_command_line_and_changes_nothing(tab):
     before = tab.toml
     (refused,) = tab.say("set", key="drive.speed", text="3 kg")
@@ -141,7 +151,7 @@ def test_a_reload_brings_the_design_back(tab, resources):
     tab.say("set", key="drive.speed", text="150")
     other = Tab(tab.session.start, resources)
     other.say("hello", saved=tab.toml, files="")
-    assert other.toml == tab.toml != Tab(tab.session.start, resources).session.start.toml()
+    assert other.toml == tab.toml != Tab(tab.session.start, resources).session.start.text()
 
 
 @pytest.mark.parametrize("saved", ["mechanism = ", 'mechanism = "nothing"', "x" * (LARGEST + 1), 7])
@@ -221,7 +231,7 @@ def test_nor_with_files_that_it_once_sent(tab, name):
     token = only(said, "design")[0]["files"]
     other = Tab(tab.session.start, tab.session.resources)
     said = other.say("hello", saved=sample_with_file(name), files=token)
-    assert "there is no such data file here" in only(said, "refused")[0]["message"] and other.toml == other.session.start.toml()
+    assert "there is no such data file here" in only(said, "refused")[0]["message"] and other.toml == other.session.start.text()
 
 
 def test_another_drive_has_no_files(tab):

@@ -12,7 +12,6 @@ from typing import Any
 from drivewright.errors import SpecError
 from drivewright.spec import set_key
 from drivewright.spec.keys import remove_key
-from drivewright.spec.parsing import parse_document
 from drivewright.studio.design import Design, Tables
 from drivewright.studio.field_info import ABSENT, FieldInfo, field_info_at
 from drivewright.studio.form import form, values
@@ -64,7 +63,7 @@ class Document:
     @property
     def changed(self) -> bool:
         """Whether the design is another one than the file has."""
-        return self.design.kind != self._saved.kind or self.design.toml() != self._saved.toml()
+        return not self.design.same_as(self._saved)
 
     def saved(self) -> None:
         """The present design is in a file now."""
@@ -89,7 +88,7 @@ class Document:
         if self.locks and design.kind == self.design.kind:
             self._refuse_locked(design)
         validated_spec(design)
-        if design.toml() == self.design.toml() and design.folder == self.design.folder:
+        if design.same_as(self.design) and design.folder == self.design.folder:
             return
         if gesture is None or gesture != self._gesture:
             self._remember()
@@ -99,7 +98,7 @@ class Document:
     def _remember(self) -> None:
         """The design as it is becomes a step to go back to; the oldest ones go where there are too many, or too large ones."""
         self._past = [*self._past[1 - STEPS :], self.design]
-        while len(self._past) > 1 and sum(len(design.toml()) for design in self._past) > HISTORY:
+        while len(self._past) > 1 and sum(len(design.toml()) + len(design.source) for design in self._past) > HISTORY:
             del self._past[0]
 
     # -- in two processes ------------------------------------------------------------------------------------------------------
@@ -220,7 +219,7 @@ class Document:
 
     def text(self, toml: str) -> None:
         """The whole design as edited text; SpecError with the line where it is not TOML."""
-        design = normalised(self.design.with_tables(parse_document(toml)))
+        design = normalised(self.design.with_text(toml))
         if design.kind != self.design.kind:
             self.locks = frozenset()
         self._accept(design)

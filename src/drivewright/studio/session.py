@@ -4,6 +4,7 @@ Nothing of NiceGUI is in here: `send(message)` reaches the page, `receive(messag
 after another, and whatever reads or changes a design does so in a worker process: the server's loop only hands on.
 """
 
+import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
@@ -17,7 +18,7 @@ from drivewright.report.dimension_drawings import drawing_files, fitting_drawing
 from drivewright.report.folder import file_name
 from drivewright.report.worked_examples import cards, preset_pictures
 from drivewright.studio import editing, translations
-from drivewright.studio.computations import Message, TabComputations
+from drivewright.studio.computations import REST, Message, TabComputations
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document, without_folder
 from drivewright.studio.editing import Edited
@@ -46,6 +47,7 @@ class Session:
         self._document: Document | None = None
         self.gen, self.files = 0, ""
         self._kept, self._kind = b"", ""
+        self._waiting: asyncio.TimerHandle | None = None  # for the end of a drag, to show the text of the spec
         self._inbox = Inbox(self._act, self._refuse)
         self.computations = TabComputations(send, self._describe, resources)
 
@@ -109,6 +111,7 @@ class Session:
 
     def close(self) -> None:
         """The tab has gone."""
+        self._stop_waiting()
         self._inbox.close()
         self.computations.close()
 
@@ -186,6 +189,10 @@ class Session:
     async def lock(self, key: str, on: bool) -> None:
         """Hold a value."""
         self._show(await self._edited("lock", key=_key(key), on=bool(on)))
+
+    async def source(self) -> None:
+        """The text of the spec, after a drag."""
+        self._show(await self._edited(""))
 
     async def text(self, toml: str) -> None:
         """The whole spec as text."""
@@ -279,14 +286,23 @@ class Session:
         return edited
 
     async def _edit(self, change: str, *settled: str, **arguments: Any) -> None:
-        self._changed(await self._edited(change, **arguments), *settled)
+        edited = await self._edited(change, **arguments)
+        self._stop_waiting()
+        if under_way := editing.under_way(change, arguments):
+            self._waiting = asyncio.get_running_loop().call_later(REST, self._inbox.put, {"what": "source"})
+        self._changed(edited, *settled, text=not under_way)
+
+    def _stop_waiting(self) -> None:
+        if self._waiting:
+            self._waiting.cancel()
+            self._waiting = None
 
     def _open(self, edited: Edited, files: str) -> None:
         """A design that has nothing to do with the one before."""
         self._document, self._kept, self.files = edited.document, edited.kept, files
         self._changed(edited, ALL, opened=True)
 
-    def _changed(self, edited: Edited, *settled: str, opened: bool = False) -> None:
+    def _changed(self, edited: Edited, *settled: str, opened: bool = False, text: bool = True) -> None:
         """Draw it, and show its form."""
         self.gen += 1
         opened = opened or self.document.design.kind != self._kind
@@ -294,10 +310,10 @@ class Session:
             self._kind = self.document.design.kind
             self.computations.reset(self.gen)
         self.computations.update(self.gen, self.document.design)
-        self._show(edited, settled, opened)
+        self._show(edited, settled, opened, text)
 
-    def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False) -> None:
-        """The form; only the fields that differ, where nothing else does."""
+    def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False, text: bool = True) -> None:
+        """The form; only the fields that differ, where nothing else does; with the text of the spec unless more of a drag follows."""
         document, design = self.document, self.document.design
         common = {
             "gen": self.gen,
@@ -305,7 +321,7 @@ class Session:
             "redo": document.can_redo,
             "locks": sorted(document.locks),
             "changed": document.changed,
-            "toml": design.toml(),
+            **({"toml": design.text()} if text else {}),
             "files": self.files,
             "settled": list(settled),
             "drawings": fitting_drawings(design.kind, design.tables),
@@ -336,9 +352,7 @@ class Session:
 
 TAKE_LOCKS = ("sensitivity", "optimise")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
-WORDS = (
-    "hello again set drag revert unset add drop put take undo redo lock text load preset fresh example open share reference pin job export save analyse"
-)
+WORDS = "hello again set drag revert unset add drop put take undo redo lock source text load preset fresh example open share reference pin job export save analyse"
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 
 
