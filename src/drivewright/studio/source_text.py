@@ -43,9 +43,8 @@ def _enter(place: Any, before: Mapping[str, Any], after: Mapping[str, Any]) -> N
     for key, value in after.items():
         if key not in before:
             _add(place, key, value)
-        elif before[key] != value or type(before[key]) is not type(value):
-            if not _entered(place[key], before[key], value):
-                place[key] = value
+        elif (before[key] != value or type(before[key]) is not type(value)) and not _entered(place[key], before[key], value):
+            place[key] = value
 
 
 def _entered(place: Any, before: Any, after: Any) -> bool:
