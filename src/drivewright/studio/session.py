@@ -16,7 +16,7 @@ from drivewright.errors import DrivewrightError, InputError, SpecError, brief
 from drivewright.execution.workers import WorkerDied, WorkerFault
 from drivewright.report.dimension_drawings import drawing_files, fitting_drawings
 from drivewright.report.folder import file_name
-from drivewright.report.worked_examples import cards, preset_pictures
+from drivewright.report.worked_examples import cards, preset_films, preset_pictures
 from drivewright.studio import editing, translations
 from drivewright.studio.computations import REST, Message, TabComputations
 from drivewright.studio.design import Design
@@ -384,6 +384,7 @@ def _offered(kinds):
             "summary": registry.mechanism(kind).summary,
             "presets": _presets(kind),
             "pictures": sorted(preset_pictures(kind)),
+            "films": sorted(preset_films(kind)),
             "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
             "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],
         }

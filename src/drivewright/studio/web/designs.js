@@ -28,15 +28,15 @@ export function createDesigns({store, t}, {fresh, example, close}) {
     made.append(element("span", {}, text), element("small", {}, hint));
     return made;
   }
-  const preset = (kind, pictures) => name => card(t(spoken(name)), t("preset"), `preset-${kind}-${name}`,
-    pictures.includes(name) && picture(`preset.${kind}.${name}.webp`, ""), () => fresh(kind, name));
+  const preset = (kind, pictures, films) => name => card(t(spoken(name)), t("preset"), `preset-${kind}-${name}`,
+    pictures.includes(name) && picture(`preset.${kind}.${name}.webp`, films.includes(name) && `preset.${kind}.${name}.moving.webp`), () => fresh(kind, name));
   const worked = ({name, title, moving}) => card(t(title), t("worked example"), `example-${name}`,
     picture(`example.${name}.webp`, moving && `example.${name}.moving.webp`), () => example(name));
 
-  const group = ({kind, summary, presets, pictures = [], examples = []}) =>
+  const group = ({kind, summary, presets, pictures = [], films = [], examples = []}) =>
     element("div", {class: "st-kind", role: "group", "aria-label": kind},
       element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
-      element("div", {class: "st-cards"}, ...presets.map(preset(kind, pictures)), ...examples.map(worked)));
+      element("div", {class: "st-cards"}, ...presets.map(preset(kind, pictures, films)), ...examples.map(worked)));
   return () => (store.state.kinds || []).map(group);
 }
 
