@@ -4,12 +4,13 @@ A change that is refused raises SpecError in the words of the command line and l
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from copy import copy, deepcopy
 from pathlib import Path
 from typing import Any
 
-from drivewright.errors import SpecError
+from drivewright import registry
+from drivewright.errors import InputError, SpecError, brief
 from drivewright.spec import set_key
 from drivewright.spec.keys import remove_key
 from drivewright.studio.design import Design, Tables
@@ -30,6 +31,7 @@ from drivewright.studio.input_parsing import (
 from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
 
+LARGEST = 1e6  # m: what is clicked lies nearer
 STEPS = 200  # that can be undone
 HISTORY = 4_000_000  # characters of all designs that can be gone back to
 # Absolute paths in a message, but neither units (N m/rad, 1/mm) nor addresses (https://...).
@@ -223,6 +225,21 @@ class Document:
         if design.kind != self.design.kind:
             self.locks = frozenset()
         self._accept(design)
+
+    def construct(self, tool: str, places: Sequence[tuple[float, float]], near: float) -> None:
+        """One use of a tool of the kind's `Construction` at places of the drawing [m]."""
+        construction = registry.mechanism(self.design.kind).construction
+        known = {each.name: each for each in construction.tools} if construction else {}
+        if construction is None or tool not in known:
+            raise InputError(f"{self.design.kind} is not built with {brief(tool)}")
+        fewest, most = known[tool].fewest, known[tool].most
+        if not fewest <= len(places) <= most or not 0 < near < LARGEST or any(len(place) != 2 for place in places):
+            raise InputError(f"{tool} takes {fewest} to {most} places (x, y)")
+        exact = [(float(x), float(y)) for x, y in places]
+        if any(abs(part) > LARGEST for place in exact for part in place):
+            raise InputError("this place is too far away")
+        tables = construction.step(self.design.tables, self.design.spec(), tool, exact, float(near))
+        self._accept(self.design.with_tables(tables))
 
     # -- tables and elements ---------------------------------------------------------------------------------------------------
 

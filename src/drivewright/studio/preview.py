@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 from drivewright import registry, runner
 from drivewright._jit.compilation import Compilation, watched_by
+from drivewright.errors import DrivewrightError
 from drivewright.registry import Analysis
 from drivewright.report.comparison import difference, difference_text
 from drivewright.report.content import check_label, summary
@@ -33,13 +34,26 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
-    model = runner.build(spec)
-    scene, remarks = _scene(spec, model)
-    packed = {**pack_scene(scene), "handles": pack_handles(scene)} if scene else None
-    send(json.dumps({"scene": packed, "remarks": remarks}, allow_nan=False))
+    construction = registry.mechanism(spec.mechanism).construction
+    try:
+        model = runner.build(spec)
+    except DrivewrightError:
+        if construction:  # what is not assembled is drawn as the spec states it; the error says the rest
+            _send_scene(send, construction.sketch(spec), [], construction.unfinished(spec))
+        raise
+    if construction and not construction.connected(spec):
+        scene, remarks = construction.sketch(spec), []
+    else:
+        scene, remarks = _scene(spec, model)
+    _send_scene(send, scene, remarks, construction.unfinished(spec) if construction else ())
     if not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
+
+
+def _send_scene(send, scene, remarks, missing):
+    packed = {**pack_scene(scene), "handles": pack_handles(scene)} if scene else None
+    send(json.dumps({"scene": packed, "remarks": remarks, "missing": list(missing)}, allow_nan=False))
 
 
 def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:

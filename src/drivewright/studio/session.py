@@ -33,6 +33,7 @@ from drivewright.studio.opening import unpacked as unpacked
 from drivewright.studio.resources import ServerResources
 
 MOST_FILES = 20
+MOST_PLACES = 50  # of one use of a tool
 SHORT = 20_000  # characters of a message that the loop itself reads
 LONGEST_KEY = 500  # characters
 PATIENCE = 60.0  # seconds that a change of a design may take, the start of its process included
@@ -161,6 +162,12 @@ class Session:
     async def unset(self, key: str) -> None:
         """Back to the default, or out."""
         await self._edit("unset", _key(key), key=_key(key))
+
+    async def construct(self, tool: str, places: Sequence[Sequence[float]], near: float) -> None:
+        """A tool of the kind at places of the drawing."""
+        if len(places) > MOST_PLACES:
+            raise InputError(f"at most {MOST_PLACES} places at once")
+        await self._edit("construct", ALL, tool=str(tool)[:SHORT], places=[(float(x), float(y)) for x, y in places], near=float(near))
 
     async def add(self, list: str) -> None:
         """Another element."""
@@ -353,7 +360,7 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset add drop put take undo redo lock source text load "
+    "hello again set drag revert unset construct add drop put take undo redo lock source text load "
     "preset fresh example open share reference pin job export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
@@ -384,12 +391,18 @@ def _offered(kinds):
             "summary": registry.mechanism(kind).summary,
             "presets": _presets(kind),
             "pictures": sorted(preset_pictures(kind)),
+            "tools": [tool._asdict() for tool in _tools(kind)],
             "films": sorted(preset_films(kind)),
             "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
             "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],
         }
         for kind in kinds
     ]
+
+
+def _tools(kind):
+    construction = registry.mechanism(kind).construction
+    return construction.tools if construction else ()
 
 
 def _drawn_sheets(kind):

@@ -88,7 +88,8 @@ def _table(value: Mapping[str, Any]) -> Table:
     table = tomlkit.table()
     for key, inner in value.items():
         table.add(key, tomlkit.item(_plain(inner)))
-    return table.indent(0) if not value else table
+    table.add(tomlkit.nl())
+    return table
 
 
 def _plain(value: Any) -> Any:
