@@ -236,7 +236,7 @@ class Document:
         if not fewest <= len(places) <= most or not 0 < near < LARGEST or any(len(place) != 2 for place in places):
             raise InputError(f"{tool} takes {fewest} to {most} places (x, y)")
         exact = [(float(x), float(y)) for x, y in places]
-        if any(abs(part) > LARGEST for place in exact for part in place):
+        if not all(abs(part) <= LARGEST for place in exact for part in place):
             raise InputError("this place is too far away")
         tables = construction.step(self.design.tables, self.design.spec(), tool, exact, float(near))
         self._accept(self.design.with_tables(tables))

@@ -33,7 +33,7 @@ def _pose(row: Floats) -> Pose:
 
 
 def stated_poses(spec: LinkageSpec) -> dict[str, Pose]:
-    """Every body at its initial angle on the first joint that holds it, from the frame outwards; else with its origin in that of the machine."""
+    """Every body at its initial angle on the first joint that holds it, from the frame outwards; others have the frame of the machine."""
     poses: dict[str, Pose] = {GROUND: (0.0, 0.0, 0.0)}
     while body := _next(spec, poses):
         poses[body[0]] = body[1]
@@ -121,14 +121,10 @@ def unfinished(spec: LinkageSpec) -> tuple[str, ...]:
     except DrivewrightError as error:
         return (*found, str(error))
     if not spec.all_drives and freedom:
-        found.append(f"{_freedoms(freedom)}: add a drive on a pin")
+        found.append(f"remaining degrees of freedom: {freedom}; add a drive on a pin")
     elif freedom:
-        found.append(f"{_freedoms(freedom)} beside the drive: {_free_end(spec)}")
+        found.append(f"remaining degrees of freedom beside the drive: {freedom}; {_free_end(spec)}")
     return tuple(found)
-
-
-def _freedoms(count: int) -> str:
-    return f"{count} degree{'s' if count > 1 else ''} of freedom remain{'s' if count == 1 else ''}"
 
 
 def _free_end(spec: LinkageSpec) -> str:
@@ -138,4 +134,4 @@ def _free_end(spec: LinkageSpec) -> str:
         joints = [joint for joint in spec.joints if name in {place(text)[0] for text in joint.connects}]
         if len(joints) == 1 and joints[0].name not in driven:
             return f"body {name} is held by one joint only"
-    return "add joints, or drives"
+    return "add joints or drives"

@@ -1,5 +1,6 @@
 // The centre: the moving mechanism, its solids, its figures, and the designs of a study, one at a time.
 
+import { createBuilder } from "./builder.js";
 import { createFigures } from "./figures.js";
 import { createHandles } from "./handles.js";
 import { pressable } from "./parts.js";
@@ -16,21 +17,23 @@ const FIRST = "the first drawing after installation compiles for up to a minute"
 function createMotion(host, tools) {
   const {store, t, clock, createPlayer} = tools;
   const stage = element("div", {class: "vw-player"}), note = element("div", {class: "vw-note", role: "status", hidden: ""});
-  const handles = createHandles(() => player, tools);
+  const handles = createHandles(() => player, tools), builder = createBuilder(() => player, tools);
   let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
   host.append(stage, note);
-  const picked = name => store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
+  const picked = name => builder.active() || store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
     const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
     drive = store.state.design?.opened;
     shown = scene;
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => player && handles.draw(), held: handles.held});
-      player.stage.append(handles.layer);
+      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => { if (player) { handles.draw(); builder.draw(); } }, held: handles.held});
+      player.stage.append(handles.layer, builder.layer);
       player.highlight(store.state.lit);
     }
     handles.load(scene.scene);
+    builder.load(scene.scene);
+    if (!builder.button.isConnected) player.stage.nextElementSibling.append(builder.button);  // the bar is made anew with other words
     if (compared) player.compare(compared);
   }
   function remark(scene) {
@@ -57,7 +60,7 @@ function createMotion(host, tools) {
   return {
     open() {}, close() {},
     reword() { if (player) load(shown); remark(store.state.scene); },
-    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); player?.destroy(); },
+    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); builder.destroy(); player?.destroy(); },
   };
 }
 
