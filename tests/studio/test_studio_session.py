@@ -131,6 +131,17 @@ def test_the_text_of_the_spec_follows_a_drag_and_does_not_hold_it_up(tab, monkey
     assert after["toml"] == "text" and len(made) == 1
 
 
+def test_a_tool_is_one_step_of_undo_and_the_drawing_stands_still_while_a_person_builds(tab):
+    tab.quiet.sketch = False
+    said = tab.say("sketch", on=True)
+    assert tab.quiet.sketch is True and said and tab.quiet.asked[-1][0] == "update"
+    (design,) = tab.say("construct", tool="body", places=[[-0.08, 0], [-0.08, 0.06]], near=0.001)
+    assert "[bodies.link]" in design["toml"] and "# A four-bar" in design["toml"] and design["undo"]
+    (back,) = tab.say("undo")
+    assert "link" not in back["toml"].partition("[bodies")[2] and not back["undo"]
+    assert tab.say("sketch", on=False) and tab.quiet.sketch is False
+
+
 def test_a_refusal_has_the_words_of_the_command_line_and_changes_nothing(tab):
     before = tab.toml
     (refused,) = tab.say("set", key="drive.speed", text="3 kg")
@@ -328,6 +339,10 @@ def test_what_is_no_request_is_nothing(tab, message):
         {"what": "set", "key": None, "text": None},
         {"what": "set", "key": "drive.speed", "text": "1 rpm", "more": 1},
         {"what": "load", "changes": 3},
+        {"what": "construct", "tool": "pin", "places": [[0, 0]] * 51, "near": 0.001},
+        {"what": "construct", "tool": "pin", "places": [[0]], "near": 0.001},
+        {"what": "construct", "tool": "pin", "places": [[0, 0]], "near": "x"},
+        {"what": "construct", "tool": "_delete", "places": [[0, 0]], "near": 0.001},
         {"what": "open", "files": 3},
         {"what": "drop", "list": "joints", "index": "x"},
         {"what": "job", "name": "rm"},

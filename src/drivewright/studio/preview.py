@@ -28,13 +28,17 @@ def warm(send: Callable[[Any], object]) -> None:
     runner.versions()
 
 
-def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str]) -> dict[str, Any] | None:
+def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str], sketch: bool = False) -> dict[str, Any] | None:
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
+    `sketch`: the mechanism stands still at its start, assembled or not, where its kind has tools to build it.
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
     construction = registry.mechanism(spec.mechanism).construction
+    if sketch and construction:
+        _send_scene(send, construction.sketch(spec), [], construction.unfinished(spec))
+        return None
     try:
         model = runner.build(spec)
     except DrivewrightError:

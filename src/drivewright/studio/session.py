@@ -169,6 +169,12 @@ class Session:
             raise InputError(f"at most {MOST_PLACES} places at once")
         await self._edit("construct", ALL, tool=str(tool)[:SHORT], places=[(float(x), float(y)) for x, y in places], near=float(near))
 
+    async def sketch(self, on: bool) -> None:
+        """Whether a person builds on the drawing, which stands still meanwhile."""
+        if self.computations.sketch is not bool(on):
+            self.computations.sketch = bool(on)
+            await self._edit("", ALL)
+
     async def add(self, list: str) -> None:
         """Another element."""
         await self._edit("add", key=_key(list))
@@ -360,7 +366,7 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset construct add drop put take undo redo lock source text load "
+    "hello again set drag revert unset construct sketch add drop put take undo redo lock source text load "
     "preset fresh example open share reference pin job export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}

@@ -1,6 +1,8 @@
 """A linkage that is not finished: where its bodies stand without being assembled, how that looks, and what is missing."""
 
 import math
+from contextlib import suppress
+from dataclasses import replace
 
 import numpy as np
 
@@ -8,7 +10,7 @@ from drivewright._typing import Floats
 from drivewright.errors import DrivewrightError
 from drivewright.labels import in_words
 from drivewright.mechanisms.linkage.build import build
-from drivewright.mechanisms.linkage.scene import handles, nodes
+from drivewright.mechanisms.linkage.scene import handles, nodes, scene
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.mechanisms.linkage.tables import GROUND, place, points_of
 from drivewright.multibody.analyses.animation import COLOURS
@@ -60,7 +62,10 @@ def _carried(pose, point):
 
 
 def sketch(spec: LinkageSpec) -> Scene:
-    """The bodies as they stand, without motion."""
+    """The mechanism at its start, without motion; the bodies alone, as they are stated, where it is not assembled."""
+    if connected(spec):
+        with suppress(DrivewrightError):
+            return scene(replace(build(spec), duration=None))
     poses = loose_poses(spec)
     points = {name: nodes(spec, name) for name in (GROUND, *spec.bodies)}
     half_width = bar_half_width(points)

@@ -26,12 +26,13 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
 
   // ---- on and off
   function turn(next) {
+    if (next === on) return;
     on = next && offered().length > 0;
     if (on) { clock.set(0); clock.pause(); tool ||= offered()[0].name; }
     places = []; cursor = null;
     layer.hidden = !on;
     layer.parentElement?.classList.toggle("is-building", on);
-    button.setAttribute("aria-pressed", String(on));
+    say({what: "sketch", on});
     show();
     if (on) sheet.focus({preventScroll: true});
   }
@@ -128,7 +129,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   show();
   const stops = [store.on(["lang", "kinds", "scene", "refused"], show),
     store.on(["design"], () => { if (on && !offered().length) turn(false); else show(); })];
-  return {layer, button, draw, active: () => on, load(scene) { handles = scene.handles || []; if (on) clock.set(0); show(); },
+  return {layer, button, draw, active: () => on, load(scene) { handles = scene.handles || []; },
     destroy() { stops.forEach(stop => stop()); layer.remove(); button.remove(); }};
 }
 

@@ -25,14 +25,13 @@ function createMotion(host, tools) {
     const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
     drive = store.state.design?.opened;
     shown = scene;
+    handles.load(scene.scene); builder.load(scene.scene);  // before the player draws: what lies upon the drawing is that of its bodies
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => { if (player) { handles.draw(); builder.draw(); } }, held: handles.held});
+      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => { if (player) { handles.draw(); builder.draw(); } }, held: () => handles.held() || builder.active()});
       player.stage.append(handles.layer, builder.layer);
       player.highlight(store.state.lit);
     }
-    handles.load(scene.scene);
-    builder.load(scene.scene);
     if (!builder.button.isConnected) player.stage.nextElementSibling.append(builder.button);  // the bar is made anew with other words
     if (compared) player.compare(compared);
   }
