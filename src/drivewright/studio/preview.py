@@ -49,7 +49,7 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
         scene, remarks = construction.sketch(spec), []
     else:
         scene, remarks = _scene(spec, model)
-    _send_scene(send, scene, remarks, construction.unfinished(spec) if construction else ())
+    _send_scene(send, scene, remarks, construction.unfinished(spec) if construction else None)
     if not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
@@ -57,7 +57,8 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
 
 def _send_scene(send, scene, remarks, missing):
     packed = {**pack_scene(scene), "handles": pack_handles(scene)} if scene else None
-    send(json.dumps({"scene": packed, "remarks": remarks, "missing": list(missing)}, allow_nan=False))
+    unfinished = {} if missing is None else {"missing": list(missing)}  # of a kind that is built by tools
+    send(json.dumps({"scene": packed, "remarks": remarks, **unfinished}, allow_nan=False))
 
 
 def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:
