@@ -21,6 +21,7 @@ from drivewright.claims import Claims
 from drivewright.errors import InputError
 
 if TYPE_CHECKING:
+    from drivewright.construction import Construction
     from drivewright.dimensions import DimensionSheet
     from drivewright.motion_diagram import MotionDiagram
     from drivewright.result import Answer, Answers, Plot, Result, SpecLike
@@ -96,6 +97,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     compile_ahead: Callable[[SpecT], Sequence[Callable[[], object]]] | None = None  # what compiles the kernels that a run comes to last
     dimensions: "tuple[DimensionSheet, ...]" = ()  # drawings that show what its keys measure
     claims: Callable[[SpecT], Claims] | None = None  # what its results obey exactly, for `drivewright.testing`
+    construction: "Construction | None" = None  # how it is built by clicks on its drawing
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 
     def presets(self) -> dict[str, Path]:

@@ -189,6 +189,18 @@ ODD = [
     '{"what": "begin", "name": "optimise", "table": {"unknowns": [[[]]]}}',
     '{"what": "begin", "name": "optimise", "table": null}',
     '{"what": "job", "name": "fix", "options": {"check": {}, "seconds": 1e9}}',
+    '{"what": "construct"}',
+    '{"what": "construct", "tool": "SURROGATE", "places": [[0, 0]], "near": 0.001}',
+    '{"what": "construct", "tool": "pin", "places": "abc", "near": 0.001}',
+    '{"what": "construct", "tool": "pin", "places": [[1e999, 0]], "near": 0.001}',
+    '{"what": "construct", "tool": "pin", "places": [[0, 0, 0]], "near": 0.001}',
+    '{"what": "construct", "tool": "pin", "places": [[0, 0]], "near": -1}',
+    '{"what": "construct", "tool": "pin", "places": [[0, 0]], "near": {}}',
+    '{"what": "construct", "tool": "__class__", "places": [[0, 0]], "near": 0.001}',
+    '{"what": "construct", "tool": "body", "places": [' + ", ".join("[0, 0]" for _ in range(2000)) + '], "near": 0.001}',
+    '{"what": "sketch"}',
+    '{"what": "sketch", "on": [1], "more": 2}',
+    '{"what": "source", "text": "x"}',
     '{"what": "text", "toml": 3}',
     '{"what": "text"}',
     '{"what": "text", "toml": "", "toml ": ""}',
@@ -355,7 +367,7 @@ def test_a_flood_of_messages_is_answered_with_the_newest(server):
         async with page(server.port) as tab:
             for step in range(400):
                 await tab.say("set", key="drive.speed", text=f"{100 + step} rpm", gesture="one drag")
-            await tab.until(lambda message: message["what"] == "values" and 'speed = "499 rpm"' in message["toml"], 60)
+            await tab.until(lambda message: message["what"] == "values" and 'speed = "499 rpm"' in message.get("toml", ""), 60)
             answers = [message for _, message in tab.heard if message["what"] == "values"]
             await tab.say("undo")
             back = await tab.until(lambda message: message["what"] == "values" and not message["undo"])

@@ -211,7 +211,8 @@ def test_a_drawing_is_told_before_the_answers(four_bar):
         told.append(json.loads(what))
 
     assert preview.draw(tell, four_bar, ()) is None
-    assert [set(each) for each in told] == [{"scene", "remarks", "programme"}] and told[0]["remarks"] == []
+    assert [set(each) for each in told] == [{"scene", "remarks", "programme", "missing"}]
+    assert told[0]["remarks"] == told[0]["missing"] == []
     assert {body["name"] for body in told[0]["scene"]["bodies"]} >= {"crank", "coupler", "rocker"}
     found = preview.draw(tell, four_bar, ["motion"])
     assert told[1] == told[0] and found["analyses"] == ["motion"]
@@ -243,7 +244,7 @@ def without_a_scene(four_bar, monkeypatch):
         raise DoesNotAssemble("the loop stays open")
 
     known = registry.mechanism(four_bar.kind)
-    fake = SimpleNamespace(scene=scene, programme=None, analyses=known.analyses)
+    fake = SimpleNamespace(scene=scene, programme=None, analyses=known.analyses, construction=None)
     monkeypatch.setattr(preview, "registry", SimpleNamespace(mechanism=lambda kind: fake))
     return fake
 

@@ -74,7 +74,7 @@ class Tab:
 
     @property
     def toml(self):
-        return self.session.document.design.toml()
+        return self.session.document.design.text()
 
 
 @pytest.fixture
@@ -121,6 +121,27 @@ def test_a_change_sends_its_field_only(tab):
     assert tab.quiet.asked[-1][:2] == ("update", 2)
 
 
+def test_the_text_of_the_spec_follows_a_drag_and_does_not_hold_it_up(tab, monkeypatch):
+    monkeypatch.setattr("drivewright.studio.session.REST", 60.0)
+    made = []
+    monkeypatch.setattr("drivewright.studio.design.source_text", lambda source, tables: made.append(tables) or "text")
+    (values,) = tab.say("set", key="drive.speed", text="150 rpm", gesture="a")
+    assert "toml" not in values and not made and values["fields"]
+    (after,) = tab.say("source")
+    assert after["toml"] == "text" and len(made) == 1
+
+
+def test_a_tool_is_one_step_of_undo_and_the_drawing_stands_still_while_a_person_builds(tab):
+    tab.quiet.sketch = False
+    said = tab.say("sketch", on=True)
+    assert tab.quiet.sketch is True and said and tab.quiet.asked[-1][0] == "update"
+    (design,) = tab.say("construct", tool="body", places=[[-0.08, 0], [-0.08, 0.06]], near=0.001)
+    assert "[bodies.link]" in design["toml"] and "# A four-bar" in design["toml"] and design["undo"]
+    (back,) = tab.say("undo")
+    assert "link" not in back["toml"].partition("[bodies")[2] and not back["undo"]
+    assert tab.say("sketch", on=False) and tab.quiet.sketch is False
+
+
 def test_a_refusal_has_the_words_of_the_command_line_and_changes_nothing(tab):
     before = tab.toml
     (refused,) = tab.say("set", key="drive.speed", text="3 kg")
@@ -141,7 +162,7 @@ def test_a_reload_brings_the_design_back(tab, resources):
     tab.say("set", key="drive.speed", text="150")
     other = Tab(tab.session.start, resources)
     other.say("hello", saved=tab.toml, files="")
-    assert other.toml == tab.toml != Tab(tab.session.start, resources).session.start.toml()
+    assert other.toml == tab.toml != Tab(tab.session.start, resources).session.start.text()
 
 
 @pytest.mark.parametrize("saved", ["mechanism = ", 'mechanism = "nothing"', "x" * (LARGEST + 1), 7])
@@ -221,7 +242,7 @@ def test_nor_with_files_that_it_once_sent(tab, name):
     token = only(said, "design")[0]["files"]
     other = Tab(tab.session.start, tab.session.resources)
     said = other.say("hello", saved=sample_with_file(name), files=token)
-    assert "there is no such data file here" in only(said, "refused")[0]["message"] and other.toml == other.session.start.toml()
+    assert "there is no such data file here" in only(said, "refused")[0]["message"] and other.toml == other.session.start.text()
 
 
 def test_another_drive_has_no_files(tab):
@@ -318,6 +339,10 @@ def test_what_is_no_request_is_nothing(tab, message):
         {"what": "set", "key": None, "text": None},
         {"what": "set", "key": "drive.speed", "text": "1 rpm", "more": 1},
         {"what": "load", "changes": 3},
+        {"what": "construct", "tool": "pin", "places": [[0, 0]] * 51, "near": 0.001},
+        {"what": "construct", "tool": "pin", "places": [[0]], "near": 0.001},
+        {"what": "construct", "tool": "pin", "places": [[0, 0]], "near": "x"},
+        {"what": "construct", "tool": "_delete", "places": [[0, 0]], "near": 0.001},
         {"what": "open", "files": 3},
         {"what": "drop", "list": "joints", "index": "x"},
         {"what": "job", "name": "rm"},

@@ -2,7 +2,7 @@
 
 They are packed into the wheel; in a checkout they lie beside the sources.  `worked_examples.toml` has the questions of each and how its
 picture is drawn; `gallery/` among the examples holds the pictures NAME.webp and NAME.moving.webp, and `made.json`: the digest of the spec
-each was made from.  Presets have such pictures in `presets/pictures` of their kind.
+each was made from.  Presets have such pictures in `presets/pictures` of their kind; those that move are there for some only.
 """
 
 import hashlib
@@ -88,6 +88,12 @@ def preset_pictures(kind: str) -> dict[str, Path]:
     """Preset -> path of its picture, of those that have one; a package that brings a kind may leave them out."""
     place = registry.mechanism(kind).folder / "presets" / PICTURES
     return {name: place / f"{name}.webp" for name in registry.mechanism(kind).presets() if (place / f"{name}.webp").is_file()}
+
+
+def preset_films(kind: str) -> dict[str, Path]:
+    """The same of the moving pictures; a film is worth its size where the name of a preset does not tell how it moves."""
+    stills = preset_pictures(kind).items()
+    return {name: film for name, still in stills if (film := still.with_suffix(".moving.webp")).is_file()}
 
 
 def question_words() -> dict[str, str]:

@@ -37,7 +37,7 @@ def from_document(tables: Mapping[str, Any], model: type[Spec] | None = None, fo
 def read_document(path: str | Path) -> dict[str, Any]:
     """The raw tables of a TOML spec file; SpecError where it is missing or is not TOML."""
     try:
-        return parse_document(_text_of(Path(path)))
+        return parse_document(read_text(path))
     except SpecError as error:
         raise error.located(file=str(path)) from None
 
@@ -64,7 +64,9 @@ def _explained(complaint: str, text: str) -> str:
     return f"{complaint}{f': {line:.80}' if line.isprintable() and line else ''}{remedy}"
 
 
-def _text_of(path: Path) -> str:
+def read_text(path: str | Path) -> str:
+    """The text of a spec file; SpecError where it cannot be read."""
+    path = Path(path)
     try:
         _refuse_named_pipe(path)
         with path.open(encoding="utf-8-sig") as stream:  # Windows editors put a byte-order mark in front

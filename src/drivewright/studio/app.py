@@ -19,7 +19,7 @@ from drivewright import registry
 from drivewright.errors import InputError, MissingExtra
 from drivewright.report.dimension_drawings import drawing_files
 from drivewright.report.html import MODULES
-from drivewright.report.worked_examples import cards, preset_pictures
+from drivewright.report.worked_examples import cards, preset_films, preset_pictures
 from drivewright.studio import preview, translations
 from drivewright.studio.access import LEAST_TOKEN, LOOPBACK, AccessControl
 from drivewright.studio.design import Design
@@ -206,6 +206,7 @@ def _pictures():
     """(name, path) of the pictures of presets and examples, and of the drawings of what keys measure."""
     for kind in registry.kinds():
         yield from ((f"preset.{kind}.{name}.webp", path) for name, path in preset_pictures(kind).items())
+        yield from ((f"preset.{kind}.{name}.moving.webp", path) for name, path in preset_films(kind).items())
         yield from ((f"drawing.{name}.svg", path) for name, path in drawing_files(kind).items())
     for card in cards():
         yield from ((f"example.{path.name}", path) for path in (card.still, card.moving) if path and path.is_file())

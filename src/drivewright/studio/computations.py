@@ -33,6 +33,7 @@ class TabComputations:
         self._full: tuple[int, dict[str, Any]] | None = None  # the newest full result, with its generation
         self._pinned: dict[str, Any] | None = None  # the result that what is shown is compared with
         self._since = 0  # generation of the first design of this drive
+        self.sketch = False  # while a person builds on the drawing: the mechanism stands still at its start
         self._fresh = False  # whether what is shown is the full result of the newest design
         self._draw_loop: asyncio.Task[None] | None = None
         self._draw_task: asyncio.Task[bool] | None = None
@@ -140,14 +141,14 @@ class TabComputations:
         async with self.resources.quick.worker(self) as worker:
             quick = self._affordable(design)
             with self._limited():
-                result = await worker.call(preview.draw, design, quick, on_message=on_message)
+                result = await worker.call(preview.draw, design, quick, self.sketch, on_message=on_message)
         self.send({"what": "possible", "gen": gen})
         if result:
             self._show(gen, result, quick)
 
     def _affordable(self, design: Design) -> list[str]:
-        """Analyses that go with the drawing: none while other tabs wait for theirs."""
-        if self.resources.quick.crowded:
+        """Analyses that go with the drawing: none while other tabs wait for theirs, or while a person builds."""
+        if self.sketch or self.resources.quick.crowded:
             return []
         return preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
 

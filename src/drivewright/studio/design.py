@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 from drivewright.errors import MissingFile, SpecError
-from drivewright.spec import MechanismSpec, from_document, set_key
+from drivewright.spec import MechanismSpec, from_document, parse_document, set_key
 from drivewright.spec.serialisation import toml_text
+from drivewright.studio.source_text import source_text
 
 Tables: TypeAlias = dict[str, Any]  # raw tables as TOML has them
 
@@ -18,12 +19,14 @@ Tables: TypeAlias = dict[str, Any]  # raw tables as TOML has them
 class Design:
     """Raw tables as TOML has them, quantities as text with unit.  Nobody changes `tables` in place.
 
+    `source` is the text that its author wrote: an earlier state of the tables, with comments.
     `readable` are the data files that the tables may name, None for any: what a page sends must not read the disk.
     """
 
     tables: Tables
     folder: Path = field(default_factory=Path.cwd)
     readable: frozenset[Path] | None = None
+    source: str = ""
 
     @property
     def kind(self) -> str:
@@ -54,9 +57,25 @@ class Design:
     def _toml(self) -> str:
         return toml_text(self.tables)  # wanted several times for every change
 
+    def text(self, tables: Tables | None = None) -> str:
+        """The text of the author with the present tables, or with others such as the tables of a copy; comments stay."""
+        return self._text if tables is None else source_text(self.source, tables)
+
+    @cached_property
+    def _text(self) -> str:
+        return source_text(self.source, self.tables)
+
+    def same_as(self, other: "Design") -> bool:
+        """Whether another design has the same values and the same text."""
+        return self.kind == other.kind and self.toml() == other.toml() and (self.source == other.source or self.text() == other.text())
+
     def with_tables(self, tables: Tables) -> "Design":
         """Other tables in the same place."""
         return replace(self, tables=tables)
+
+    def with_text(self, text: str) -> "Design":
+        """Another text in the same place; SpecError where it is not TOML."""
+        return replace(self, tables=parse_document(text), source=text)
 
     def changed(self, changes: Mapping[str, Any]) -> "Design":
         """The design with {dotted key: raw value} set; SpecError where a key cannot be entered."""

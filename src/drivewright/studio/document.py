@@ -9,10 +9,10 @@ from copy import copy, deepcopy
 from pathlib import Path
 from typing import Any
 
-from drivewright.errors import SpecError
+from drivewright import registry
+from drivewright.errors import InputError, SpecError, brief
 from drivewright.spec import set_key
 from drivewright.spec.keys import remove_key
-from drivewright.spec.parsing import parse_document
 from drivewright.studio.design import Design, Tables
 from drivewright.studio.field_info import ABSENT, FieldInfo, field_info_at
 from drivewright.studio.form import form, values
@@ -33,6 +33,7 @@ from drivewright.studio.proposals import search_table
 from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
 
+LARGEST = 1e6  # m: what is clicked lies nearer
 STEPS = 200  # that can be undone
 HISTORY = 4_000_000  # characters of all designs that can be gone back to
 # Absolute paths in a message, but neither units (N m/rad, 1/mm) nor addresses (https://...).
@@ -66,7 +67,7 @@ class Document:
     @property
     def changed(self) -> bool:
         """Whether the design is another one than the file has."""
-        return self.design.kind != self._saved.kind or self.design.toml() != self._saved.toml()
+        return not self.design.same_as(self._saved)
 
     def saved(self) -> None:
         """The present design is in a file now."""
@@ -91,7 +92,7 @@ class Document:
         if self.locks and design.kind == self.design.kind:
             self._refuse_locked(design)
         validated_spec(design)
-        if design.toml() == self.design.toml() and design.folder == self.design.folder:
+        if design.same_as(self.design) and design.folder == self.design.folder:
             return
         if gesture is None or gesture != self._gesture:
             self._remember()
@@ -101,7 +102,7 @@ class Document:
     def _remember(self) -> None:
         """The design as it is becomes a step to go back to; the oldest ones go where there are too many, or too large ones."""
         self._past = [*self._past[1 - STEPS :], self.design]
-        while len(self._past) > 1 and sum(len(design.toml()) for design in self._past) > HISTORY:
+        while len(self._past) > 1 and sum(len(design.toml()) + len(design.source) for design in self._past) > HISTORY:
             del self._past[0]
 
     # -- in two processes ------------------------------------------------------------------------------------------------------
@@ -222,7 +223,7 @@ class Document:
 
     def text(self, toml: str) -> None:
         """The whole design as edited text; SpecError with the line where it is not TOML."""
-        design = normalised(self.design.with_tables(parse_document(toml)))
+        design = normalised(self.design.with_text(toml))
         if design.kind != self.design.kind:
             self.locks = frozenset()
         self._accept(design)
@@ -231,6 +232,21 @@ class Document:
         """The table "optimise" or "study" as its form has it; what the form does not show stays."""
         tables = deepcopy(self.design.tables)
         tables[name] = search_table(self.design, name, content)
+        self._accept(self.design.with_tables(tables))
+
+    def construct(self, tool: str, places: Sequence[tuple[float, float]], near: float) -> None:
+        """One use of a tool of the kind's `Construction` at places of the drawing [m]."""
+        construction = registry.mechanism(self.design.kind).construction
+        known = {each.name: each for each in construction.tools} if construction else {}
+        if construction is None or tool not in known:
+            raise InputError(f"{self.design.kind} is not built with {brief(tool)}")
+        fewest, most = known[tool].fewest, known[tool].most
+        if not fewest <= len(places) <= most or not 0 < near < LARGEST or any(len(place) != 2 for place in places):
+            raise InputError(f"{tool} takes {fewest} to {most} places (x, y)")
+        exact = [(float(x), float(y)) for x, y in places]
+        if not all(abs(part) <= LARGEST for place in exact for part in place):
+            raise InputError("this place is too far away")
+        tables = construction.step(self.design.tables, self.design.spec(), tool, exact, float(near))
         self._accept(self.design.with_tables(tables))
 
     # -- tables and elements ---------------------------------------------------------------------------------------------------

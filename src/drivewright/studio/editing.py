@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from drivewright.errors import DrivewrightError, InputError, brief
 from drivewright.report.worked_examples import examples
-from drivewright.spec import load, parse_document
+from drivewright.spec import load
 from drivewright.studio import translations
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document
@@ -90,14 +90,19 @@ def edit(send: object, document: Document, kept: bytes, change: str, arguments: 
     if change:
         with in_words():
             getattr(document, change)(**arguments)
-    return _edited(document, kept)
+    return _edited(document, kept, text=not under_way(change, arguments))
+
+
+def under_way(change: str, arguments: Mapping[str, Any]) -> bool:
+    """Whether a change is a step of a gesture that goes on, such as a drag: nobody reads the text of the spec meanwhile."""
+    return change in ("set", "drag") and bool(arguments.get("gesture"))
 
 
 def begin(send: object, place: Design, name: str = "", text: str = "", shared: str = "") -> Edited:
     """A document of a design; or of a text, or of the end of an address, in its place."""
     with in_words():
         if text or shared:
-            place = place.with_tables(parse_document(unpacked(shared) if shared else text))
+            place = place.with_text(unpacked(shared) if shared else text)
         place.spec()
         return _edited(Document(place, name), b"")
 
@@ -125,10 +130,12 @@ def fragment(send: object, design: Design) -> str:
     """The design as the end of an address."""
     if design.spec().data_files():
         raise InputError("a design with data files does not fit into an address; save it and send the file")
-    return packed(design.toml())
+    return packed(design.text())
 
 
-def _edited(document, kept):
+def _edited(document, kept, text=True):
+    if text:
+        document.design.text()  # made here, where it does not hold up the loop
     design, (kind, before) = document.design, pickle.loads(kept) if kept else ("", None)
     before = before if kind == design.kind else None
     made = form(design, translations.fields(design.kind) | translations.tables(design.kind), before)

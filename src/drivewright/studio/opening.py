@@ -2,11 +2,13 @@
 
 import base64
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 from drivewright import registry
-from drivewright.errors import InputError
-from drivewright.spec import preset_path, read_document
+from drivewright.errors import InputError, SpecError
+from drivewright.spec import preset_path
+from drivewright.spec.parsing import read_text
 from drivewright.studio.design import Design
 
 LARGEST = 1_000_000  # characters that a page may send as files, or as a shared design
@@ -14,10 +16,14 @@ LARGEST = 1_000_000  # characters that a page may send as files, or as a shared 
 
 def opened(path: str | Path) -> Design:
     """The design of a spec file on this machine; it may read what it names, and the tables beside it."""
-    tables, folder = read_document(path), Path(path).resolve().parent
-    named = Design(tables, folder).spec().data_files()
+    text, folder = read_text(path), Path(path).resolve().parent
+    try:
+        design = Design({}, folder).with_text(text)
+    except SpecError as error:
+        raise error.located(file=str(path)) from None
+    named = design.spec().data_files()
     beside = [beside_path for pattern in ("*.csv", "*.parquet") for beside_path in folder.glob(pattern)]
-    return Design(tables, folder, frozenset([*named, *beside]))
+    return replace(design, readable=frozenset([*named, *beside]))
 
 
 def preset(kind: str, name: str | None = None) -> Design:

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 from drivewright import registry, runner
 from drivewright._jit.compilation import Compilation, watched_by
+from drivewright.errors import DrivewrightError
 from drivewright.execution.outputs import CHECK
 from drivewright.registry import Analysis
 from drivewright.report.comparison import difference, difference_text
@@ -31,19 +32,37 @@ def warm(send: Callable[[Any], object]) -> None:
     runner.versions()
 
 
-def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str]) -> dict[str, Any] | None:
+def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str], sketch: bool = False) -> dict[str, Any] | None:
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
+    `sketch`: the mechanism stands still at its start, assembled or not, where its kind has tools to build it.
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
-    model = runner.build(spec)
-    scene, remarks = _scene(spec, model)
-    packed = {**pack_scene(scene), "handles": pack_handles(scene), "features": pack_features(scene)} if scene else None
-    send(json.dumps({"scene": packed, "remarks": remarks, "programme": _programme(spec, model)}, allow_nan=False))
+    construction = registry.mechanism(spec.mechanism).construction
+    if sketch and construction:
+        _send_scene(send, construction.sketch(spec), [], construction.unfinished(spec))
+        return None
+    try:
+        model = runner.build(spec)
+    except DrivewrightError:
+        if construction:  # what is not assembled is drawn as the spec states it; the error says the rest
+            _send_scene(send, construction.sketch(spec), [], construction.unfinished(spec))
+        raise
+    if construction and not construction.connected(spec):
+        scene, remarks = construction.sketch(spec), []
+    else:
+        scene, remarks = _scene(spec, model)
+    _send_scene(send, scene, remarks, construction.unfinished(spec) if construction else None, _programme(spec, model))
     if not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable, quick=True)
+
+
+def _send_scene(send, scene, remarks, missing, programme=None):
+    packed = {**pack_scene(scene), "handles": pack_handles(scene), "features": pack_features(scene)} if scene else None
+    unfinished = {} if missing is None else {"missing": list(missing)}  # of a kind that is built by tools
+    send(json.dumps({"scene": packed, "remarks": remarks, "programme": programme, **unfinished}, allow_nan=False))
 
 
 def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:

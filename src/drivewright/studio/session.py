@@ -4,6 +4,7 @@ Nothing of NiceGUI is in here: `send(message)` reaches the page, `receive(messag
 after another, and whatever reads or changes a design does so in a worker process: the server's loop only hands on.
 """
 
+import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from functools import cache
@@ -15,9 +16,9 @@ from drivewright.errors import DrivewrightError, InputError, SpecError, brief
 from drivewright.execution.workers import WorkerDied, WorkerFault
 from drivewright.report.dimension_drawings import drawing_files, fitting_drawings
 from drivewright.report.folder import file_name
-from drivewright.report.worked_examples import cards, preset_pictures
+from drivewright.report.worked_examples import cards, preset_films, preset_pictures
 from drivewright.studio import editing, proposals, translations
-from drivewright.studio.computations import Message, TabComputations
+from drivewright.studio.computations import REST, Message, TabComputations
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document, without_folder
 from drivewright.studio.editing import Edited
@@ -32,6 +33,7 @@ from drivewright.studio.opening import unpacked as unpacked
 from drivewright.studio.resources import ServerResources
 
 MOST_FILES = 20
+MOST_PLACES = 50  # of one use of a tool
 SHORT = 20_000  # characters of a message that the loop itself reads
 LONGEST_KEY = 500  # characters
 PATIENCE = 60.0  # seconds that a change of a design may take, the start of its process included
@@ -46,6 +48,7 @@ class Session:
         self._document: Document | None = None
         self.gen, self.files = 0, ""
         self._kept, self._kind = b"", ""
+        self._waiting: asyncio.TimerHandle | None = None  # for the end of a drag, to show the text of the spec
         self._inbox = Inbox(self._act, self._refuse)
         self.computations = TabComputations(send, self._describe, resources)
 
@@ -109,6 +112,7 @@ class Session:
 
     def close(self) -> None:
         """The tab has gone."""
+        self._stop_waiting()
         self._inbox.close()
         self.computations.close()
 
@@ -159,6 +163,18 @@ class Session:
         """Back to the default, or out."""
         await self._edit("unset", _key(key), key=_key(key))
 
+    async def construct(self, tool: str, places: Sequence[Sequence[float]], near: float) -> None:
+        """A tool of the kind at places of the drawing."""
+        if len(places) > MOST_PLACES:
+            raise InputError(f"at most {MOST_PLACES} places at once")
+        await self._edit("construct", ALL, tool=str(tool)[:SHORT], places=[(float(x), float(y)) for x, y in places], near=float(near))
+
+    async def sketch(self, on: bool) -> None:
+        """Whether a person builds on the drawing, which stands still meanwhile."""
+        if self.computations.sketch is not bool(on):
+            self.computations.sketch = bool(on)
+            await self._edit("", ALL)
+
     async def add(self, list: str) -> None:
         """Another element."""
         await self._edit("add", key=_key(list))
@@ -191,6 +207,10 @@ class Session:
     async def lock(self, key: str, on: bool) -> None:
         """Hold a value."""
         self._show(await self._edited("lock", key=_key(key), on=bool(on)))
+
+    async def source(self) -> None:
+        """The text of the spec, after a drag."""
+        self._show(await self._edited(""))
 
     async def text(self, toml: str) -> None:
         """The whole spec as text."""
@@ -298,14 +318,23 @@ class Session:
         return edited
 
     async def _edit(self, change: str, *settled: str, **arguments: Any) -> None:
-        self._changed(await self._edited(change, **arguments), *settled)
+        edited = await self._edited(change, **arguments)
+        self._stop_waiting()
+        if under_way := editing.under_way(change, arguments):
+            self._waiting = asyncio.get_running_loop().call_later(REST, self._inbox.put, {"what": "source"})
+        self._changed(edited, *settled, text=not under_way)
+
+    def _stop_waiting(self) -> None:
+        if self._waiting:
+            self._waiting.cancel()
+            self._waiting = None
 
     def _open(self, edited: Edited, files: str) -> None:
         """A design that has nothing to do with the one before."""
         self._document, self._kept, self.files = edited.document, edited.kept, files
         self._changed(edited, ALL, opened=True)
 
-    def _changed(self, edited: Edited, *settled: str, opened: bool = False) -> None:
+    def _changed(self, edited: Edited, *settled: str, opened: bool = False, text: bool = True) -> None:
         """Draw it, and show its form."""
         self.gen += 1
         opened = opened or self.document.design.kind != self._kind
@@ -313,10 +342,10 @@ class Session:
             self._kind = self.document.design.kind
             self.computations.reset(self.gen)
         self.computations.update(self.gen, self.document.design)
-        self._show(edited, settled, opened)
+        self._show(edited, settled, opened, text)
 
-    def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False) -> None:
-        """The form; only the fields that differ, where nothing else does."""
+    def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False, text: bool = True) -> None:
+        """The form; only the fields that differ, where nothing else does; with the text of the spec unless more of a drag follows."""
         document, design = self.document, self.document.design
         common = {
             "gen": self.gen,
@@ -324,7 +353,7 @@ class Session:
             "redo": document.can_redo,
             "locks": sorted(document.locks),
             "changed": document.changed,
-            "toml": design.toml(),
+            **({"toml": design.text()} if text else {}),
             "files": self.files,
             "settled": list(settled),
             "drawings": fitting_drawings(design.kind, design.tables),
@@ -356,7 +385,7 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise", "fix")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset add drop arrange put take undo redo lock text load preset "
+    "hello again set drag revert unset construct sketch add drop arrange put take undo redo lock source text load preset "
     "fresh example open share reference pin job propose begin export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
@@ -389,11 +418,18 @@ def _offered(kinds):
             "titles": translations.preset_titles(kind),
             "programme": registry.mechanism(kind).programme is not None,
             "pictures": sorted(preset_pictures(kind)),
+            "tools": [tool._asdict() for tool in _tools(kind)],
+            "films": sorted(preset_films(kind)),
             "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
             "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],
         }
         for kind in kinds
     ]
+
+
+def _tools(kind):
+    construction = registry.mechanism(kind).construction
+    return construction.tools if construction else ()
 
 
 def _drawn_sheets(kind):

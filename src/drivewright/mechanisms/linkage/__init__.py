@@ -6,6 +6,7 @@ from drivewright.mechanisms.linkage.analyses import ANALYSES
 from drivewright.mechanisms.linkage.batch import batch
 from drivewright.mechanisms.linkage.build import build, compile_ahead
 from drivewright.mechanisms.linkage.claims import claims
+from drivewright.mechanisms.linkage.construction import CONSTRUCTION
 from drivewright.mechanisms.linkage.dimensions import SHEETS
 from drivewright.mechanisms.linkage.plates import drawings, parts
 from drivewright.mechanisms.linkage.scene import scene
@@ -75,4 +76,5 @@ mechanism = Mechanism(
     parts=parts,
     verify=oracle("linkage"),
     batch=batch,
+    construction=CONSTRUCTION,
 )

@@ -16,10 +16,10 @@ from drivewright.scene import Handle, Scene
 def scene(model: LinkageModel) -> Scene:
     """One turn of the drive, or the run of a free mechanism."""
     drawn = animate(model, {name: nodes(model.spec, name) for name in (GROUND, *model.spec.bodies)})
-    return replace(drawn, handles=tuple(_handles(model.spec)))
+    return replace(drawn, handles=tuple(handles(model.spec)))
 
 
-def _handles(spec: LinkageSpec) -> Iterator[Handle]:
+def handles(spec: LinkageSpec) -> Iterator[Handle]:
     """The points of the frame and of the bodies; a body's origin where a joint holds it is none: the other points say where it is."""
     joined = {text for joint in spec.joints for text in joint.connects}
     for name, x, y in ((name, *point) for name, point in spec.ground.points.items()):

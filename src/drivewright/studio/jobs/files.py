@@ -54,14 +54,15 @@ def report(design: Design, progress: Progress, whole: bool = False) -> Files:
 
 
 def save(design: Design, progress: Progress) -> Files:
-    """The spec as the user has it; where it names data files an archive with copies of them beside it."""
+    """The spec as the user has it, with the comments of its author; where it names data files an archive with copies of them beside it."""
     spec, stem = design.spec(), _stem(design)
     places = data_file_places(spec.data_files())
     tables = deepcopy(design.tables)
     for key, _ in leaves(design.tables):
         if (path := value_at(spec, key)) in places:
             set_key(tables, key, places[path])
-    text = f"# Written by the studio of Drivewright {program()}.  Run it with: drivewright run {stem}.toml\n{toml_text(tables)}".encode()
+    head = f"# Written by the studio of Drivewright {program()}.  Run it with: drivewright run {stem}.toml\n"
+    text = (design.text(tables) if design.source else head + toml_text(tables)).encode()
     copies = {place: path.read_bytes() for path, place in places.items()}
     return _one(f"{stem}.zip", archive({f"{stem}.toml": text, **copies})) if copies else _one(f"{stem}.toml", text)
 

@@ -28,8 +28,9 @@ export function createDesigns({store, t}, {fresh, example, close}) {
     made.append(element("span", {}, text), element("small", {}, hint));
     return made;
   }
-  const preset = ({kind, pictures = [], titles = {}}) => name => card(t(titles[name] || spoken(name)), `${t("preset")} · ${t(spoken(name))}`,
-    `preset-${kind}-${name}`, pictures.includes(name) && picture(`preset.${kind}.${name}.webp`, ""), () => fresh(kind, name));
+  const preset = ({kind, pictures = [], films = [], titles = {}}) => name => card(t(titles[name] || spoken(name)), `${t("preset")} · ${t(spoken(name))}`,
+    `preset-${kind}-${name}`, pictures.includes(name) && picture(`preset.${kind}.${name}.webp`, films.includes(name) && `preset.${kind}.${name}.moving.webp`),
+    () => fresh(kind, name));
   const worked = ({name, title, moving}) => card(t(title), t("worked example"), `example-${name}`,
     picture(`example.${name}.webp`, moving && `example.${name}.moving.webp`), () => example(name));
 

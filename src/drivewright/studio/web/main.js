@@ -62,7 +62,7 @@ function createEar(store, begin) {
     design: message => {
       if (message.opened) since = message.gen;
       const afresh = message.opened ? {proposals: null, scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
-      store.set({design: {...message, opened: since}, refused: without(message.settled), ...afresh});
+      store.set({design: {toml: state.design?.toml ?? "", ...message, opened: since}, refused: without(message.settled), ...afresh});
     },
     values: ({fields, settled, ...rest}) => {
       const form = {groups: state.design.form.groups.map(group => ({...group, fields: group.fields.map(field => fields[field.key] || field)}))};

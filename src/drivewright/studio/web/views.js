@@ -1,5 +1,6 @@
 // The centre: the moving mechanism, its solids, its figures, and the designs of a study, one at a time.
 
+import { createBuilder } from "./builder.js";
 import { SIDES, createDiagrams } from "./diagrams.js";
 import { createFigures } from "./figures.js";
 import { createHandles } from "./handles.js";
@@ -22,22 +23,22 @@ function createMotion(host, tools) {
   let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
   const handles = createHandles(() => player, tools), measure = createMeasure(() => player, tools);
   host.append(stage, note);
-  const diagrams = createDiagrams(host, () => player, tools, () => player?.fit());
-  const picked = name => measure.active() || store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
+  const builder = createBuilder(() => player, tools), diagrams = createDiagrams(host, () => player, tools, () => player?.fit());
+  const picked = name => measure.active() || builder.active() || store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
     const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
     drive = store.state.design?.opened;
     shown = scene;
     measure.expect(afresh);
+    handles.load(scene.scene); builder.load(scene.scene);  // before the player draws: what lies upon the drawing is that of its bodies
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => { if (player) { handles.draw(); measure.draw(); diagrams.draw(); } },
-        sides: () => diagrams.active() ? SIDES : 0, held: handles.held, tools: [measure.button]});
-      player.stage.append(handles.layer);
+      player = createPlayer(stage, packed, {clock, text: t, picked, sides: () => diagrams.active() ? SIDES : 0, tools: [measure.button, builder.button],
+        drawn: () => { if (player) { handles.draw(); measure.draw(); builder.draw(); diagrams.draw(); } }, held: () => handles.held() || builder.active()});
+      player.stage.append(handles.layer, builder.layer);
       measure.attach(player);
       player.highlight(store.state.lit);
     }
-    handles.load(scene.scene);
     measure.load(scene.scene);
     if (compared) player.compare(compared);
   }
@@ -65,7 +66,7 @@ function createMotion(host, tools) {
   return {
     open() {}, close() {},
     reword() { if (player) { measure.reword(); load(shown); } remark(store.state.scene); },
-    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); handles.destroy(); measure.destroy(); diagrams.destroy(); player?.destroy(); },
+    destroy() { clearTimeout(timer); stops.forEach(stop => stop()); for (const one of [handles, measure, builder, diagrams]) one.destroy(); player?.destroy(); },
   };
 }
 

@@ -1,0 +1,93 @@
+"""A linkage built by clicks on its drawing, in a real browser."""
+
+import pytest
+from browsing import until
+from studio_running import EXAMPLES, drawn, own_port, running
+
+pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
+STATE = "window.drivewright.state"
+MISSING = f"JSON.stringify({STATE}.scene?.missing)"
+
+
+@pytest.fixture(scope="module")
+def studio():
+    with running(own_port(8470), EXAMPLES / "four_bar.toml") as (address, process):
+        yield address, process
+
+
+@pytest.fixture
+def page(studio, browser):
+    """A page in which a person builds; it must not have complained, or asked for anything outside."""
+    context, complaints = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce"), []
+    page = context.new_page()
+    page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+    page.on("pageerror", lambda error: complaints.append(str(error)))
+    page.on("request", lambda request: None if request.url.startswith((studio[0], "ws", "data:")) else complaints.append(request.url))
+    page.goto(studio[0])
+    until(page, "window.drivewright !== undefined", 30)
+    drawn(page)
+    page.get_by_test_id("build").click()
+    until(page, f"Array.isArray({STATE}.scene?.missing)", 60)
+    drawn(page)
+    yield page
+    context.close()
+    assert complaints == []
+
+
+def at(page, x, y):
+    """Click a place of the drawing, as parts of its width and height."""
+    box = page.get_by_test_id("build-sheet").bounding_box()
+    page.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"])
+
+
+def steps(page):
+    return page.evaluate(f"{STATE}.design.gen")
+
+
+def after(page, gen):
+    until(page, f"{STATE}.design.gen > {gen}", 60)
+    drawn(page)
+
+
+def test_a_pendulum_from_clicks(page):
+    gen = steps(page)
+    page.get_by_test_id("tool-body").click()
+    at(page, 0.1, 0.2)
+    at(page, 0.25, 0.3)
+    page.keyboard.press("Enter")
+    after(page, gen)
+    until(page, f"{MISSING}.includes('held by no joint')", 60)
+    assert "[bodies.link]" in page.evaluate(f"{STATE}.design.toml")
+    gen = steps(page)
+    page.get_by_test_id("tool-pin").click()
+    at(page, 0.1, 0.2)
+    after(page, gen)
+    until(page, f"{MISSING}.includes('held by one joint only')", 60)
+    page.keyboard.press("Control+z")
+    until(page, f"{MISSING}.includes('held by no joint')", 60)
+
+
+def test_a_refused_click_is_explained_beside_the_tools(page):
+    page.get_by_test_id("tool-drive").click()
+    at(page, 0.1, 0.1)
+    until(page, "document.querySelector('[data-testid=build-words]').textContent.includes('there is no pin here')", 30)
+
+
+def test_by_keys_alone(page):
+    gen = steps(page)
+    page.get_by_test_id("tool-body").press("Enter")
+    for key in ("ArrowLeft", "Space", "ArrowUp", "ArrowUp", "ArrowUp", "Space", "Enter"):
+        page.keyboard.press(key)
+    after(page, gen)
+    page.keyboard.press("Escape")
+    assert page.get_by_test_id("build").get_attribute("aria-pressed") == "false"
+    assert page.evaluate("document.activeElement.dataset.testid") == "build"
+
+
+def test_only_kinds_with_tools_offer_them(page):
+    assert page.get_by_test_id("build").is_visible()
+    page.get_by_test_id("new").click()
+    page.get_by_test_id("preset-cam-default").click()
+    until(page, f"{STATE}.design.kind === 'cam'", 60)
+    until(page, "!document.querySelector('[data-testid=build]')?.checkVisibility()", 30)
+    assert page.get_by_test_id("build-sheet").is_hidden()
