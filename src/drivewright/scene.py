@@ -309,9 +309,13 @@ class Grooved(NamedTuple):
 
 @dataclass(frozen=True)
 class Part:
-    """A named solid of an assembly: prisms, bars, turned and grooved bodies fused together, placed at `pose` (x, y, angle)."""
+    """A named solid of an assembly: prisms, bars, turned and grooved bodies fused together, placed at `pose` (x, y, angle).
+
+    It moves with the `body` of the scene, of its own name unless given; what is none of its bodies stands still.
+    """
 
     name: str
     solids: tuple[Prism | Bar | Turned | Grooved, ...]
     pose: Pose = (0.0, 0.0, 0.0)
     colour: str = "steel"
+    body: str = ""

@@ -36,5 +36,5 @@ def strand_parts(plate: Plate, poses: Floats, lacing: tuple[int, int], play: flo
         sheets = tuple(Prism(plate.outline, plate.holes, float(z), plate.thickness) for z in heights[k % 2])
         pins = (left, right) if plate.pins.pins_per_joint == 2 or k == 0 else (right,)
         x, y, turn = map(float, pose)
-        parts.append(Part(f"link {k}", (*sheets, *pins), (x, y, turn), ("steel", "blue")[k % 2]))
+        parts.append(Part(f"link {k}", (*sheets, *pins), (x, y, turn), ("steel", "blue")[k % 2], f"link{k}"))
     return tuple(parts)

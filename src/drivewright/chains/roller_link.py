@@ -60,7 +60,7 @@ class RollerLink(NamedTuple):
             sheet, out = (self.inner_plate, self.thickness)[outer], 0.5 * self.inner_width + outer * self.inner_plate
             solids = (Prism(plate, (), out, sheet), Prism(plate, (), -out - sheet, sheet), roller)
             x, y, turn = map(float, pose)
-            yield Part(f"link {number}", solids, (x, y, turn), ("steel", "blue")[number % 2])
+            yield Part(f"link {number}", solids, (x, y, turn), ("steel", "blue")[number % 2], f"link{number}")
 
 
 def design_roller_link(pitch: float, roller_diameter: float, inner_width: float, thickness: float, back: float | None = None) -> RollerLink:

@@ -99,4 +99,10 @@ def _pin_parts(pins: Iterable[PlatePin], poses: Mapping[str, Floats], levels: Ma
         ends = [end for pin in group for body in pin.bodies if body in levels for end in levels[body]]
         if ends:
             outline = circle(spot, min(pin.radius for pin in group))
-            yield Part(f"pin {group[0].name}", (Prism(outline, (), min(ends), max(ends) - min(ends)),), (0.0, 0.0, 0.0), "ground")
+            yield Part(
+                f"pin {group[0].name}",
+                (Prism(outline, (), min(ends), max(ends) - min(ends)),),
+                (0.0, 0.0, 0.0),
+                "ground",
+                group[0].marker.body,
+            )

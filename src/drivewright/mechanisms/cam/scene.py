@@ -193,7 +193,7 @@ def _follower_parts(model, width):
             z = -1.5 * width if number and model.spec.closure == "conjugate" else 0.0
             outline = circle(xy(center), track.radius)
             pin = circle(xy(center), 0.3 * track.radius)
-            yield Part("roller" if not number else "second roller", (Prism(outline, (pin,), z, width),), pose, "orange")
+            yield Part("roller" if not number else "second roller", (Prism(outline, (pin,), z, width),), pose, "orange", "follower")
         return
     bodies = [shape.outline for shape in model.shapes() if shape.layer == "body" and shape.outline.closed]
     yield Part("follower", tuple(Prism(outline, (), 0.0, width) for outline in bodies), pose, "orange")

@@ -196,11 +196,11 @@ def _cam_parts(model, level, here):
     top = level["return"] + spec.cams.face_width
     for cam, colour in zip(model.pair.cams, ("orange", "violet"), strict=True):
         profile = model.profiles[cam.name].transformed(pose, mirror)
-        yield Part(f"cam_{cam.name}", (Prism(profile, bore, level[cam.name], spec.cams.face_width),), here, colour)
+        yield Part(f"cam_{cam.name}", (Prism(profile, bore, level[cam.name], spec.cams.face_width),), here, colour, f"cam.{cam.name}")
     hub = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, spec.cams.face_width, level["return"] - spec.cams.face_width)
     collar = Prism(circle((0, 0), spec.cams.hub_diameter / 2), bore, top, 4e-3)
-    yield Part("hub", (hub,), here, "steel")
-    yield Part("collar", (collar,), here, "steel")
+    yield Part("hub", (hub,), here, "steel", "cam.main")
+    yield Part("collar", (collar,), here, "steel", "cam.main")
 
 
 def _lever_parts(model, level, axis):
@@ -218,7 +218,7 @@ def _lever_parts(model, level, axis):
     yield Part("lever", tuple(solids), here, "blue")
     for name, centre in rollers(model).items():
         ring = Prism(circle(xy(centre), spec.cams.roller_radius), (circle(xy(centre), PIN),), level[name], spec.cams.face_width)
-        yield Part(f"roller_{name}", (ring,), here, "steel")
+        yield Part(f"roller_{name}", (ring,), here, "steel", "lever")
 
 
 def _rod_part(model, level, here):
@@ -233,5 +233,5 @@ def _gear_parts(model, level):
     centres = (0j, carrier, complex(model.arm.axis(zero).d0))
     for name, centre, direction in zip(("sun", "intermediate", "planet"), centres, _gear_directions(model, zero), strict=True):
         yield Part(
-            f"gear_{name}", (Prism(outline, bore, -GEAR_THICKNESS - 3e-3, GEAR_THICKNESS),), (*xy(centre), float(direction)), "steel"
+            f"gear_{name}", (Prism(outline, bore, -GEAR_THICKNESS - 3e-3, GEAR_THICKNESS),), (*xy(centre), float(direction)), "steel", name
         )

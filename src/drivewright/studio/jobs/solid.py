@@ -8,19 +8,23 @@ from drivewright import registry, runner
 from drivewright._typing import Bools, Floats, Ints
 from drivewright.errors import InputError
 from drivewright.report.pack import floats
+from drivewright.scene import Scene
 from drivewright.solids import facets
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.progress import Progress
+from drivewright.view.motion import fractions
 
 CREASE = np.cos(np.radians(30))  # faces that turn by more meet in an edge
 TOLERANCE = 3e-5  # m: chords stay about so near to a round surface
 
 
 def solid(design: Design, progress: Progress) -> dict[str, Any]:
-    """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "positions", "normals", "edges"}],
-    "analyses": [{"name", "meaning", "missing"}] whose fields a viewer can show}.
+    """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "positions", "normals", "edges", "motion"}],
+    "motions", "u", "analyses": [{"name", "meaning", "missing"}] whose fields a viewer can show}.
 
     positions and normals: base64 of float32 x, y, z, three corners a triangle, counter-clockwise from outside; edges: two ends each.
+    motions: base64 of (frames, 3) displacements (x, y, angle) from the start position about the z axis, at the phases `u` of the cycle;
+    `motion` of a part is the number of its own, -1 where it stands still.
     InputError where the drive has no solids; MissingExtra where a part needs the CAD kernel.
     """
     spec = design.spec()
@@ -30,15 +34,37 @@ def solid(design: Design, progress: Progress) -> dict[str, Any]:
     if not parts:
         raise InputError(f"{mechanism.kind} has no solids to show")
     packed, ends = [], []
+    scene = mechanism.scene(model) if mechanism.scene else None
+    moving = displacements(scene) if scene else {}
+    motions: dict[str, int] = {}
     for number, part in enumerate(parts):
         progress(number, len(parts), part.name)
         points, corners = facets.surface_triangles(part, TOLERANCE)
         ends += [points.min(axis=0), points.max(axis=0)]
-        packed.append({"name": part.name, "colour": part.colour, "triangles": len(corners), **shaded(points, corners)})
+        moved = moving.get(part.body or part.name)
+        motion = motions.setdefault(moved, len(motions)) if moved else -1
+        packed.append({"name": part.name, "colour": part.colour, "triangles": len(corners), "motion": motion, **shaded(points, corners)})
     low, high = np.min(ends, axis=0), np.max(ends, axis=0)
     analyses = [{"name": a.name, "meaning": a.meaning, "missing": a.missing(spec)} for a in mechanism.analyses if a.fields]
     size = float(np.linalg.norm(high - low))
-    return {"unit": "m", "size": size, "low": low.tolist(), "high": high.tolist(), "parts": packed, "analyses": analyses}
+    cycle = {"motions": list(motions), "u": floats(fractions(scene.cycle)) if scene else ""}
+    return {"unit": "m", "size": size, "low": low.tolist(), "high": high.tolist(), "parts": packed, **cycle, "analyses": analyses}
+
+
+def displacements(scene: Scene) -> dict[str, str]:
+    """{body: its displacements (frames, 3) from the first frame as text} of the bodies that move, without play that is drawn enlarged.
+
+    A point p of the start position is at  (x, y) + R(angle) p.
+    """
+    packed = {}
+    for body in scene.bodies:
+        poses = np.asarray(body.poses if body.rest is None else body.rest, float)
+        angle = np.unwrap(poses[:, 2]) - poses[0, 2]
+        (x, y), c, s = poses[0, :2], np.cos(angle), np.sin(angle)
+        moved = np.column_stack([poses[:, 0] - (c * x - s * y), poses[:, 1] - (s * x + c * y), angle])
+        if np.any(np.ptp(moved, axis=0) > 0):
+            packed[body.name] = floats(moved)
+    return packed
 
 
 def shaded(points: Floats, corners: Ints) -> dict[str, Any]:

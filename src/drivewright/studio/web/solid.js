@@ -1,10 +1,14 @@
 // A small viewer of solids: triangles with normals, feature edges, orbit, pan and zoom.  Nothing is drawn while nothing changes.
 
+import { matrixOf, displacementAt, pullsOf, reachOf, unpackMotion } from "./assembly.js";
+import { createCube } from "./cube.js";
 import { pressable, same } from "./parts.js";
 import { element, fixed, floats, nice, watchTheme } from "./player.js";
 import { createRenderer } from "./triangles.js";
 
-const VIEWS = {iso: [0.62, 0.5], front: [0, 0], top: [0, Math.PI / 2], side: [Math.PI / 2, 0]};
+const VIEWS = {iso: [0.62, 0.5], front: [0, 0], top: [0, Math.PI / 2], side: [Math.PI / 2, 0], back: [Math.PI, 0], bottom: [0, -Math.PI / 2],
+  left: [-Math.PI / 2, 0]};
+const SHOWN = ["iso", "front", "top", "side", "fit"];  // views with a button of their own; the others by the cube
 const DEPTH = 0.6;  // half the depth that is seen, in sizes of the whole
 
 const plain = name => name.replace(/[._\s]+/g, "_");  // checks say cam.main, solids cam_main
@@ -28,7 +32,7 @@ function extent(parts) {
 /**
  * The viewer inside `host`; load({parts}) of packed parts, show(parts) of {name, label, colour, points, normals, edges, levels} as arrays,
  * setRamp(stops, bare) for parts with levels, hide(names) before they are shown, cut([axis, part of the way along it] | null), highlight(names),
- * destroy().  aside: px at the right that something else covers; toggled(hidden) is called when a part was hidden or shown.
+ * at(phase) of the cycle, explode(part of the way), moving (whether anything moves), drawn (how often it was drawn), destroy().  aside: px at the right that something else covers; toggled(hidden) is called when a part was hidden or shown.
  */
 export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   const canvas = element("canvas", {class: "so-canvas", tabindex: 0, role: "img",
@@ -37,15 +41,16 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   const legend = element("div", {class: "dw-legend so-legend"}), tools = element("div", {class: "dw-segments so-tools"});
   const view = {turn: VIEWS.iso[0], tilt: VIEWS.iso[1], scale: 1, fitted: true, shift: [-aside / 2, 0], width: 0, height: 0, ratio: 1};
   const look = {hidden: new Set(), lit: new Set(), section: null};  // names of parts; section: [axis, part of the way along it]
-  const state = {parts: [], whole: {low: [0, 0, 0], high: [1, 1, 1], centre: [0, 0, 0], size: 1}, frame: 0};
+  const state = {parts: [], whole: {low: [0, 0, 0], high: [1, 1, 1], centre: [0, 0, 0], size: 1}, frame: 0, moving: null, phase: 0, pulls: [], apart: 0, drawn: 0};
   const renderer = createRenderer(canvas), theme = watchTheme(host, () => redraw());
   host.classList.add("so");
   if (!renderer) {
     const words = t("This browser has no WebGL, so solids cannot be shown. STEP and STL can still be exported.");
     host.replaceChildren(element("p", {class: "vw-empty"}, words));
-    return {load() {}, show() {}, hide: names => new Set(names), cut() {}, setRamp() {}, highlight() {}, destroy() { theme.stop(); host.replaceChildren(); }};
+    return {load() {}, show() {}, at() {}, explode() {}, moving: false, drawn: 0, hide: names => new Set(names), cut() {}, setRamp() {}, highlight() {}, destroy() { theme.stop(); host.replaceChildren(); }};
   }
-  host.replaceChildren(canvas, overlay, legend, tools);
+  const cube = createCube(name => from(name), t);
+  host.replaceChildren(canvas, overlay, legend, tools, cube.node);
 
   const observer = new ResizeObserver(() => {
     Object.assign(view, {width: host.clientWidth, height: host.clientHeight, ratio: window.devicePixelRatio || 1});
@@ -70,8 +75,19 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
     if (view.width < 2) return;
     if (view.fitted) view.scale = fitting();
     const axes = axesOf(view.turn, view.tilt);
+    renderer.move(places());
+    state.drawn++;
+    host.dataset.drawn = state.drawn;
     renderer.paint(placing(axes), theme.colours, {hidden: look.hidden, faint: faintness(), cut: cutPlane()});
     annotate(axes, view.scale);
+  }
+  /** Where each part stands at the phase, pulled out as far as wanted. */
+  function places() {
+    if (!state.moving && !state.apart) return [];
+    return state.parts.map(({motion}, n) => {
+      const moved = state.moving && motion >= 0 ? displacementAt(state.moving, state.moving.motions[motion], state.phase) : [0, 0, 0];
+      return matrixOf(moved, (state.pulls[n] || [0, 0, 0]).map(pull => state.apart * pull));
+    });
   }
   /** Matrices from the parts' space to the window's, column by column. */
   function placing(axes) {
@@ -101,6 +117,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
     context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     context.clearRect(0, 0, view.width, view.height);
     triad(context, axes, view.width - 52, view.height - 50);
+    cube.turn(axes);
     scaleBar(context, px, 16, view.height - 16);
   }
   function triad(context, axes, x0, y0) {
@@ -144,8 +161,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   function mark(name) { for (const [key, made] of buttons) made.setAttribute("aria-pressed", String(key === name)); }
 
   const names = {iso: t("Oblique"), front: t("Front"), top: t("Top"), side: t("Side"), fit: t("Fit")};
-  const buttons = new Map(Object.entries(names).map(([key, text]) =>
-    [key, pressable({"aria-pressed": "false"}, () => key === "fit" ? fit() : from(key), text)]));
+  const buttons = new Map(SHOWN.map(key => [key, pressable({"aria-pressed": "false"}, () => key === "fit" ? fit() : from(key), names[key])]));
   tools.append(...buttons.values());
   mark("iso");
 
@@ -195,7 +211,8 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
     const had = state.whole.size, before = state.parts.map(part => part.name);
     const seen = parts.filter(part => !look.hidden.has(part.name));
     state.parts = parts;
-    state.whole = extent(seen.length ? seen : parts);
+    state.whole = reachOf(parts, state.moving, extent(seen.length ? seen : parts));
+    state.pulls = pullsOf(parts, state.whole);
     if (Math.abs(state.whole.size / had - 1) > 0.5) fit();
     renderer.load(state.parts);
     if (!same(before, parts.map(part => part.name))) chips();
@@ -203,11 +220,16 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   }
 
   return {
-    load({parts}) {
-      show(parts.map(({name, colour, positions, normals, edges}) => ({name, colour,
+    load({parts, ...answer}) {
+      state.moving = unpackMotion(answer);
+      show(parts.map(({name, colour, positions, normals, edges, motion}) => ({name, colour, motion,
         points: floats(positions), normals: floats(normals), edges: floats(edges)})));
     },
     show,
+    get moving() { return Boolean(state.moving); },
+    get drawn() { return state.drawn; },
+    at(phase) { if (state.moving && phase !== state.phase) { state.phase = phase; redraw(); } },
+    explode(part) { state.apart = part; redraw(); },
     hide(names) { look.hidden = new Set(names); return look.hidden; },
     cut(section) { look.section = section; redraw(); },
     setRamp(stops, bare) { renderer.setRamp(stops, bare); redraw(); },

@@ -1,6 +1,7 @@
 // The solids of a design: its parts, asked for when the pane opens, and the fields that analyses compute on them, on request.
 
 import { createAsked } from "./asked.js";
+import { createAssemblyBar } from "./assembly_bar.js";
 import { createFields, titleOf } from "./deformed.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
@@ -10,16 +11,22 @@ const PARTS = "";  // what is shown unless an analysis is chosen
 
 /** The pane of the solids in `host`. */
 export function createSolids(host, tools) {
-  const {store, t} = tools;
+  const {store, t, clock} = tools;
   const row = element("div", {class: "so-modes", role: "group", "aria-label": t("What is shown"), hidden: ""});
   const geometry = element("div", {class: "so-pane"}), place = element("div", {class: "so-pane", hidden: ""});
   let viewer = null, fields = null, chosen = PARTS, opened = false;
+  const bar = createAssemblyBar(() => viewer, tools), stage = element("div", {class: "so-stage"});
   host.append(row, geometry, place);
 
   function shown(body, answer) {
-    body.classList.add("vw-solid");
-    viewer ||= createSolid(body, {t});
+    body.classList.add("vw-solid", "so-assembly");
+    if (!viewer) {
+      body.replaceChildren(bar.node, stage);
+      viewer = createSolid(stage, {t});
+    }
     viewer.load(answer);
+    bar.show(viewer.moving);
+    clock.see(stage, opened && viewer.moving);
     viewer.highlight(store.state.lit);
     offer(answer.analyses || []);
   }
@@ -52,8 +59,8 @@ export function createSolids(host, tools) {
   ];
   return {
     ...pane,
-    open() { opened = true; pane.open(); fields?.open(); },
-    close() { opened = false; pane.close(); },
-    destroy() { stops.forEach(stop => stop()); pane.destroy(); fields?.destroy(); viewer?.destroy(); },
+    open() { opened = true; clock.see(stage, Boolean(viewer?.moving)); pane.open(); fields?.open(); },
+    close() { opened = false; clock.see(stage, false); pane.close(); },
+    destroy() { stops.forEach(stop => stop()); bar.destroy(); clock.see(stage, false); pane.destroy(); fields?.destroy(); viewer?.destroy(); },
   };
 }

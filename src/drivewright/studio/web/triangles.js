@@ -5,15 +5,16 @@ const CUT = {declare: "uniform vec4 cut; varying vec3 spot;", test: "if (dot(cut
 
 const FACE = {vertex: `
   attribute vec3 position, normal;
-  uniform mat4 place; uniform mat3 turn;
+  uniform mat4 place, own; uniform mat3 turn;
   varying vec3 facing, spot;
-  void main() { facing = turn * normal; spot = position; gl_Position = place * vec4(position, 1.0); }`, fragment: `
+  void main() { vec4 at = own * vec4(position, 1.0); facing = turn * mat3(own) * normal; spot = at.xyz; gl_Position = place * at; }`, fragment: `
   precision highp float;
-  uniform vec3 colour, sky; uniform float strength;
+  uniform vec3 colour, sky, inside; uniform float strength, filled;
   varying vec3 facing; ${CUT.declare}
   void main() {
     ${CUT.test}
     vec3 n = normalize(facing);
+    if (filled > 0.5 && !gl_FrontFacing) { gl_FragColor = vec4(mix(sky, inside, strength), 1.0); return; }
     float key = max(dot(n, normalize(vec3(-0.35, 0.55, 0.76))), 0.0), back = max(dot(n, normalize(vec3(0.7, -0.25, 0.35))), 0.0);
     float light = 0.42 + 0.2 * n.y * 0.5 + 0.5 * key + 0.14 * back;
     float rim = pow(1.0 - abs(n.z), 3.0) * 0.18, shine = pow(max(dot(n, normalize(vec3(-0.2, 0.32, 0.93))), 0.0), 40.0) * 0.16;
@@ -22,9 +23,12 @@ const FACE = {vertex: `
 // A value at every corner, 0 ... 1 along the colours; below 0 there is none.
 const FIELD = {vertex: `
   attribute vec3 position, normal; attribute float level;
-  uniform mat4 place; uniform mat3 turn;
+  uniform mat4 place, own; uniform mat3 turn;
   varying vec3 facing, spot; varying float value;
-  void main() { facing = turn * normal; spot = position; value = level; gl_Position = place * vec4(position, 1.0); }`, fragment: `
+  void main() {
+    vec4 at = own * vec4(position, 1.0);
+    facing = turn * mat3(own) * normal; spot = at.xyz; value = level; gl_Position = place * at;
+  }`, fragment: `
   precision highp float;
   uniform vec3 bare, sky, inside; uniform float strength, filled; uniform sampler2D colours;
   varying vec3 facing; varying float value; ${CUT.declare}
@@ -36,12 +40,13 @@ const FIELD = {vertex: `
   }`};
 const EDGE = {vertex: `
   attribute vec3 position;
-  uniform mat4 place;
+  uniform mat4 place, own;
   varying vec3 spot;
-  void main() { spot = position; gl_Position = place * vec4(position, 1.0); gl_Position.z -= 0.0006 * gl_Position.w; }`, fragment: `
+  void main() { vec4 at = own * vec4(position, 1.0); spot = at.xyz; gl_Position = place * at; gl_Position.z -= 0.0006 * gl_Position.w; }`, fragment: `
   precision highp float;
   uniform vec4 colour; ${CUT.declare}
   void main() { ${CUT.test} gl_FragColor = colour; }`};
+const STILL = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);  // a part where it was at the start
 const WHOLE = [0, 0, 0, 1];  // a plane beyond which nothing lies
 
 /** Red, green, blue of "#abc" or "#aabbcc", each 0..1. */
@@ -108,6 +113,7 @@ export function createRenderer(canvas) {
     gl.drawArrays(kind, 0, count);
     places.forEach(place => gl.disableVertexAttribArray(place));
   }
+  const set = (shader, part) => gl.uniformMatrix4fv(gl.getUniformLocation(shader, "own"), false, part.own || STILL);
   function paintFaces(seen, shader, {matrix, turn}, {sky, faint, cut, own}) {
     gl.useProgram(shader);
     gl.uniform4fv(gl.getUniformLocation(shader, "cut"), cut);
@@ -116,14 +122,17 @@ export function createRenderer(canvas) {
     gl.uniform3fv(gl.getUniformLocation(shader, "sky"), sky);
     for (const part of seen) {
       own(part);
+      set(shader, part);
       gl.uniform1f(gl.getUniformLocation(shader, "strength"), faint(part) ? 0.28 : 1);
       draw(gl.TRIANGLES, shader, {position: [part.faces, 3], normal: [part.sides, 3], ...(part.values ? {level: [part.values, 1]} : {})},
         part.points.length / 3);
     }
   }
-  const coloured = (colours, dark) => part => {
-    const own = rgb(colours[part.colour] || colours.steel);
-    gl.uniform3fv(gl.getUniformLocation(face, "colour"), own.map(c => dark ? 0.06 + 0.94 * c : 0.34 + 0.66 * c));
+  const coloured = (colours, dark, cut) => part => {
+    const plain = rgb(colours[part.colour] || colours.steel), own = plain.map(c => dark ? 0.06 + 0.94 * c : 0.34 + 0.66 * c);
+    gl.uniform3fv(gl.getUniformLocation(face, "colour"), own);
+    gl.uniform3fv(gl.getUniformLocation(face, "inside"), plain.map(c => 0.55 * c + 0.12));
+    gl.uniform1f(gl.getUniformLocation(face, "filled"), cut ? 1 : 0);
   };
   const mapped = (inside, cut) => () => {
     gl.bindTexture(gl.TEXTURE_2D, texture);
@@ -137,12 +146,15 @@ export function createRenderer(canvas) {
     gl.uniformMatrix4fv(gl.getUniformLocation(edge, "place"), false, matrix);
     for (const part of seen) {
       gl.uniform4f(gl.getUniformLocation(edge, "colour"), ...colour(part), strength(part));
+      set(edge, part);
       draw(gl.LINES, edge, {position: [part.lines, 3]}, part.edges.length / 3);
     }
   }
   ready();
   return {
     ready,
+    /** Where each part stands: a matrix (16) for each, or nothing for one that is where it was at the start. */
+    move(places) { parts.forEach((part, n) => { part.own = places[n]; }); },
     load(next) {
       for (const part of parts) for (const data of [part.faces, part.sides, part.lines, part.values]) gl.deleteBuffer(data);
       parts = next.map(upload);
@@ -158,7 +170,7 @@ export function createRenderer(canvas) {
       gl.viewport(0, 0, canvas.width, canvas.height);
       gl.clearColor(...sky, 1); gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
       gl.enable(gl.DEPTH_TEST); gl.enable(gl.BLEND); gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
-      paintFaces(seen.filter(part => !part.values), face, {matrix, turn}, {sky, faint, cut: cut || WHOLE, own: coloured(colours, dark)});
+      paintFaces(seen.filter(part => !part.values), face, {matrix, turn}, {sky, faint, cut: cut || WHOLE, own: coloured(colours, dark, cut)});
       paintFaces(seen.filter(part => part.values), field, {matrix, turn}, {sky, faint, cut: cut || WHOLE, own: mapped(rgb(colours["grid-strong"]), cut)});
       paintEdges(seen, matrix, cut || WHOLE, part => dark || part.levels ? [0, 0, 0] : ink,
         part => faint(part) ? 0.15 : dark || part.levels ? 0.7 : 0.55);
