@@ -33,7 +33,7 @@ from drivewright.studio.proposals import search_table
 from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
 
-LARGEST = 1e6  # m: what is clicked lies nearer
+FARTHEST = 1e6  # m: what is clicked lies nearer
 STEPS = 200  # that can be undone
 HISTORY = 4_000_000  # characters of all designs that can be gone back to
 # Absolute paths in a message, but neither units (N m/rad, 1/mm) nor addresses (https://...).
@@ -241,10 +241,10 @@ class Document:
         if construction is None or tool not in known:
             raise InputError(f"{self.design.kind} is not built with {brief(tool)}")
         fewest, most = known[tool].fewest, known[tool].most
-        if not fewest <= len(places) <= most or not 0 < near < LARGEST or any(len(place) != 2 for place in places):
+        if not fewest <= len(places) <= most or not 0 < near < FARTHEST or any(len(place) != 2 for place in places):
             raise InputError(f"{tool} takes {fewest} to {most} places (x, y)")
         exact = [(float(x), float(y)) for x, y in places]
-        if not all(abs(part) <= LARGEST for place in exact for part in place):
+        if not all(abs(part) <= FARTHEST for place in exact for part in place):
             raise InputError("this place is too far away")
         tables = construction.step(self.design.tables, self.design.spec(), tool, exact, float(near))
         self._accept(self.design.with_tables(tables))
