@@ -2,7 +2,7 @@
 
 import { powered, unitText } from "./numbers.js";
 import { element, fixed } from "./player.js";
-import { ticks } from "./plots.js";
+import { ticks } from "./plotting.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const WIDE = 268, HIGH = 158, LEFT = 46, RIGHT = 8, TOP = 8, BOTTOM = 34;

@@ -1,7 +1,7 @@
 // The lift diagram with velocity, acceleration and jerk below it, on one axis.
 
 import { fitCanvas, fixed } from "./player.js";
-import { ticks } from "./plots.js";
+import { ticks } from "./plotting.js";
 
 export const MARGIN = {left: 58, right: 16, top: 30, bottom: 34}, GAP = 22;
 const SHARE = [0.4, 0.2, 0.2, 0.2], ROLES = ["blue", "orange", "green", "violet"], FONT = "11px system-ui, sans-serif";
