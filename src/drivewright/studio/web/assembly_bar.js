@@ -1,6 +1,6 @@
 // The controls of an assembly: play and scrub its motion, pull it apart, cut it.
 
-import { icon as playerIcon } from "./controls.js";
+import { icon } from "./controls.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
 
@@ -36,7 +36,7 @@ export function createAssemblyBar(getViewer, {t, clock}) {
   const stop = clock.subscribe(({playing, phase}) => {
     if (sign !== playing) {
       sign = playing;
-      play.replaceChildren(playerIcon(playing ? "pause" : "play"));
+      play.replaceChildren(icon(playing ? "pause" : "play"));
       play.title = t(playing ? "Pause (space)" : "Play (space)");
       play.setAttribute("aria-label", play.title);
     }
