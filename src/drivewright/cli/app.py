@@ -180,12 +180,12 @@ def compare(
     from drivewright.report.comparison import compare as side_by_side
     from drivewright.report.comparison_page import refuse_foreign, write_comparison
 
-    with_itself = len(specs) == 1 and bool(set_)
-    specs = [*specs, *specs] if with_itself else specs
+    changes = [set_] * len(specs)
+    if with_itself := len(specs) == 1 and bool(set_):
+        specs, changes, labels = specs * 2, [None, set_], labels or f"{specs[0].stem},changed"
     check_count(len(specs))
-    loaded = [_load(path, set_ if n or not with_itself else None, units) for n, path in enumerate(specs)]
+    loaded = [_load(path, each, units) for path, each in zip(specs, changes, strict=True)]
     check_kinds([spec.mechanism for spec in loaded])
-    labels = labels or (f"{specs[0].stem},changed" if with_itself else "")
     names, kind = compared.labels_of(specs, loaded, labels), loaded[0].mechanism
     folder = out or Path("out") / f"{specs[0].stem}-compared"
     refuse_foreign(folder)

@@ -318,9 +318,9 @@ def advice(run: "Result[Any]") -> None:
 
 def check_numbers(check: "Check", system: units.System) -> tuple[str, str, str]:
     """Value, limit and margin in one unit, the one that suits the limit: a life of half an hour stands beside its limit of 10000 h."""
-    from drivewright.view.text import shown_scale
+    from drivewright.view.text import labelled_scale
 
-    shown = shown_scale(check.unit, usual_unit(check.display_label, check.unit), system, check.limit or check.value)
+    shown = labelled_scale(check.display_label, check.unit, system, check.limit or check.value)
     limit = _with_unit(digits.plain(shown.of(check.limit))[0], shown.unit)
     return _on_scale(check.value, check.bounds, shown), f"{check.sense} {limit}", _margin(check, shown)
 

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 from typing import Any
 
 from drivewright.advice import Advice, Change
-from drivewright.labels import key_in_words, usual_unit
+from drivewright.labels import key_in_words
 from drivewright.report.words import Words, words_of
 from drivewright.result import Check, Result
 from drivewright.units import System
-from drivewright.view.text import SIGNS, number, shown_scale, with_unit
+from drivewright.view.text import SIGNS, labelled_scale, number, shown_scale, with_unit
 
 MOST_TURNED = 3  # other checks that are named
 MOST_FAILED = 2  # checks of which the first lines of a report speak
@@ -34,7 +34,7 @@ def _shortfall(check: Check) -> float:
 
 
 def _failed_text(check: Check, advice: str, system: System, words: Words) -> str:
-    shown = shown_scale(check.unit, usual_unit(check.display_label, check.unit), system, check.limit or check.value)
+    shown = labelled_scale(check.display_label, check.unit, system, check.limit or check.value)
     value, limit = (with_unit(number(shown.of(each), 4), shown.unit) for each in (check.value, check.limit))
     text = words("* * (limit * *)", words(check.display_label), value, SIGNS[check.sense], limit)
     return f"{text}: {advice}." if advice else f"{text}."
@@ -50,7 +50,7 @@ def advice_text(advice: Advice, checks: Mapping[str, Check], system: System, wor
     """ "prime radius 42 mm instead of 38 mm gives 30°; but 'Wall of the hub' would fail"."""
     words = words or words_of("en")
     check = checks[advice.check]
-    shown = shown_scale(check.unit, usual_unit(check.display_label, check.unit), system, check.limit)
+    shown = labelled_scale(check.display_label, check.unit, system, check.limit)
     changes = [_change(change, system, words) for change in advice.changes]
     reached = with_unit(number(shown.of(advice.value), 4), shown.unit)
     text = words("* gives *", *changes, reached) if len(changes) == 1 else words("* and * give *", *changes, reached)

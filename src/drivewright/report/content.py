@@ -12,7 +12,7 @@ import numpy as np
 from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
 from drivewright.execution.helper import Map
-from drivewright.labels import label_of, usual_unit
+from drivewright.labels import label_of
 from drivewright.report.advice import advice_texts, failed_texts
 from drivewright.report.computed import how_computed
 from drivewright.report.form import ReportForm
@@ -29,7 +29,18 @@ from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbna
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.style import new_figure
-from drivewright.view.text import SIGNS, ends_shown, interval_hint, number, numbers, sentence, shown_scale, unit_text, with_unit
+from drivewright.view.text import (
+    SIGNS,
+    ends_shown,
+    interval_hint,
+    labelled_scale,
+    number,
+    numbers,
+    sentence,
+    shown_scale,
+    unit_text,
+    with_unit,
+)
 
 MOST_HEADLINES = 8  # values that are shown first
 GHOSTS = tuple(n / 5 for n in range(5))
@@ -289,7 +300,7 @@ def _value(result: Result[Any], name: str) -> Content:
     """`shown` in full; `number`, `unit` and the interval `low` .. `high` apart, "" where it says nothing, with its `hint`."""
     value = result.values[name]
     seen = 0.0 if result.is_noise(value) else value.value
-    shown = shown_scale(value.unit, usual_unit(value.label, value.unit), result.units, seen)
+    shown = labelled_scale(value.label, value.unit, result.units, seen)
     text, low, high = numbers(shown.of(seen), *ends_shown(value.low, value.high, shown))
     return {
         "name": name,
@@ -312,7 +323,7 @@ def _check(result: Result[Any], check: Check, advice: str = "") -> Content:
 
     The interval of the value is `low` .. `high`, the unit behind the latter; "" where it says nothing."""
     seen = 0.0 if result.is_noise(check) else check.value
-    shown = shown_scale(check.unit, usual_unit(check_label(check), check.unit), result.units, check.limit or seen)
+    shown = labelled_scale(check_label(check), check.unit, result.units, check.limit or seen)
     unit, limit = shown.unit, with_unit(number(shown.of(check.limit)), shown.unit)
     text, low, high = numbers(shown.of(seen), *ends_shown(*(check.bounds or (None, None)), shown))
     margin = _margin(check, shown) if math.isfinite(check.margin) else ""
@@ -380,7 +391,7 @@ def _ends(column: Column, system: System) -> Content:
     finite = data[np.isfinite(data)] if data.dtype.kind in "iuf" else data[:0]
     if not len(finite):
         return {"least": "", "greatest": ""}
-    shown = shown_scale(column.unit, system=system, size=float(np.abs(finite).max()))
+    shown = labelled_scale(label_of(column.meaning, column.label), column.unit, system, float(np.abs(finite).max()))
     return {"least": number(shown.of(float(finite.min()))), "greatest": number(shown.of(float(finite.max()))), "unit": shown.unit}
 
 

@@ -75,8 +75,8 @@ def _refuse_bad_geometry(result: Result[Any]) -> None:
 def _failures(result: Result[Any]) -> list[str]:
     """The failed geometry checks in words."""
     return [
-        f"{check.display_label}: {quantity(check.value, check.unit, system=result.units)}, "
-        f"limit {check.sense} {quantity(check.limit, check.unit, system=result.units)} ({check.message})"
+        f"{check.display_label}: {quantity(check.value, check.unit, system=result.units, label=check.display_label)}, "
+        f"limit {check.sense} {quantity(check.limit, check.unit, system=result.units, label=check.display_label)} ({check.message})"
         for check in result.checks
         if check.geometry and not check.ok
     ]

@@ -117,9 +117,11 @@ def _quantities(results, chosen):
         unit = x.unit if unit is None else unit
         for line in lines if x.unit == unit else ():
             curves = found.setdefault((line.column.name, line.column.unit), [])
-            shown = in_usual_unit(plot, results[number].tables[plot.table], line.column.unit, limits_of(results[number], plot))
-            one = plot._replace(unit=curves[0].plot.unit) if curves else shown  # all designs in the unit of the first
-            curves.append(Curve(number, one, x, line, results[0].units))
+            if curves:
+                shown = plot._replace(unit=curves[0].plot.unit)  # all designs in the unit of the first
+            else:
+                shown = in_usual_unit(plot, results[number].tables[plot.table], line.column.unit, limits_of(results[number], plot))
+            curves.append(Curve(number, shown, x, line, results[0].units))
     return found
 
 
