@@ -14,7 +14,9 @@ from drivewright.report.content import check_label, summary
 from drivewright.report.pack import pack_handles, pack_plot_groups, pack_scene
 from drivewright.result import Result, Value
 from drivewright.scene import Scene
+from drivewright.spec import MechanismSpec
 from drivewright.studio.design import Design
+from drivewright.studio.input_parsing import form_key
 from drivewright.view.panels import known_plots
 
 Number: TypeAlias = list[Any]  # value [SI], its unit, the ends of its interval or None, its label
@@ -35,11 +37,31 @@ def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str
     spec = design.spec_on_screen()
     model = runner.build(spec)
     scene, remarks = _scene(spec, model)
-    packed = {**pack_scene(scene), "handles": pack_handles(scene)} if scene else None
+    packed = {**pack_scene(scene), "handles": _handles(design, spec, scene)} if scene else None
     send(json.dumps({"scene": packed, "remarks": remarks}, allow_nan=False))
     if not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
+
+
+def _handles(design: Design, spec: MechanismSpec, scene: Scene) -> list[dict[str, Any]]:
+    """The handles with keys as the form has them; `value` [SI] is the number that this drawing was made with."""
+    return [
+        {
+            **handle,
+            "key": form_key(design.tables, handle["key"]),
+            **({"value": _number(spec, handle["key"])} if "direction" in handle else {}),
+        }
+        for handle in pack_handles(scene)
+    ]
+
+
+def _number(spec: MechanismSpec, key: str) -> float:
+    """The number of a dotted key, elements by their place."""
+    value: Any = spec
+    for step in key.split("."):
+        value = value[int(step)] if isinstance(value, tuple) else getattr(value, step)
+    return float(value)
 
 
 def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:
