@@ -337,7 +337,8 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset add drop put take undo redo lock text load preset fresh example open share reference pin job export save analyse"
+    "hello again set drag revert unset add drop put take undo redo lock text load preset "
+    "fresh example open share reference pin job export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}
 

@@ -26,7 +26,7 @@ function createMotion(host, tools) {
     shown = scene;
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => player && handles.draw(), held: handles.held});
+      player = createPlayer(stage, packed, {clock, text: t, picked, drawn: () => player && handles.draw(), held: handles.held, buttons: handles.bar});
       player.stage.append(handles.layer);
       player.highlight(store.state.lit);
     }
