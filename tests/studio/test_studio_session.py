@@ -299,6 +299,48 @@ def test_steps_of_one_drag_that_wait_are_one(tab):
     assert len(only(said, "values")) == 3
 
 
+def drag(gesture="g", **parts):
+    changes = {f"bodies.crank.points.A.{part[1:]}": text for part, text in parts.items()}
+    return {"what": "drag", "changes": changes, "gesture": gesture}
+
+
+def test_a_drag_is_one_step_and_the_newest_of_those_that_wait_is_taken(tab):
+    before = tab.toml
+    said = tab.send(*(drag(_0=f"{40 + n} mm", _1=f"{n} mm") for n in range(1, 30)))
+    assert [message["fields"]["bodies.crank.points.A"]["text"] for message in only(said, "values")] == ["69 mm, 29 mm"]
+    tab.send(drag(_0="45 mm", _1="1 mm"))
+    assert "45 mm" in tab.toml
+    tab.say("undo")
+    assert tab.toml == before
+
+
+def test_a_drag_that_is_taken_back_leaves_no_step(tab):
+    before = tab.toml
+    for _ in range(2):
+        tab.send(drag(_0="45 mm"))
+        tab.send(drag(_0="46 mm"))
+        (said,) = tab.say("revert", gesture="g")
+        assert tab.toml == before and not said["undo"] and said["fields"]["bodies.crank.points.A"]["parts"][0]["value"] == 40
+
+
+def test_only_the_drag_under_way_can_be_taken_back(tab):
+    tab.send(drag("first", _0="45 mm"))
+    tab.say("set", key="drive.speed", text="99 rpm")
+    after = tab.toml
+    for gesture in ("first", "other", ""):
+        (said,) = tab.say("revert", gesture=gesture)
+        assert tab.toml == after and said["undo"]
+    tab.say("undo")
+    assert "45 mm" in tab.toml and "99 rpm" not in tab.toml
+
+
+def test_a_locked_point_is_not_dragged(tab):
+    tab.say("lock", key="bodies.crank.points.A", on=True)
+    before = tab.toml
+    (refused,) = tab.send(drag(_0="45 mm", _1="3 mm"))
+    assert refused["what"] == "refused" and "is locked" in refused["message"] and tab.toml == before
+
+
 # -- odd pages -----------------------------------------------------------------------------------------------------------------
 
 
@@ -318,6 +360,16 @@ def test_what_is_no_request_is_nothing(tab, message):
         {"what": "set", "key": None, "text": None},
         {"what": "set", "key": "drive.speed", "text": "1 rpm", "more": 1},
         {"what": "load", "changes": 3},
+        {"what": "drag", "changes": 3, "gesture": "g"},
+        {"what": "drag", "changes": ["drive.speed"], "gesture": "g"},
+        {"what": "drag", "changes": {"drive.speed": "9 rpm"}},
+        {"what": "drag", "changes": {"drive.speed": ["9 rpm"]}, "gesture": "g"},
+        {"what": "drag", "changes": {"drive.speed": "9 rpm", "drive.none": "1 mm"}, "gesture": "g"},
+        {"what": "drag", "changes": {"k" * 501: "1 mm"}, "gesture": "g"},
+        {"what": "drag", "changes": {f"joints.{n}.name": "1 mm" for n in range(17)}, "gesture": "g"},
+        {"what": "drag", "changes": {"mechanism": "cam"}, "gesture": "g"},
+        {"what": "revert"},
+        {"what": "revert", "gesture": "g", "key": "drive.speed"},
         {"what": "open", "files": 3},
         {"what": "drop", "list": "joints", "index": "x"},
         {"what": "job", "name": "rm"},

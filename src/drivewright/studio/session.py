@@ -34,6 +34,7 @@ from drivewright.studio.resources import ServerResources
 MOST_FILES = 20
 SHORT = 20_000  # characters of a message that the loop itself reads
 LONGEST_KEY = 500  # characters
+MOST_DRAGGED = 16  # keys that a handle moves
 PATIENCE = 60.0  # seconds that a change of a design may take, the start of its process included
 ALL = "*"  # every complaint is settled
 
@@ -148,6 +149,8 @@ class Session:
 
     async def drag(self, changes: Mapping[str, str], gesture: str) -> None:
         """What a handle moves, as it moves."""
+        if len(changes) > MOST_DRAGGED:
+            raise InputError(f"a handle moves at most {MOST_DRAGGED} keys at once")
         texts = {_key(key): str(text) for key, text in changes.items()}
         await self._edit("drag", *texts, changes=texts, gesture=str(gesture))
 

@@ -18,8 +18,8 @@ export function createNames({store, t}) {
       if (group?.role !== "element") continue;
       return /^\d+$/.test(group.title) ? `${t(called(groups.get(group.list) || group))} ${group.index + 1}` : called(group);
     }
-    const top = groups.get(parent(parent(key)));
-    return top?.title && groups.get(parent(key))?.role === "names" ? called(top) : "";
+    const group = groups.get(parent(key)), table = group?.role === "names" ? groups.get(parent(group.key)) : group;
+    return table?.title ? called(table) : "";
   }
   /** The field of a key, or of the point whose part it is. */
   const fieldOf = key => fields.get(key) || fields.get(parent(key));
