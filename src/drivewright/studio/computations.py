@@ -17,7 +17,8 @@ Message: TypeAlias = Mapping[str, Any]  # to the page: {"what": its name, ...}
 REST = 0.25  # seconds without a change after which the analyses follow
 SLOW = 3.0  # seconds after which a drawing says that it is under way
 PATIENCE = 120.0  # seconds after which it is given up: enough to compile what it needs
-BUDGET = 0.02  # seconds of analyses that go with every drawing
+BUDGET = 0.02  # seconds of analyses that go with a drawing
+PACE = 0.12  # seconds at least between two drawings with analyses: those between are only drawn, and are the faster for it
 ANALYSIS = 120.0  # seconds that one analysis may take: enough to compile what it needs
 LONGER = 10  # times as long, where a person asks for it
 
@@ -37,6 +38,7 @@ class TabComputations:
         self._draw_loop: asyncio.Task[None] | None = None
         self._draw_task: asyncio.Task[bool] | None = None
         self._analyse_task: asyncio.Task[None] | None = None
+        self._last_quick = -PACE  # when a drawing last came with analyses [s], by the loop's clock
         self._seconds: dict[str, float] = {}  # of each analysis, as last measured with this drive
         self._jobs: dict[str, asyncio.Task[None]] = {}
 
@@ -146,9 +148,11 @@ class TabComputations:
             self._show(gen, result, quick)
 
     def _affordable(self, design: Design) -> list[str]:
-        """Analyses that go with the drawing: none while other tabs wait for theirs."""
-        if self.resources.quick.crowded:
+        """Analyses that go with the drawing: none while other tabs wait for theirs, and none too soon after those before."""
+        now = asyncio.get_running_loop().time()
+        if self.resources.quick.crowded or now - self._last_quick < PACE:
             return []
+        self._last_quick = now
         return preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
 
     @contextmanager

@@ -5,7 +5,7 @@ import { quantityOf } from "./numbers.js";
 import { createGesture } from "./slider.js";
 import { onGrid, snapped } from "./snapping.js";
 
-const SHAKE = 3, FINE = 6;  // px of a hand that presses without moving; px of a step of the grid, at least
+const SHAKE = 3, FINE = 1, COARSE = 6;  // px of a hand that presses without moving; px of a step of the grid, of an arrow key, at least
 
 /**
  * The drag of a handle.  `place(handle, point)` is the pixel of a point in the frame of its body, `frame(handle)` the pose of that frame,
@@ -75,8 +75,8 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     const [mx, my] = seen.middle(), dx = (x - seen.width / 2) / seen.scale + mx - px, dy = (seen.height / 2 - y) / seen.scale + my - py;
     return [c * dx + s * dy, c * dy - s * dx];
   }
-  function gridOf({factor, whole}) {
-    const step = hold?.free ? 0 : nice(FINE * 2.5 / view().scale / factor) / 2;
+  function gridOf({factor, whole}, fine = FINE) {
+    const step = hold?.free ? 0 : nice(fine * 2.5 / view().scale / factor) / 2;
     return whole ? 1 : step;
   }
 
@@ -149,7 +149,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     if (!start) return;
     if (clock.playing) { clock.set(0); clock.pause(); }
     const moves = handle.direction ? [x + y] : [x, y], values = start.map((number, n) => {
-      const step = gridOf(number);
+      const step = gridOf(number, COARSE);
       return moves[n] ? onGrid(number.value + moves[n] * times * step, step) : number.value;
     });
     say({what: "drag", changes: texts(start, values), gesture: nudges.next()});
