@@ -1,6 +1,7 @@
 """What is computed for one tab: always the newest drawing, the analyses when the design rests, and the jobs that were asked for."""
 
 import asyncio
+import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any, TypeAlias
@@ -38,7 +39,7 @@ class TabComputations:
         self._draw_loop: asyncio.Task[None] | None = None
         self._draw_task: asyncio.Task[bool] | None = None
         self._analyse_task: asyncio.Task[None] | None = None
-        self._last_quick = -PACE  # when a drawing last came with analyses [s], by the loop's clock
+        self._last_quick = -math.inf  # when a drawing last came with analyses [s], by the loop's clock
         self._seconds: dict[str, float] = {}  # of each analysis, as last measured with this drive
         self._jobs: dict[str, asyncio.Task[None]] = {}
 
@@ -152,8 +153,10 @@ class TabComputations:
         now = asyncio.get_running_loop().time()
         if self.resources.quick.crowded or now - self._last_quick < PACE:
             return []
-        self._last_quick = now
-        return preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
+        chosen = preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
+        if chosen:
+            self._last_quick = now
+        return chosen
 
     @contextmanager
     def _limited(self) -> Iterator[None]:
