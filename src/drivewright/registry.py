@@ -63,7 +63,8 @@ class Mechanism(Generic[SpecT, ModelT]):
     """All that the house knows of a kind of drive.
 
     `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots` (or `plots(result)`, where they depend on it),
-    `drawings(model)` and `parts(model)` show it;
+    `drawings(model)` and `parts(model)` show it; `sketch(model)` is a scene that is quick, while a hand moves the design, None where the
+    scene itself is;
     `verify(model, result)` re-computes it on independent routes, with a `LeftOut` in place of the rows of one that is not to be had;
     `batch(spec, keys, names)` gives a fast evaluation of many designs (n, keys) in SI -> {name: (n,)} for values, and checks as
     `check.NAME` (their margins), or None where it does not cover them; a design that it cannot speak for is nan in every name.
@@ -80,6 +81,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     analyses: tuple[Analysis[SpecT, ModelT], ...]
     folder: Path
     scene: "Callable[[ModelT], Scene] | None" = None
+    sketch: "Callable[[ModelT], Scene | None] | None" = None
     plots: "tuple[Plot, ...] | Callable[[Result[Any]], tuple[Plot, ...]]" = ()
     drawings: "Callable[[ModelT], tuple[Drawing, ...]] | None" = None
     parts: "Callable[[ModelT], tuple[Part, ...]] | None" = None

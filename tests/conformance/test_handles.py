@@ -94,3 +94,12 @@ def number_follows(design, scene, handle, field):
         (wanted,) = place([handle.direction], (0.0, 0.0, carried(scene, handle, frame)[1]))
         moved = np.subtract(ends[1], ends[0]) / (high - low)
         assert moved == pytest.approx(wanted, abs=near * size), (handle.key, frame, moved, wanted)
+
+
+def test_a_sketch_has_the_handles_of_the_scene_and_no_play():
+    linkage = registry.mechanism("linkage")
+    assert linkage.sketch(runner.build(preset("linkage").spec())) is None  # its scene is as quick
+    model = runner.build(preset("linkage", "slider_crank").spec())
+    sketch, scene = linkage.sketch(model), linkage.scene(model)
+    assert sketch.handles == scene.handles and len(sketch.cycle) == len(scene.cycle)
+    assert any(body.rest is not None for body in scene.bodies) and all(body.rest is None for body in sketch.bodies)

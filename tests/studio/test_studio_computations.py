@@ -337,6 +337,21 @@ async def test_while_others_wait_a_drawing_comes_alone(bench):
     assert list(bench.calls[-1].arguments[1]) == ["motion", "forces"]
 
 
+@story
+async def test_what_a_hand_moves_is_sketched_and_drawn_in_full_when_it_rests(bench):
+    computations.registry.mechanism(KIND).sketch = object()
+    for gen in (1, 2):
+        bench.computing.sketch(gen, SimpleNamespace(kind=KIND, gen=gen))
+        await settled()
+        assert bench.calls[-1].function == "draw" and bench.calls[-1].arguments[2] is True
+        await bench.calls[-1].answer(None)
+    assert bench.asked[-1] == ("quick", "draw", 2) and bench.calls[-1].arguments[2] is False
+    await bench.calls[-1].answer(None)
+    assert bench.asked[-1] == ("heavy", "analyse", 2)
+    await bench.look(3)
+    assert bench.calls[-1].arguments[2] is False
+
+
 def test_of_drawings_in_quick_succession_only_some_come_with_analyses(bench, monkeypatch):
     monkeypatch.setattr(computations, "PACE", 0.3)
 

@@ -314,6 +314,15 @@ def test_a_drag_is_one_step_and_the_newest_of_those_that_wait_is_taken(tab):
     assert tab.toml == before
 
 
+def test_what_a_hand_moves_is_sketched(tab):
+    tab.quiet.asked.clear()
+    tab.send(drag(_0="45 mm"))
+    tab.say("set", key="drive.speed", text="99 rpm", gesture="slider")
+    tab.say("set", key="drive.speed", text="98 rpm")
+    tab.say("revert", gesture="g")
+    assert [name for name, *_ in tab.quiet.asked if name in ("sketch", "update")] == ["sketch", "sketch", "update", "update"]
+
+
 def test_a_drag_that_is_taken_back_leaves_no_step(tab):
     before = tab.toml
     for _ in range(2):

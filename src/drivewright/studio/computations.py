@@ -34,6 +34,7 @@ class TabComputations:
         self._shown: dict[str, Any] | None = None  # what the page shows of it
         self._full: tuple[int, dict[str, Any]] | None = None  # the newest full result, with its generation
         self._pinned: dict[str, Any] | None = None  # the result that what is shown is compared with
+        self._moving = -1  # generation of the newest design that a hand is moving
         self._since = 0  # generation of the first design of this drive
         self._fresh = False  # whether what is shown is the full result of the newest design
         self._draw_loop: asyncio.Task[None] | None = None
@@ -53,6 +54,11 @@ class TabComputations:
             self.send({"what": "outdated"})
         if not self._draw_loop:
             self._draw_loop = asyncio.create_task(self._draw_newest())
+
+    def sketch(self, gen: int, design: Design) -> None:
+        """The same of a design that a hand is moving: its sketch now, where its kind has one, and its drawing when it has rested."""
+        self._moving = gen
+        self.update(gen, design)
 
     def analyse(self, longer: bool = False) -> None:
         """Begin with the newest design again, after its computation was cancelled; `longer` after an analysis took too long."""
@@ -143,7 +149,7 @@ class TabComputations:
         async with self.resources.quick.worker(self) as worker:
             quick = self._affordable(design)
             with self._limited():
-                result = await worker.call(preview.draw, design, quick, on_message=on_message)
+                result = await worker.call(preview.draw, design, quick, gen == self._moving, on_message=on_message)
         self.send({"what": "possible", "gen": gen})
         if result:
             self._show(gen, result, quick)
@@ -195,6 +201,9 @@ class TabComputations:
         await asyncio.sleep(REST)
         begun: list[str] = []
         try:
+            if gen == self._moving and registry.mechanism(design.kind).sketch:
+                self._moving = -1
+                await self._drawn(gen, design)
             result, seconds = await self._analysed(design, begun)
             self._seconds = seconds if gen >= self._since else {}
             self._show(gen, result)

@@ -29,14 +29,14 @@ def warm(send: Callable[[Any], object]) -> None:
     runner.versions()
 
 
-def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str]) -> dict[str, Any] | None:
+def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str], moving: bool = False) -> dict[str, Any] | None:
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
-    `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
+    moving: while a hand moves the design, its sketch is enough where its kind has one.  `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
     model = runner.build(spec)
-    scene, remarks = _scene(spec, model)
+    scene, remarks = _scene(spec, model, moving)
     packed = {**pack_scene(scene), "handles": _handles(design, spec, scene)} if scene else None
     send(json.dumps({"scene": packed, "remarks": remarks}, allow_nan=False))
     if not affordable:
@@ -91,11 +91,12 @@ def _end_of(began, seconds):
         seconds[name] = time.perf_counter() - since
 
 
-def _scene(spec, model):
+def _scene(spec, model, moving=False):
     """(the scene or None, remarks that say why there is none)."""
     mechanism = registry.mechanism(spec.mechanism)
     try:
-        return mechanism.scene(model) if mechanism.scene else None, []
+        sketched = mechanism.sketch(model) if moving and mechanism.sketch else None
+        return sketched or (mechanism.scene(model) if mechanism.scene else None), []
     except MemoryError:  # of this process, which may be tried again
         raise
     except Exception as error:  # a drawing that fails must not cost the numbers

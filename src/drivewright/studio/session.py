@@ -282,21 +282,22 @@ class Session:
         return edited
 
     async def _edit(self, change: str, *settled: str, **arguments: Any) -> None:
-        self._changed(await self._edited(change, **arguments), *settled)
+        moving = change in ("set", "drag") and bool(arguments.get("gesture"))
+        self._changed(await self._edited(change, **arguments), *settled, moving=moving)
 
     def _open(self, edited: Edited, files: str) -> None:
         """A design that has nothing to do with the one before."""
         self._document, self._kept, self.files = edited.document, edited.kept, files
         self._changed(edited, ALL, opened=True)
 
-    def _changed(self, edited: Edited, *settled: str, opened: bool = False) -> None:
-        """Draw it, and show its form."""
+    def _changed(self, edited: Edited, *settled: str, opened: bool = False, moving: bool = False) -> None:
+        """Draw it, and show its form; `moving`: a hand moves it, and the next change follows."""
         self.gen += 1
         opened = opened or self.document.design.kind != self._kind
         if opened:
             self._kind = self.document.design.kind
             self.computations.reset(self.gen)
-        self.computations.update(self.gen, self.document.design)
+        (self.computations.sketch if moving else self.computations.update)(self.gen, self.document.design)
         self._show(edited, settled, opened)
 
     def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False) -> None:

@@ -8,7 +8,7 @@ from drivewright.mechanisms.linkage.build import build, compile_ahead
 from drivewright.mechanisms.linkage.claims import claims
 from drivewright.mechanisms.linkage.dimensions import SHEETS
 from drivewright.mechanisms.linkage.plates import drawings, parts
-from drivewright.mechanisms.linkage.scene import scene
+from drivewright.mechanisms.linkage.scene import scene, sketch
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.multibody.analyses.plots import simulation_plots
 from drivewright.registry import Mechanism, oracle
@@ -68,6 +68,7 @@ mechanism = Mechanism(
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
+    sketch=sketch,
     dimensions=SHEETS,
     plots=plots,
     drawings=drawings,

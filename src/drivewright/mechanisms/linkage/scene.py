@@ -18,6 +18,13 @@ def scene(model: LinkageModel) -> Scene:
     return replace(drawn, handles=tuple(_handles(model.spec)))
 
 
+def sketch(model: LinkageModel) -> Scene | None:
+    """The motion with ideal joints over one turn, while a hand moves the mechanism; None without play, where the scene itself is as quick."""
+    if not model.has_play:
+        return None
+    return scene(replace(model, assembly=model.ideal, duration=model.period or model.duration))
+
+
 def _handles(spec: LinkageSpec) -> Iterator[Handle]:
     """The points of the frame and of the bodies; a body's origin where a joint holds it is none: the other points say where it is."""
     joined = {text for joint in spec.joints for text in joint.connects}
