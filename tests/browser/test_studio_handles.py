@@ -149,8 +149,9 @@ def test_a_finger_drags_too(tab):
         """([key]) => {
           const button = document.querySelector(`[data-testid="handle-${key}"]`), box = button.getBoundingClientRect();
           button.setPointerCapture = () => {};  // of a pointer that only these events know
-          const tell = (type, dx) => button.dispatchEvent(new PointerEvent(type, {pointerId: 7, pointerType: 'touch', isPrimary: true, bubbles: true,
-            cancelable: true, button: 0, buttons: 1, clientX: box.x + box.width / 2 + dx, clientY: box.y + box.height / 2}));
+          const tell = (type, dx) => button.dispatchEvent(new PointerEvent(type, {pointerId: 7, pointerType: 'touch',
+            isPrimary: true, bubbles: true, cancelable: true, button: 0,
+            buttons: 1, clientX: box.x + box.width / 2 + dx, clientY: box.y + box.height / 2}));
           tell('pointerdown', 0); for (let n = 1; n <= 8; n++) tell('pointermove', 5 * n); tell('pointerup', 40); }""",
         [KEY],
     )

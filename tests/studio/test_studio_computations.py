@@ -108,6 +108,7 @@ def found(*names, value=1.0, unit="deg"):
 def bench(monkeypatch):
     monkeypatch.setattr(computations, "REST", 0)
     monkeypatch.setattr(computations, "PACE", 0)
+    monkeypatch.setattr(computations, "SHARE", 0)
     monkeypatch.setattr(computations.registry, "mechanism", {KIND: SimpleNamespace(analyses=ANALYSES)}.__getitem__)
     return Bench()
 

@@ -20,6 +20,7 @@ SLOW = 3.0  # seconds after which a drawing says that it is under way
 PATIENCE = 120.0  # seconds after which it is given up: enough to compile what it needs
 BUDGET = 0.02  # seconds of analyses that go with a drawing
 PACE = 0.12  # seconds at least between two drawings with analyses: those between are only drawn, and are the faster for it
+SHARE = 4  # times as long as it took with them, at least, where that is more
 ANALYSIS = 120.0  # seconds that one analysis may take: enough to compile what it needs
 LONGER = 10  # times as long, where a person asks for it
 
@@ -40,7 +41,7 @@ class TabComputations:
         self._draw_loop: asyncio.Task[None] | None = None
         self._draw_task: asyncio.Task[bool] | None = None
         self._analyse_task: asyncio.Task[None] | None = None
-        self._last_quick = -math.inf  # when a drawing last came with analyses [s], by the loop's clock
+        self._quick_from = -math.inf  # when a drawing may come with analyses again [s], by the loop's clock
         self._seconds: dict[str, float] = {}  # of each analysis, as last measured with this drive
         self._jobs: dict[str, asyncio.Task[None]] = {}
 
@@ -147,21 +148,23 @@ class TabComputations:
             self.send({"what": "scene", "gen": gen, "json": text})
 
         async with self.resources.quick.worker(self) as worker:
-            quick = self._affordable(design)
+            quick, began = self._affordable(design), asyncio.get_running_loop().time()
             with self._limited():
                 result = await worker.call(preview.draw, design, quick, gen == self._moving, on_message=on_message)
         self.send({"what": "possible", "gen": gen})
         if result:
+            took = asyncio.get_running_loop().time() - began
+            self._quick_from = max(self._quick_from, began + SHARE * took)
             self._show(gen, result, quick)
 
     def _affordable(self, design: Design) -> list[str]:
         """Analyses that go with the drawing: none while other tabs wait for theirs, and none too soon after those before."""
         now = asyncio.get_running_loop().time()
-        if self.resources.quick.crowded or now - self._last_quick < PACE:
+        if self.resources.quick.crowded or now < self._quick_from:
             return []
         chosen = preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
         if chosen:
-            self._last_quick = now
+            self._quick_from = now + PACE
         return chosen
 
     @contextmanager

@@ -32,14 +32,16 @@ def warm(send: Callable[[Any], object]) -> None:
 def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str], moving: bool = False) -> dict[str, Any] | None:
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
-    moving: while a hand moves the design, its sketch is enough where its kind has one.  `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
+    moving: while a hand moves the design, its sketch is enough where its kind has one; what such a motion takes, analyses take too, and
+    none is made.  `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
     model = runner.build(spec)
-    scene, remarks = _scene(spec, model, moving)
+    sketch = _sketch(spec, model) if moving else None
+    scene, remarks = (sketch, []) if sketch else _scene(spec, model)
     packed = {**pack_scene(scene), "handles": _handles(design, spec, scene)} if scene else None
     send(json.dumps({"scene": packed, "remarks": remarks}, allow_nan=False))
-    if not affordable:
+    if sketch or not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable)
 
@@ -91,12 +93,22 @@ def _end_of(began, seconds):
         seconds[name] = time.perf_counter() - since
 
 
-def _scene(spec, model, moving=False):
+def _sketch(spec, model):
+    """The quick scene of a design that a hand is moving, None where there is none."""
+    mechanism = registry.mechanism(spec.mechanism)
+    try:
+        return mechanism.sketch(model) if mechanism.sketch else None
+    except MemoryError:
+        raise
+    except Exception:  # the scene itself says what is wrong
+        return None
+
+
+def _scene(spec, model):
     """(the scene or None, remarks that say why there is none)."""
     mechanism = registry.mechanism(spec.mechanism)
     try:
-        sketched = mechanism.sketch(model) if moving and mechanism.sketch else None
-        return sketched or (mechanism.scene(model) if mechanism.scene else None), []
+        return mechanism.scene(model) if mechanism.scene else None, []
     except MemoryError:  # of this process, which may be tried again
         raise
     except Exception as error:  # a drawing that fails must not cost the numbers

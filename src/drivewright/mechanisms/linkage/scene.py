@@ -19,7 +19,7 @@ def scene(model: LinkageModel) -> Scene:
 
 
 def sketch(model: LinkageModel) -> Scene | None:
-    """The motion with ideal joints over one turn, while a hand moves the mechanism; None without play, where the scene itself is as quick."""
+    """One turn with ideal joints, while a hand moves the mechanism; None without play, where the scene itself is as quick."""
     if not model.has_play:
         return None
     return scene(replace(model, assembly=model.ideal, duration=model.period or model.duration))
