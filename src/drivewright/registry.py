@@ -65,7 +65,8 @@ class Mechanism(Generic[SpecT, ModelT]):
     """All that the house knows of a kind of drive.
 
     `build(spec)` gives the model; `analyses` ask it; `scene(model)`, `plots` (or `plots(result)`, where they depend on it),
-    `drawings(model)` and `parts(model)` show it, `programme(model)` draws its motion for whoever edits it;
+    `drawings(model)` and `parts(model)` show it, `programme(model)` draws its motion for whoever edits it; `quick_scene(model)` is a
+    scene for a design that a hand is moving, None where the scene itself is quick;
     `verify(model, result)` re-computes it on independent routes, with a `LeftOut` in place of the rows of one that is not to be had;
     `batch(spec, keys, names)` gives a fast evaluation of many designs (n, keys) in SI -> {name: (n,)} for values, and checks as
     `check.NAME` (their margins), or None where it does not cover them; a design that it cannot speak for is nan in every name.
@@ -83,6 +84,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     folder: Path
     scene: "Callable[[ModelT], Scene] | None" = None
     programme: "Callable[[ModelT], MotionDiagram] | None" = None  # its motion, where the spec has a list of segments
+    quick_scene: "Callable[[ModelT], Scene | None] | None" = None
     plots: "tuple[Plot, ...] | Callable[[Result[Any]], tuple[Plot, ...]]" = ()
     drawings: "Callable[[ModelT], tuple[Drawing, ...]] | None" = None
     parts: "Callable[[ModelT], tuple[Part, ...]] | None" = None

@@ -107,6 +107,8 @@ def found(*names, value=1.0, unit="deg"):
 @pytest.fixture
 def bench(monkeypatch):
     monkeypatch.setattr(computations, "REST", 0)
+    monkeypatch.setattr(computations, "PACE", 0)
+    monkeypatch.setattr(computations, "SHARE", 0)
     monkeypatch.setattr(computations.registry, "mechanism", {KIND: SimpleNamespace(analyses=ANALYSES)}.__getitem__)
     return Bench()
 
@@ -334,6 +336,40 @@ async def test_while_others_wait_a_drawing_comes_alone(bench):
     await bench.look(3)
     await bench.calls[-1].answer(None)
     assert list(bench.calls[-1].arguments[1]) == ["motion", "forces"]
+
+
+@story
+async def test_what_a_hand_moves_is_drawn_quickly_and_drawn_in_full_when_it_rests(bench):
+    computations.registry.mechanism(KIND).quick_scene = object()
+    for gen in (1, 2):
+        bench.computing.update(gen, SimpleNamespace(kind=KIND, gen=gen), moving=True)
+        await settled()
+        assert bench.calls[-1].function == "draw" and bench.calls[-1].arguments[3] is True
+        await bench.calls[-1].answer(None)
+    assert bench.asked[-1] == ("quick", "draw", 2) and bench.calls[-1].arguments[3] is False
+    await bench.calls[-1].answer(None)
+    assert bench.asked[-1] == ("heavy", "analyse", 2)
+    await bench.look(3)
+    assert bench.calls[-1].arguments[3] is False
+
+
+def test_of_drawings_in_quick_succession_only_some_come_with_analyses(bench, monkeypatch):
+    monkeypatch.setattr(computations, "PACE", 0.3)
+
+    async def tell():
+        bench.computing._seconds = {"motion": 0.001, "forces": 0.002}
+        for gen in (1, 2, 3):
+            await bench.look(gen)
+            yield list(bench.calls[-1].arguments[1])
+            await bench.calls[-1].answer(found("motion", "forces") if gen == 1 else None)
+        await asyncio.sleep(0.35)
+        await bench.look(4)
+        yield list(bench.calls[-1].arguments[1])
+
+    async def collected():
+        return [names async for names in tell()]
+
+    assert loops.run(collected()) == [["motion", "forces"], [], [], ["motion", "forces"]]
 
 
 def test_a_design_is_analysed_when_it_has_rested_only(bench, monkeypatch):

@@ -494,6 +494,8 @@ def test_changes_made_in_another_process_are_the_same_changes():
     speeds = [
         ("set", {"key": "drive.speed", "text": f"{speed} rpm", "gesture": gesture}) for speed in (90, 91, 92) for gesture in ("", "a")
     ]
+    speeds += [("drag", {"changes": {"drive.speed": f"{speed} rpm"}, "gesture": "d"}) for speed in (93, 94)]
+    speeds += [("revert", {"gesture": gesture}) for gesture in ("a", "d")]
     others = [("undo", {}), ("undo", {}), ("redo", {}), ("unset", {"key": "drive.speed"}), ("lock", {"key": "drive.speed", "on": True})]
     others += [("lock", {"key": "drive.speed", "on": False}), ("set", {"key": "drive.speed", "text": "3 kg"}), ("", {})]
     for _ in range(100):

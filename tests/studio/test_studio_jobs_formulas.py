@@ -314,15 +314,15 @@ def test_each_face_counts_by_its_angle_at_the_corner():
 
 
 def test_the_size_of_an_assembly_is_that_of_the_box_around_its_parts(monkeypatch):
-    parts = [SimpleNamespace(name=name, colour=colour, at=at) for name, colour, at in (("left", "blue", -2.0), ("right", "steel", 1.0))]
+    parts = [SimpleNamespace(name=name, colour=colour, body="", at=at) for name, colour, at in (("left", "blue", -2.0), ("right", "steel", 1.0))]
     tetrahedron = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 2]], float), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    monkeypatch.setattr(
-        solid, "registry", SimpleNamespace(mechanism=lambda kind: SimpleNamespace(kind=kind, analyses=(), parts=lambda model: parts))
-    )
+    kind = SimpleNamespace(kind="cam", analyses=(), parts=lambda model: parts, scene=None)
+    monkeypatch.setattr(solid, "registry", SimpleNamespace(mechanism=lambda name: kind))
     monkeypatch.setattr(solid.runner, "build", lambda spec: None)
     monkeypatch.setattr(solid.facets, "surface_triangles", lambda part, tolerance: (tetrahedron[0] + [part.at, 0, 0], tetrahedron[1]))
     told = []
     answer = solid.solid(design("disc_cam"), lambda *words: told.append(words))
     assert answer["low"] == [-2, 0, 0] and answer["high"] == [2, 2, 2] and answer["size"] == pytest.approx(math.sqrt(24))
     assert [(part["name"], part["colour"], part["triangles"]) for part in answer["parts"]] == [("left", "blue", 4), ("right", "steel", 4)]
+    assert [part["motion"] for part in answer["parts"]] == [-1, -1] and answer["motions"] == []
     assert told == [(0, 2, "left"), (1, 2, "right")]

@@ -271,12 +271,8 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
     monkeypatch.setattr(preview, "summary", lambda result: {"verdict": "good"})
     checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
     made = SimpleNamespace(checks=checks, findings=("beware",), warnings=("beware",), outcome="partial", provenance={"seconds": 2.5})
-    made.mechanism, made.timings, made.value_sources, made.check_analyses = (
-        "indexer",
-        {"stress": 0.2},
-        {"lift": "profile"},
-        {"near": "stress"},
-    )
+    made.mechanism, made.timings, made.tables = "indexer", {"stress": 0.2}, {}
+    made.value_sources, made.check_analyses = {"lift": "profile"}, {"near": "stress"}
     assert page_result(made, None, ["a"]) == {
         "verdict": "good",
         "plots": None,

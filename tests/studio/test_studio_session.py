@@ -103,7 +103,7 @@ def test_hello_brings_the_kinds_the_form_and_a_drawing(resources):
     start, design = tab.say("hello")
     assert {kind["kind"] for kind in start["kinds"]} >= {tab.session.document.design.kind}
     assert design["title"] == "Crank-rocker four-bar" and design["form"]["groups"] and not design["undo"]
-    assert tab.quiet.asked[-1] == ("update", 1, tab.session.document.design)
+    assert tab.quiet.asked[-1] == ("update", 1, tab.session.document.design, False)
 
 
 def test_the_start_has_the_name_of_its_file_and_what_a_page_brings_has_none(resources):
@@ -132,14 +132,14 @@ def test_the_text_of_the_spec_follows_a_drag_and_does_not_hold_it_up(tab, monkey
 
 
 def test_a_tool_is_one_step_of_undo_and_the_drawing_stands_still_while_a_person_builds(tab):
-    tab.quiet.sketch = False
+    tab.quiet.building = False
     said = tab.say("sketch", on=True)
-    assert tab.quiet.sketch is True and said and tab.quiet.asked[-1][0] == "update"
+    assert tab.quiet.building is True and said and tab.quiet.asked[-1][0] == "update"
     (design,) = tab.say("construct", tool="body", places=[[-0.08, 0], [-0.08, 0.06]], near=0.001)
     assert "[bodies.link]" in design["toml"] and "# A four-bar" in design["toml"] and design["undo"]
     (back,) = tab.say("undo")
     assert "link" not in back["toml"].partition("[bodies")[2] and not back["undo"]
-    assert tab.say("sketch", on=False) and tab.quiet.sketch is False
+    assert tab.say("sketch", on=False) and tab.quiet.building is False
 
 
 def test_a_refusal_has_the_words_of_the_command_line_and_changes_nothing(tab):
@@ -320,6 +320,57 @@ def test_steps_of_one_drag_that_wait_are_one(tab):
     assert len(only(said, "values")) == 3
 
 
+def drag(gesture="g", **parts):
+    changes = {f"bodies.crank.points.A.{part[1:]}": text for part, text in parts.items()}
+    return {"what": "drag", "changes": changes, "gesture": gesture}
+
+
+def test_a_drag_is_one_step_and_the_newest_of_those_that_wait_is_taken(tab):
+    before = tab.toml
+    said = tab.send(*(drag(_0=f"{40 + n} mm", _1=f"{n} mm") for n in range(1, 30)))
+    assert [message["fields"]["bodies.crank.points.A"]["text"] for message in only(said, "values")] == ["69 mm, 29 mm"]
+    tab.send(drag(_0="45 mm", _1="1 mm"))
+    assert "45 mm" in tab.toml
+    tab.say("undo")
+    assert tab.toml == before
+
+
+def test_what_a_hand_moves_is_drawn_quickly(tab):
+    tab.quiet.asked.clear()
+    tab.send(drag(_0="45 mm"))
+    tab.say("set", key="drive.speed", text="99 rpm", gesture="slider")
+    tab.say("set", key="drive.speed", text="98 rpm")
+    tab.say("revert", gesture="g")
+    assert [moving for name, _, _, moving in tab.quiet.asked if name == "update"] == [True, True, False, False]
+
+
+def test_a_drag_that_is_taken_back_leaves_no_step(tab):
+    before = tab.toml
+    for _ in range(2):
+        tab.send(drag(_0="45 mm"))
+        tab.send(drag(_0="46 mm"))
+        (said,) = tab.say("revert", gesture="g")
+        assert tab.toml == before and not said["undo"] and said["fields"]["bodies.crank.points.A"]["parts"][0]["value"] == 40
+
+
+def test_only_the_drag_under_way_can_be_taken_back(tab):
+    tab.send(drag("first", _0="45 mm"))
+    tab.say("set", key="drive.speed", text="99 rpm")
+    after = tab.toml
+    for gesture in ("first", "other", ""):
+        (said,) = tab.say("revert", gesture=gesture)
+        assert tab.toml == after and said["undo"]
+    tab.say("undo")
+    assert "45 mm" in tab.toml and "99 rpm" not in tab.toml
+
+
+def test_a_locked_point_is_not_dragged(tab):
+    tab.say("lock", key="bodies.crank.points.A", on=True)
+    before = tab.toml
+    (refused,) = tab.send(drag(_0="45 mm", _1="3 mm"))
+    assert refused["what"] == "refused" and "is locked" in refused["message"] and tab.toml == before
+
+
 # -- odd pages -----------------------------------------------------------------------------------------------------------------
 
 
@@ -343,6 +394,16 @@ def test_what_is_no_request_is_nothing(tab, message):
         {"what": "construct", "tool": "pin", "places": [[0]], "near": 0.001},
         {"what": "construct", "tool": "pin", "places": [[0, 0]], "near": "x"},
         {"what": "construct", "tool": "_delete", "places": [[0, 0]], "near": 0.001},
+        {"what": "drag", "changes": 3, "gesture": "g"},
+        {"what": "drag", "changes": ["drive.speed"], "gesture": "g"},
+        {"what": "drag", "changes": {"drive.speed": "9 rpm"}},
+        {"what": "drag", "changes": {"drive.speed": ["9 rpm"]}, "gesture": "g"},
+        {"what": "drag", "changes": {"drive.speed": "9 rpm", "drive.none": "1 mm"}, "gesture": "g"},
+        {"what": "drag", "changes": {"k" * 501: "1 mm"}, "gesture": "g"},
+        {"what": "drag", "changes": {f"joints.{n}.name": "1 mm" for n in range(17)}, "gesture": "g"},
+        {"what": "drag", "changes": {"mechanism": "cam"}, "gesture": "g"},
+        {"what": "revert"},
+        {"what": "revert", "gesture": "g", "key": "drive.speed"},
         {"what": "open", "files": 3},
         {"what": "drop", "list": "joints", "index": "x"},
         {"what": "job", "name": "rm"},

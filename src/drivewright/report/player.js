@@ -16,8 +16,8 @@ export { createClock, element, fitCanvas, fixed, floats, nice, watchTheme } from
  * A player inside `host`.  Options: clock (shared with plots; it outlives the player), autoplay, duration [s per cycle at speed 1],
  * text (English text -> text shown), picked (called with the name of a body that is clicked), drawn (called after each drawing),
  * held (whether a hand holds something, so that the view stays), sides (px left free beside the drawing, 0 for the usual),
- * tools (further elements at the end of the bar).
- * Returns {clock, view, stage, scene, frame, poseOf(body number, phase, real), load(scene), compare(scene | null), fit(), redraw(), setFrame(name), setGhosts(on), setTraces(on),
+ * tools (gives further elements for the end of the bar, asked at each new bar).
+ * Returns {clock, view, stage, scene, frame, poseOf(body number, phase, real), shows(body number), load(scene), compare(scene | null), fit(), redraw(), setFrame(name), setGhosts(on), setTraces(on),
  * setExaggeration(scale), highlight(names), destroy()}.
  * What has been drawn can be read from the host: data-phase, data-frame, and data-gen where the scene has a `gen`.
  */
@@ -132,7 +132,7 @@ export function createPlayer(host, packed, options = {}) {
     legend.replaceChildren(...chips.values());
     top.replaceChildren(legend, ...(observers.length > 1 ? [frames.node] : []));
     bar.replaceChildren(play, scrub.node, element("div", {class: "dw-readout"}, value, phase), element("div", {class: "dw-pace"}, speed.node, rate),
-      ...(most ? [exaggeration.node] : []), ghosts, ...(paths.length ? [traces] : []), button(text(TEXT.fit), fit, "fit"), ...(options.tools || []));
+      ...(most ? [exaggeration.node] : []), ghosts, ...(paths.length ? [traces] : []), button(text(TEXT.fit), fit, "fit"), ...(options.tools?.() || []));
     return {play, ghosts, traces, scrub, speed, exaggeration, frames, chips, value, phase, rate};
   }
 
@@ -200,8 +200,11 @@ export function createPlayer(host, packed, options = {}) {
     return seenFrom(number < 0 ? STILL : poseOf(body, low, part, real ? 1 / (body.magnified || 1) : switches.scale), eye);
   }
 
+  /** Whether a body by its number is switched on in the legend; the machine frame, -1, always is. */
+  const shows = number => number < 0 || !switches.hidden.has(state.scene.bodies[number].title);
+
   const player = {
-    clock, view, stage, poseOf: bodyPose, load, compare, fit, redraw, setFrame, setGhosts, setTraces, setExaggeration,
+    clock, view, stage, poseOf: bodyPose, shows, load, compare, fit, redraw, setFrame, setGhosts, setTraces, setExaggeration,
     highlight(list) { switches.lit = new Set(list); redraw(); },
     get frame() { return state.observer.name; },
     get scene() { return state.scene; },

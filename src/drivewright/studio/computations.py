@@ -1,6 +1,7 @@
 """What is computed for one tab: always the newest drawing, the analyses when the design rests, and the jobs that were asked for."""
 
 import asyncio
+import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from typing import Any, TypeAlias
@@ -17,7 +18,9 @@ Message: TypeAlias = Mapping[str, Any]  # to the page: {"what": its name, ...}
 REST = 0.25  # seconds without a change after which the analyses follow
 SLOW = 3.0  # seconds after which a drawing says that it is under way
 PATIENCE = 120.0  # seconds after which it is given up: enough to compile what it needs
-BUDGET = 0.02  # seconds of analyses that go with every drawing
+BUDGET = 0.02  # seconds of analyses that go with a drawing
+PACE = 0.12  # seconds at least between two drawings with analyses: those between are only drawn, and are the faster for it
+SHARE = 4  # times as long as it took with them, at least, where that is more
 ANALYSIS = 120.0  # seconds that one analysis may take: enough to compile what it needs
 LONGER = 10  # times as long, where a person asks for it
 
@@ -32,18 +35,24 @@ class TabComputations:
         self._shown: dict[str, Any] | None = None  # what the page shows of it
         self._full: tuple[int, dict[str, Any]] | None = None  # the newest full result, with its generation
         self._pinned: dict[str, Any] | None = None  # the result that what is shown is compared with
+        self._moving = -1  # generation of the newest design that a hand is moving
         self._since = 0  # generation of the first design of this drive
-        self.sketch = False  # while a person builds on the drawing: the mechanism stands still at its start
+        self.building = False  # while a person builds on the drawing: the mechanism stands still at its start
         self._fresh = False  # whether what is shown is the full result of the newest design
         self._draw_loop: asyncio.Task[None] | None = None
         self._draw_task: asyncio.Task[bool] | None = None
         self._analyse_task: asyncio.Task[None] | None = None
+        self._quick_from = -math.inf  # when a drawing may come with analyses again [s], by the loop's clock
         self._seconds: dict[str, float] = {}  # of each analysis, as last measured with this drive
         self._jobs: dict[str, asyncio.Task[None]] = {}
 
-    def update(self, gen: int, design: Design) -> None:
-        """Draw this design as soon as the one under way is drawn, and analyse it when it has rested."""
+    def update(self, gen: int, design: Design, moving: bool = False) -> None:
+        """Draw this design as soon as the one under way is drawn, and analyse it when it has rested.
+
+        moving: a hand moves it: its quick scene now, where its kind has one, and its drawing too when it has rested.
+        """
         self._newest, self._limit = (gen, design), ANALYSIS
+        self._moving = gen if moving else -1
         if self._analyse_task and not self._analyse_task.cancelling():  # a second word would end the process
             self._analyse_task.cancel()
         if self._fresh:
@@ -139,18 +148,24 @@ class TabComputations:
             self.send({"what": "scene", "gen": gen, "json": text})
 
         async with self.resources.quick.worker(self) as worker:
-            quick = self._affordable(design)
+            quick, began = self._affordable(design), asyncio.get_running_loop().time()
             with self._limited():
-                result = await worker.call(preview.draw, design, quick, self.sketch, on_message=on_message)
+                result = await worker.call(preview.draw, design, quick, self.building, gen == self._moving, on_message=on_message)
         self.send({"what": "possible", "gen": gen})
         if result:
+            took = asyncio.get_running_loop().time() - began
+            self._quick_from = max(self._quick_from, began + SHARE * took)
             self._show(gen, result, quick)
 
     def _affordable(self, design: Design) -> list[str]:
-        """Analyses that go with the drawing: none while other tabs wait for theirs, or while a person builds."""
-        if self.sketch or self.resources.quick.crowded:
+        """Analyses that go with the drawing: none while others wait for theirs, a person builds, or too soon after those before."""
+        now = asyncio.get_running_loop().time()
+        if self.building or self.resources.quick.crowded or now < self._quick_from:
             return []
-        return preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
+        chosen = preview.affordable_analyses(registry.mechanism(design.kind).analyses, self._seconds, BUDGET)
+        if chosen:
+            self._quick_from = now + PACE
+        return chosen
 
     @contextmanager
     def _limited(self) -> Iterator[None]:
@@ -189,6 +204,9 @@ class TabComputations:
         await asyncio.sleep(REST)
         begun: list[str] = []
         try:
+            if gen == self._moving and registry.mechanism(design.kind).quick_scene:
+                self._moving = -1
+                await self._drawn(gen, design)
             result, seconds = await self._analysed(design, begun)
             self._seconds = seconds if gen >= self._since else {}
             self._show(gen, result)

@@ -118,7 +118,7 @@ class Document:
         if change == "undo" and self._past:
             self._future.append(self.design)
             self._past.pop()
-        elif change == "revert" and self._past and after.design is not self.design and after._gesture is None:
+        elif self._past and not after._past:  # a drag was taken back
             self._past.pop()
         elif change == "redo" and self._future:
             self._past.append(self.design)

@@ -19,7 +19,9 @@ from drivewright.report.pack_plots import pack_every_plot
 from drivewright.report.programme import pack_programme
 from drivewright.result import Result, Value
 from drivewright.scene import Scene
+from drivewright.spec import MechanismSpec
 from drivewright.studio.design import Design
+from drivewright.studio.input_parsing import form_key
 from drivewright.view.panels import known_plots
 
 Number: TypeAlias = list[Any]  # value [SI], its unit, the ends of its interval or None, its label
@@ -32,37 +34,60 @@ def warm(send: Callable[[Any], object]) -> None:
     runner.versions()
 
 
-def draw(send: Callable[[Any], object], design: Design, affordable: Sequence[str], sketch: bool = False) -> dict[str, Any] | None:
+def draw(
+    send: Callable[[Any], object], design: Design, affordable: Sequence[str], building: bool = False, moving: bool = False
+) -> dict[str, Any] | None:
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
-    `sketch`: the mechanism stands still at its start, assembled or not, where its kind has tools to build it.
+    building: the mechanism stands still at its start, assembled or not, where its kind has tools to build it.
+    moving: while a hand moves the design, its quick scene is enough where its kind has one; no analysis goes with that.
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
     construction = registry.mechanism(spec.mechanism).construction
-    if sketch and construction:
-        _send_scene(send, construction.sketch(spec), [], construction.unfinished(spec))
+    if building and construction:
+        _send_scene(send, design, spec, construction.sketch(spec), [], construction.unfinished(spec))
         return None
     try:
         model = runner.build(spec)
     except DrivewrightError:
         if construction:  # what is not assembled is drawn as the spec states it; the error says the rest
-            _send_scene(send, construction.sketch(spec), [], construction.unfinished(spec))
+            _send_scene(send, design, spec, construction.sketch(spec), [], construction.unfinished(spec))
         raise
-    if construction and not construction.connected(spec):
-        scene, remarks = construction.sketch(spec), []
-    else:
-        scene, remarks = _scene(spec, model)
-    _send_scene(send, scene, remarks, construction.unfinished(spec) if construction else None, _programme(spec, model))
-    if not affordable:
+    connected = not construction or construction.connected(spec)
+    quick = _quick_scene(spec, model) if moving and connected else None
+    scene, remarks = (quick, []) if quick else _scene(spec, model) if connected else (construction.sketch(spec), [])
+    missing = construction.unfinished(spec) if construction else None
+    _send_scene(send, design, spec, scene, remarks, missing, _programme(spec, model))
+    if quick or not affordable:
         return None
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable, quick=True)
 
 
-def _send_scene(send, scene, remarks, missing, programme=None):
-    packed = {**pack_scene(scene), "handles": pack_handles(scene), "features": pack_features(scene)} if scene else None
+def _send_scene(send, design, spec, scene, remarks, missing, programme=None):
+    packed = {**pack_scene(scene), "handles": _handles(design, spec, scene), "features": pack_features(scene)} if scene else None
     unfinished = {} if missing is None else {"missing": list(missing)}  # of a kind that is built by tools
     send(json.dumps({"scene": packed, "remarks": remarks, "programme": programme, **unfinished}, allow_nan=False))
+
+
+def _handles(design: Design, spec: MechanismSpec, scene: Scene) -> list[dict[str, Any]]:
+    """The handles with keys as the form has them; `value` [SI] is the number that this drawing was made with."""
+    return [
+        {
+            **handle,
+            "key": form_key(design.tables, handle["key"]),
+            **({"value": _number(spec, handle["key"])} if "direction" in handle else {}),
+        }
+        for handle in pack_handles(scene)
+    ]
+
+
+def _number(spec: MechanismSpec, key: str) -> float:
+    """The number of a dotted key, elements by their place."""
+    value: Any = spec
+    for step in key.split("."):
+        value = value[int(step)] if isinstance(value, tuple) else getattr(value, step)
+    return float(value)
 
 
 def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:
@@ -90,6 +115,17 @@ def _end_of(began, seconds):
     if began:
         name, since = began.pop()
         seconds[name] = time.perf_counter() - since
+
+
+def _quick_scene(spec, model):
+    """The quick scene of a design that a hand is moving, None where there is none."""
+    mechanism = registry.mechanism(spec.mechanism)
+    try:
+        return mechanism.quick_scene(model) if mechanism.quick_scene else None
+    except MemoryError:
+        raise
+    except Exception:  # the scene itself says what is wrong
+        return None
 
 
 def _scene(spec, model):

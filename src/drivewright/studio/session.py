@@ -36,6 +36,7 @@ MOST_FILES = 20
 MOST_PLACES = 50  # of one use of a tool
 SHORT = 20_000  # characters of a message that the loop itself reads
 LONGEST_KEY = 500  # characters
+MOST_DRAGGED = 16  # keys that a handle moves
 PATIENCE = 60.0  # seconds that a change of a design may take, the start of its process included
 ALL = "*"  # every complaint is settled
 
@@ -152,6 +153,8 @@ class Session:
 
     async def drag(self, changes: Mapping[str, str], gesture: str) -> None:
         """What a handle moves, as it moves."""
+        if len(changes) > MOST_DRAGGED:
+            raise InputError(f"a handle moves at most {MOST_DRAGGED} keys at once")
         texts = {_key(key): str(text) for key, text in changes.items()}
         await self._edit("drag", *texts, changes=texts, gesture=str(gesture))
 
@@ -171,8 +174,8 @@ class Session:
 
     async def sketch(self, on: bool) -> None:
         """Whether a person builds on the drawing, which stands still meanwhile."""
-        if self.computations.sketch is not bool(on):
-            self.computations.sketch = bool(on)
+        if self.computations.building is not bool(on):
+            self.computations.building = bool(on)
             await self._edit("", ALL)
 
     async def add(self, list: str) -> None:
@@ -320,9 +323,9 @@ class Session:
     async def _edit(self, change: str, *settled: str, **arguments: Any) -> None:
         edited = await self._edited(change, **arguments)
         self._stop_waiting()
-        if under_way := editing.under_way(change, arguments):
+        if moving := editing.under_way(change, arguments):
             self._waiting = asyncio.get_running_loop().call_later(REST, self._inbox.put, {"what": "source"})
-        self._changed(edited, *settled, text=not under_way)
+        self._changed(edited, *settled, moving=moving)
 
     def _stop_waiting(self) -> None:
         if self._waiting:
@@ -334,18 +337,18 @@ class Session:
         self._document, self._kept, self.files = edited.document, edited.kept, files
         self._changed(edited, ALL, opened=True)
 
-    def _changed(self, edited: Edited, *settled: str, opened: bool = False, text: bool = True) -> None:
-        """Draw it, and show its form."""
+    def _changed(self, edited: Edited, *settled: str, opened: bool = False, moving: bool = False) -> None:
+        """Draw it, and show its form; `moving`: a hand moves it, and the next change follows."""
         self.gen += 1
         opened = opened or self.document.design.kind != self._kind
         if opened:
             self._kind = self.document.design.kind
             self.computations.reset(self.gen)
-        self.computations.update(self.gen, self.document.design)
-        self._show(edited, settled, opened, text)
+        self.computations.update(self.gen, self.document.design, moving)
+        self._show(edited, settled, opened, moving)
 
-    def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False, text: bool = True) -> None:
-        """The form; only the fields that differ, where nothing else does; with the text of the spec unless more of a drag follows."""
+    def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False, moving: bool = False) -> None:
+        """The form; only the fields that differ, where nothing else does; with the text of the spec unless a hand moves it."""
         document, design = self.document, self.document.design
         common = {
             "gen": self.gen,
@@ -353,7 +356,7 @@ class Session:
             "redo": document.can_redo,
             "locks": sorted(document.locks),
             "changed": document.changed,
-            **({"toml": design.text()} if text else {}),
+            **({} if moving else {"toml": design.text()}),
             "files": self.files,
             "settled": list(settled),
             "drawings": fitting_drawings(design.kind, design.tables),

@@ -31,7 +31,7 @@ def develop_surface(cam: RollerGear, start: float = -0.5, stop: float = 1.5) -> 
 
     if not start < stop:
         raise InputError(f"developed view: from turn {start} to turn {stop}; the first must be below the second.")
-    half = _height_of(cam, cam.cam_length / 2)
+    half = developed_height(cam, cam.cam_length / 2)
     strip = box(start * TURN * cam.pitch_radius, -half, stop * TURN * cam.pitch_radius, half)
     first, last = groove_turns(cam)
     shifts = range(int(np.floor(start)) - last - 2, int(np.ceil(stop)) - first + 3)
@@ -42,11 +42,17 @@ def develop_surface(cam: RollerGear, start: float = -0.5, stop: float = 1.5) -> 
 
 def developed_roller_centres(cam: RollerGear, theta: ArrayLike) -> Floats:
     """Centres (roller, theta, 2) [m] of the rollers in the developed view, the cam's rollers in order of psi."""
-    psi = _psi(cam, *roller_travel(cam, np.atleast_1d(theta), cam.rollers))
+    psi = roller_angles(cam, np.atleast_1d(theta))
     if cam.kind == "globoidal":
         return np.stack([np.zeros_like(psi), cam.pin_circle_radius * psi], axis=-1)
     across = cam.hand_sign * (cam.pin_circle_radius * np.cos(psi) - cam.centre_distance)
     return np.stack([across, cam.pin_circle_radius * np.sin(psi)], axis=-1)
+
+
+def roller_angles(cam: RollerGear, theta: ArrayLike) -> Floats:
+    """Angles [rad] (roller, theta) of the cam's rollers on the turret from the line of centres; (roller,) at a single theta."""
+    psi = _psi(cam, *roller_travel(cam, np.atleast_1d(theta), cam.rollers))
+    return psi if np.ndim(theta) else psi[:, 0]
 
 
 def axial_section(cam: RollerGear, theta: float) -> tuple[Floats, ...]:
@@ -98,7 +104,7 @@ def _psi(cam, travel, start):
     return cam.motion(travel).d0 + cam.pin_pitch * (cam.phase + start)
 
 
-def _height_of(cam: RollerGear, axial: float) -> float:
+def developed_height(cam: RollerGear, axial: float) -> float:
     """Height in the developed view of the end of the cam."""
     return cam.pin_circle_radius * np.arcsin(axial / cam.pin_circle_radius) if cam.kind == "globoidal" else axial
 

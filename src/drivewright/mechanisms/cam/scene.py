@@ -8,6 +8,7 @@ from drivewright import cams
 from drivewright.cams import cam_shapes
 from drivewright.cams.follower_shapes import SLIM
 from drivewright.mechanisms.cam.build import CamModel, profile
+from drivewright.mechanisms.cam.handles import handles
 from drivewright.mechanisms.cam.spec import TURN
 from drivewright.result import Plot
 from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, Trace, circle, polygon, xy
@@ -94,7 +95,7 @@ def scene(model: CamModel) -> Scene:
     programme = model.programme
     marks = tuple((float(start), segment.motion_law.name) for start, segment in zip(programme.starts, programme.segments, strict=False))
     period = TURN / model.speed if model.turns else 2.0
-    return Scene(angle, "cam angle", "rad", period, tuple(bodies), frames, traces, "motion", marks)
+    return Scene(angle, "cam angle", "rad", period, tuple(bodies), frames, traces, "motion", marks, tuple(handles(model)))
 
 
 def _valve(model, angle):

@@ -10,6 +10,7 @@ from drivewright.indexing import roller_gear
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.plate_views import CamHoles, PlateDrive, plate_drawings, plate_parts, plate_scene
 from drivewright.mechanisms.indexer.build import IndexerModel
+from drivewright.mechanisms.indexer.handles import plate_handles, roller_gear_handles
 from drivewright.scene import Drawing, Part, Scene
 
 MOST_TEETH = 300  # of a gear that is drawn: cutting them takes seconds
@@ -28,7 +29,13 @@ def plates(model: IndexerModel) -> PlateDrive:
 def scene(model: IndexerModel) -> Scene:
     """The drive over one turn of the input."""
     period = TURN / model.spec.load.speed if model.spec.load.speed else SHOWN_PERIOD
-    return plate_scene(plates(model), period) if model.flat else roller_gear.roller_gear_scene(model.cam, period)
+    if not model.flat:
+        return replace(
+            roller_gear.roller_gear_scene(model.cam, period),
+            handles=tuple(roller_gear_handles(model.cam, model.spec.centre_distance is not None)),
+        )
+    drawn = plates(model)
+    return replace(plate_scene(drawn, period), handles=tuple(plate_handles(drawn)))
 
 
 def drawings(model: IndexerModel) -> tuple[Drawing, ...]:

@@ -9,7 +9,7 @@ from drivewright.mechanisms.linkage.claims import claims
 from drivewright.mechanisms.linkage.construction import CONSTRUCTION
 from drivewright.mechanisms.linkage.dimensions import SHEETS
 from drivewright.mechanisms.linkage.plates import drawings, parts
-from drivewright.mechanisms.linkage.scene import scene
+from drivewright.mechanisms.linkage.scene import quick_scene, scene
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.multibody.analyses.plots import simulation_plots
 from drivewright.registry import Mechanism, oracle
@@ -70,6 +70,7 @@ mechanism = Mechanism(
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
+    quick_scene=quick_scene,
     dimensions=SHEETS,
     plots=plots,
     drawings=drawings,

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from drivewright._typing import Floats
-from drivewright.labels import in_words
 from drivewright.mechanisms.linkage.build import LinkageModel
 from drivewright.mechanisms.linkage.spec import LinkageSpec
 from drivewright.mechanisms.linkage.tables import CENTROID, GROUND, place, points_of
@@ -19,15 +18,24 @@ def scene(model: LinkageModel) -> Scene:
     return replace(drawn, handles=tuple(handles(model.spec)))
 
 
+def quick_scene(model: LinkageModel) -> Scene | None:
+    """One turn with ideal joints, while a hand moves the mechanism; None without play, where the scene itself is as quick."""
+    if not model.has_play:
+        return None
+    return scene(replace(model, assembly=model.ideal, duration=model.period or model.duration))
+
+
 def handles(spec: LinkageSpec) -> Iterator[Handle]:
     """The points of the frame and of the bodies; a body's origin where a joint holds it is none: the other points say where it is."""
     joined = {text for joint in spec.joints for text in joint.connects}
     for name, x, y in ((name, *point) for name, point in spec.ground.points.items()):
-        yield Handle(f"ground.points.{name}", (x, y), label=f"{name} of the frame")
+        yield Handle(f"ground.points.{name}", (x, y))
     for body, given in spec.bodies.items():
         for name, point in given.points.items():
             if any(point) or f"{body}.{name}" not in joined:
-                yield Handle(f"bodies.{body}.points.{name}", (point[0], point[1]), body=body, label=f"{name} of {in_words(body)}")
+                yield Handle(f"bodies.{body}.points.{name}", (point[0], point[1]), body=body)
+        if _holds_centroid(spec, body):
+            yield Handle(f"bodies.{body}.centroid", (given.centroid[0], given.centroid[1]), body=body)
 
 
 def nodes(spec: LinkageSpec, name: str) -> Floats:

@@ -12,6 +12,7 @@ import numpy as np
 
 from drivewright.cams import ConjugateCam
 from drivewright.mechanisms.seedling_pusher.build import TURN, PusherModel
+from drivewright.mechanisms.seedling_pusher.handles import NEEDLE, handles
 from drivewright.scene import Bar, Body, Drawing, Frame, Line, Outline, Part, Prism, Scene, Shape, Trace, capsule, circle, polygon, xy
 
 FRAMES = 361
@@ -52,7 +53,8 @@ def scene(model: PusherModel) -> Scene:
         Trace("rod_end", "rod end", "rod", xy(model.rod_ends[1])),
     )
     marks = ((model.arm.highest, "top"), (model.arm.lowest, "lowest"), (model.pair.start % TURN, "push"))
-    return Scene(t, "carrier angle", "rad", TURN / spec.drive.speed, bodies, _frames(model, t, axis, rotation), traces, "cycle", marks)
+    period, held = TURN / spec.drive.speed, tuple(handles(model, rollers(model)))
+    return Scene(t, "carrier angle", "rad", period, bodies, _frames(model, t, axis, rotation), traces, "cycle", marks, held)
 
 
 def _poses(position, angle):
@@ -118,7 +120,7 @@ def rollers(model: PusherModel) -> dict[str, complex]:
 
 def _arm_shapes(model):
     spec, tip = model.spec, model.spec.arm.tip_distance * np.exp(1j * model.arm.start)
-    back = tip - 60e-3 * model.needle
+    back = tip - NEEDLE * model.needle
     reach = max(cam.prime_radius for cam in model.pair.cams) + spec.cams.roller_radius + 4e-3
     yield Shape("body", circle((0, 0), reach))
     yield Shape("axis", polygon([(0.0, 0.0), xy(back), xy(tip)], closed=False))

@@ -1,8 +1,11 @@
 """The shaft on screen and for manufacture: bent by its loads, its drawing and its solid."""
 
+from dataclasses import replace
+
 from drivewright import shafts
 from drivewright.errors import SolverError
 from drivewright.mechanisms.shaft.build import ShaftModel
+from drivewright.mechanisms.shaft.handles import handles
 from drivewright.mechanisms.shaft.influence import flexibility
 from drivewright.result import Answer
 from drivewright.scene import Drawing, Part, Scene
@@ -14,7 +17,8 @@ def scene(model: ShaftModel) -> Scene:
     """The shaft under its loads; without loads under a force at the last station."""
     gears = [DrawnGear(gear.name, gear.position, gear.pitch_diameter, gear.face_width) for gear in model.spec.gears]
     stations = {station.name: station.position for station in model.spec.stations}
-    return shaft_scene(model.shaft, _bent_shape(model), model.direction, model.loads, gears, model.rolling, stations)
+    drawn = shaft_scene(model.shaft, _bent_shape(model), model.direction, model.loads, gears, model.rolling, stations)
+    return replace(drawn, handles=tuple(handles(model)))
 
 
 def _bent_shape(model: ShaftModel) -> BentShape | None:

@@ -1,5 +1,7 @@
 """The chain drive on screen and for manufacture: scene over two teeth, drawings, parts."""
 
+from dataclasses import replace
+
 from drivewright.chains.drive_scene import (
     SprocketView,
     closure_scene,
@@ -18,6 +20,7 @@ from drivewright.chains.sprocket import Sprocket
 from drivewright.errors import InputError
 from drivewright.mechanisms.silent_chain.build import SIDES, ChainModel
 from drivewright.mechanisms.silent_chain.chain_drive import bare_drive
+from drivewright.mechanisms.silent_chain.handles import handles
 from drivewright.mechanisms.silent_chain.meshing import SIDE_WORDS
 from drivewright.scene import Drawing, Part, Scene, Shape
 
@@ -33,9 +36,10 @@ def scene(model: ChainModel) -> Scene:
     if model.spec.drive is None and model.spec.sprockets:
         raise InputError("the path of a chain around more than two sprockets depends on its loads; add [drive]")
     views = [SprocketView(name, words, _under_the_chain(model, sprocket), colour) for name, words, sprocket, colour in _sprockets(model)]
-    if model.closes:
-        return closure_scene(model.closure, views, link_shapes(model))
-    return path_scene(bare_drive(model), views, link_shapes(model), model.balance)
+    links = link_shapes(model)
+    closed = model.closes
+    drawn = closure_scene(model.closure, views, links) if closed else path_scene(bare_drive(model), views, links, model.balance)
+    return replace(drawn, handles=tuple(handles(model)))
 
 
 def _sprockets(model):

@@ -5,13 +5,13 @@ import { quantityOf } from "./numbers.js";
 import { createGesture } from "./slider.js";
 import { onGrid, snapped } from "./snapping.js";
 
-const SHAKE = 3, FINE = 6;  // px of a hand that presses without moving; px of a step of the grid, at least
+const SHAKE = 3, FINE = 1, COARSE = 6;  // px of a hand that presses without moving; px of a step of the grid, of an arrow key, at least
 
 /**
  * The drag of a handle.  `place(handle, point)` is the pixel of a point in the frame of its body, `frame(handle)` the pose of that frame,
- * `others(handle)` the other handles with their pixels, `numbers(handle)` the numbers of its keys.
+ * `others(handle)` the other handles with their pixels, `nameOf(handle)` its name, `numbers(handle)` the numbers of its keys.
  */
-export function createDrag({layer, guides, bubble, place, frame, others, numbers, view, say, t, clock}) {
+export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, say, t, clock}) {
   let hold = null, box = null, pending = 0;
 
   function attach(button, handleOf) {
@@ -75,7 +75,10 @@ export function createDrag({layer, guides, bubble, place, frame, others, numbers
     const [mx, my] = seen.middle(), dx = (x - seen.width / 2) / seen.scale + mx - px, dy = (seen.height / 2 - y) / seen.scale + my - py;
     return [c * dx + s * dy, c * dy - s * dx];
   }
-  const gridOf = ({factor}) => hold?.free ? 0 : nice(FINE * 2.5 / view().scale / factor) / 2;
+  function gridOf({factor, whole}, fine = FINE) {
+    const step = hold?.free ? 0 : nice(fine * 2.5 / view().scale / factor) / 2;
+    return whole ? 1 : step;
+  }
 
   /** Both components of a point. */
   function freely(handle, wanted) {
@@ -96,10 +99,8 @@ export function createDrag({layer, guides, bubble, place, frame, others, numbers
     const [number] = hold.start, to = inFrame(handle, wanted), [dx, dy] = handle.direction, size = dx * dx + dy * dy;
     const ahead = ((to[0] - handle.point[0]) * dx + (to[1] - handle.point[1]) * dy) / size;
     mark({guides: [], words: ""});
-    return [kept(onGrid((current(handle)[0] ?? number.value) + ahead / number.factor, gridOf(number)), number)];
+    return [kept(onGrid((handle.value + ahead) / number.factor, gridOf(number)), number)];  // the drawing and its own number belong together
   }
-  /** The numbers that the scene on the screen was drawn with. */
-  const current = handle => numbers(handle)?.map(({value}) => value) || hold.now;
 
   // ---- what is told
   function send(values) {
@@ -114,9 +115,9 @@ export function createDrag({layer, guides, bubble, place, frame, others, numbers
     const handle = hold.handleOf(), [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "];
     const words = hold.words ? ` · ${t(hold.words)}` : "";
     bubble.hidden = false;
-    bubble.textContent = `${t(handle.label || handle.key)}  ${hold.now.map((value, n) => `${names[n]}${value} ${hold.start[n].unit}`).join("  ")}${words}`;
+    bubble.textContent = `${nameOf(handle)}  ${hold.now.map((value, n) => `${names[n]}${value} ${hold.start[n].unit}`).join("  ")}${words}`;
     const wide = bubble.offsetWidth, left = x + 16 + wide > layer.clientWidth ? x - 16 - wide : x + 16;
-    bubble.style.transform = `translate(${Math.max(4, left)}px, ${Math.max(4, y - 34)}px)`;
+    bubble.style.transform = `translate(${within(left, layer.clientWidth - wide)}px, ${within(y - 34, layer.clientHeight - bubble.offsetHeight)}px)`;
   }
   function mark({guides: lines, words}) {
     hold.words = words;
@@ -148,7 +149,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, numbers
     if (!start) return;
     if (clock.playing) { clock.set(0); clock.pause(); }
     const moves = handle.direction ? [x + y] : [x, y], values = start.map((number, n) => {
-      const step = gridOf(number);
+      const step = gridOf(number, COARSE);
       return moves[n] ? onGrid(number.value + moves[n] * times * step, step) : number.value;
     });
     say({what: "drag", changes: texts(start, values), gesture: nudges.next()});
@@ -159,11 +160,11 @@ export function createDrag({layer, guides, bubble, place, frame, others, numbers
     if (!start) return;
     box?.remove();
     const own = element("input", {type: "text", class: "hd-box", "data-testid": `handle-box-${handle.key}`, autocomplete: "off",
-      "aria-label": t(handle.label || handle.key)});
+      "aria-label": nameOf(handle)});
     box = own;
     own.value = first ?? `${start.map(({value}) => value).join(", ")} ${start[0].unit}`;
     const [x, y] = place(handle, handle.point);
-    own.style.transform = `translate(${Math.min(x + 14, layer.clientWidth - 150)}px, ${Math.max(4, y - 38)}px)`;
+    own.style.transform = `translate(${within(x + 14, layer.clientWidth - 146)}px, ${within(y - 38, layer.clientHeight - 30)}px)`;
     layer.append(own);
     own.focus();
     if (first === null) own.select();
@@ -187,7 +188,9 @@ export function createDrag({layer, guides, bubble, place, frame, others, numbers
     own.addEventListener("blur", () => finish(true));
   }
 
-  return {attach, held: () => hold !== null, draw: show, destroy() { end(); box?.remove(); }};
+  /** Whether a hand holds a handle, or that of a button. */
+  const held = button => hold !== null && (!button || hold.button === button);
+  return {attach, held, end, draw: show, destroy() { end(); box?.remove(); }};
 }
 
 /** Lengths in pixels between neighbouring handles of every body. */
@@ -196,6 +199,9 @@ function lengthsOf(handles) {
   for (const {body, at} of handles) bodies.set(body, [...bodies.get(body) || [], at]);
   return [...bodies.values()].flatMap(points => points.slice(1).map(([x, y], n) => Math.hypot(x - points[n][0], y - points[n][1])));
 }
+
+/** A place [px] that keeps 4 px from both ends. */
+const within = (place, most) => Math.max(4, Math.min(place, most - 4));
 
 /** A number within the limits of its field. */
 const kept = (value, {low, high}) => Math.min(Math.max(value, low ?? -Infinity), high ?? Infinity);

@@ -1,36 +1,42 @@
 // Handles on the drawing: whatever the scene says that a hand can move.  A drag changes keys of the spec; the mechanism follows.
 
 import { createDrag } from "./dragging.js";
+import { createNames } from "./handle_names.js";
+import { icon } from "./icons.js";
 import { element } from "./player.js";
 
 const APART = 15, SAME = 6;  // px: handles that coincide are drawn so far from each other
+const NEAREST = 10, MOST = 60, OUTSIDE = 24;  // px between two that are shown; of them; px beyond the edge of the drawing
+const KEPT = "drivewright-handles";
 export const FACTORS = {m: 1, mm: 1e-3, cm: 1e-2, um: 1e-6, "µm": 1e-6, in: 0.0254, inch: 0.0254, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "": 1};
 
 /** The keys that a handle moves: the two components of a point, or one number. */
 export const keysOf = ({key, direction}) => direction ? [key] : [`${key}.0`, `${key}.1`];
 
-/** The numbers of a handle's keys: [{key, unit, factor, value, low, high}] as the form shows them; null where it has no such fields. */
+/** The numbers of a handle's keys: [{key, unit, factor, value, whole, low, high}] as the form shows them; null where it has no such fields. */
 export function numbersOf(handle, fields) {
   const found = keysOf(handle).map(key => {
-    const {unit, value, low, high} = fields.get(key) || {}, factor = FACTORS[unit];
-    return factor && typeof value === "number" ? {key, unit, factor, value, low, high} : null;
+    const {unit, value, kind, low, high} = fields.get(key) || {}, factor = FACTORS[unit];
+    return factor && typeof value === "number" ? {key, unit, factor, value, whole: kind === "integer", low, high} : null;
   });
   return found.every(Boolean) ? found : null;
 }
 
 /**
  * The handles of a player's scene, as buttons upon its drawing.  `draw()` puts them where they belong after each drawing; while the
- * motion plays they stay where they are at its beginning.  `held()` says whether one is being dragged.
+ * motion plays they stay where they are at its beginning.  `held()` says whether one is being dragged.  `bar()` are the buttons for the player's
+ * bar: the switch that shows and hides them, which is remembered.
  */
 export function createHandles(getPlayer, tools) {
   const {store, t, clock} = tools;
   const layer = element("div", {class: "hd-layer", role: "group"}), guides = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   const bubble = element("output", {class: "hd-bubble", hidden: ""});
-  let packed = [], buttons = [], fields = new Map();
+  const names = createNames(tools);
+  let packed = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
   guides.setAttribute("class", "hd-guides");
   layer.append(guides, bubble);
 
-  const drag = createDrag({layer, guides, bubble, place, others, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
+  const drag = createDrag({layer, guides, bubble, place, others, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
     frame: handle => getPlayer().poseOf(handle.body, phase()), ...tools});
   const phase = () => clock.playing ? 0 : clock.phase;
 
@@ -40,7 +46,7 @@ export function createHandles(getPlayer, tools) {
     return [view.toX(px + c * x - s * y), view.toY(py + s * x + c * y)];
   }
   /** The other handles that are points, each with its pixel. */
-  function others(handle) { return packed.filter(other => other !== handle).map(other => ({...other, at: place(other, other.point)})); }
+  function others(handle) { return packed.filter((other, n) => other !== handle && !buttons[n].hidden).map(other => ({...other, at: place(other, other.point)})); }
 
   function load(scene) {
     const next = scene?.handles || [], same = next.length === packed.length && next.every(({key}, n) => key === packed[n].key);
@@ -61,26 +67,54 @@ export function createHandles(getPlayer, tools) {
   function name() {
     layer.setAttribute("aria-label", t("Handles of the drawing"));
     packed.forEach((handle, n) => {
-      const numbers = numbersOf(handle, fields), button = buttons[n];
-      const locked = numbers && numbers.every(({key}) => store.state.design.locks.includes(key));
+      const numbers = numbersOf(handle, fields), button = buttons[n], called = names.of(handle);
+      const locked = Boolean(numbers?.some(({key}) => isLocked(key)));
       button.disabled = !numbers || locked;
-      button.setAttribute("aria-label", `${t(handle.label || handle.key)}: ${(numbers || []).map(({value, unit}) => `${value} ${unit}`).join(", ")}`);
-      button.title = `${t(handle.label || handle.key)}${locked ? ` (${t("locked")})` : ""}`;
+      button.setAttribute("aria-label", `${called}: ${(numbers || []).map(({value, unit}) => `${value} ${unit}`.trim()).join(", ")}`);
+      button.title = locked ? `${called} (${t("locked")})` : called;
     });
   }
+  /** Whether a key, or the point that it is a part of, is locked. */
+  const isLocked = key => store.state.design.locks.some(lock => lock === key || key.startsWith(`${lock}.`));
+
   /** Puts every button where its point is; those that coincide stand beside each other, each towards the middle of its own body. */
   function draw() {
-    if (!packed.length) return;
-    const at = packed.map(handle => place(handle, handle.point)), middles = middlesOf(at);
+    layer.hidden = !on || !packed.length;
+    if (layer.hidden) return;
+    const at = packed.map(handle => place(handle, handle.point)), middles = middlesOf(at), shown = [];
     layer.classList.toggle("is-playing", clock.playing);
     packed.forEach((handle, n) => {
-      const before = at.slice(0, n).some(([x, y]) => Math.hypot(x - at[n][0], y - at[n][1]) < SAME);
-      const [x, y] = before ? towards(at[n], middles.get(handle.body)) : at[n];
-      buttons[n].style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+      const same = packed.some((other, m) => m < n && !buttons[m].hidden && distance(at[m], at[n]) < SAME);
+      const spot = same ? towards(at[n], middles.get(handle.body)) : at[n], kept = drag.held(buttons[n]) || document.activeElement === buttons[n];
+      const room = shown.length < MOST && isInside(spot) && shown.every(other => distance(other, spot) >= NEAREST);
+      buttons[n].hidden = !kept && !(room && getPlayer().shows(handle.body));
+      if (buttons[n].hidden) return;
+      shown.push(spot);
+      buttons[n].style.transform = `translate(${spot[0].toFixed(1)}px, ${spot[1].toFixed(1)}px)`;
       if (handle.direction) buttons[n].style.setProperty("--turn", `${angleOf(handle).toFixed(3)}rad`);
     });
     drag.draw();
   }
+  function isInside([x, y]) {
+    const {width, height} = getPlayer().view;
+    return x > -OUTSIDE && y > -OUTSIDE && x < width + OUTSIDE && y < height + OUTSIDE;
+  }
+
+  // ---- the switch
+  function switchOver() {
+    on = !on;
+    remember(on);
+    if (!on) drag.end();
+    toggle.setAttribute("aria-pressed", String(on));
+    draw();
+  }
+  function bar() {
+    toggle = element("button", {type: "button", class: "dw-button hd-switch", "data-testid": "handles-switch", title: t("Handles"),
+      "aria-label": t("Handles"), "aria-pressed": String(on)}, icon("handles"));
+    toggle.addEventListener("click", switchOver);
+    return [toggle];
+  }
+
   function angleOf(handle) {
     const [x, y] = place(handle, handle.point), [dx, dy] = handle.direction, size = Math.hypot(dx, dy) || 1, step = 1 / getPlayer().view.scale;
     const [x1, y1] = place(handle, [handle.point[0] + dx / size * step * 10, handle.point[1] + dy / size * step * 10]);
@@ -94,9 +128,10 @@ export function createHandles(getPlayer, tools) {
 
   const stop = store.on(["design", "lang"], ({design}) => {
     fields = new Map((design?.form?.groups || []).flatMap(group => group.fields.flatMap(withParts).map(field => [field.key, field])));
+    names.learn(design?.form?.groups || []);
     if (design) name();
   });
-  return {layer, load, draw, held: drag.held, destroy() { stop(); drag.destroy(); layer.remove(); }};
+  return {layer, load, draw, bar, held: () => drag.held(), destroy() { stop(); drag.destroy(); layer.remove(); }};
 }
 
 const withParts = field => [field, ...(field.parts || []).flatMap(withParts)];
@@ -104,4 +139,14 @@ const withParts = field => [field, ...(field.parts || []).flatMap(withParts)];
 function towards([x, y], [mx, my]) {
   const size = Math.hypot(mx - x, my - y);
   return size > 1 ? [x + (mx - x) / size * APART, y + (my - y) / size * APART] : [x + APART, y];
+}
+
+const distance = ([x1, y1], [x2, y2]) => Math.hypot(x1 - x2, y1 - y2);
+
+/** Whether the handles were shown when they were last switched; they are at first, and where nothing can be remembered. */
+function recall() {
+  try { return localStorage.getItem(KEPT) !== "off"; } catch { return true; }
+}
+function remember(on) {
+  try { localStorage.setItem(KEPT, on ? "on" : "off"); } catch { /* a private window forgets */ }
 }

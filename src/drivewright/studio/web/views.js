@@ -33,7 +33,7 @@ function createMotion(host, tools) {
     handles.load(scene.scene); builder.load(scene.scene);  // before the player draws: what lies upon the drawing is that of its bodies
     if (player) { player.load(packed); if (afresh) player.fit(); }
     else {
-      player = createPlayer(stage, packed, {clock, text: t, picked, sides: () => diagrams.active() ? SIDES : 0, tools: [measure.button, builder.button],
+      player = createPlayer(stage, packed, {clock, text: t, picked, sides: () => diagrams.active() ? SIDES : 0, tools: () => [...handles.bar(), measure.button, builder.button],
         drawn: () => { if (player) { handles.draw(); measure.draw(); builder.draw(); diagrams.draw(); } }, held: () => handles.held() || builder.active()});
       player.stage.append(handles.layer, builder.layer);
       measure.attach(player);
