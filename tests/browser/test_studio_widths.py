@@ -18,7 +18,7 @@ HIDDEN = """() => {
     node.scrollIntoView({block: 'center', inline: 'center', behavior: 'instant'});
     const box = node.getBoundingClientRect(), x = box.x + box.width / 2, y = box.y + box.height / 2;
     const hit = document.elementFromPoint(x, y);
-    if (!hit || !(node === hit || node.contains(hit)))
+    if (!hit || !(node === hit || node.contains(hit) || (node.matches('.dw-canvas') && hit.matches('.hd'))))
       missed.push(`${name(node)} under ${hit && name(hit)} at ${x | 0},${y | 0}`);
   }
   return missed;

@@ -131,8 +131,10 @@ export function createPlayer(host, packed, options = {}) {
     press(ghosts, switches.ghosts); press(traces, switches.traces);
     legend.replaceChildren(...chips.values());
     top.replaceChildren(legend, ...(observers.length > 1 ? [frames.node] : []));
+    const focused = bar.contains(document.activeElement) ? document.activeElement : null;
     bar.replaceChildren(play, scrub.node, element("div", {class: "dw-readout"}, value, phase), element("div", {class: "dw-pace"}, speed.node, rate),
       ...(most ? [exaggeration.node] : []), ghosts, ...(paths.length ? [traces] : []), button(text(TEXT.fit), fit, "fit"), ...(options.tools?.() || []));
+    if (focused?.isConnected) focused.focus();
     return {play, ghosts, traces, scrub, speed, exaggeration, frames, chips, value, phase, rate};
   }
 

@@ -26,6 +26,7 @@ export function createFix(place, {store, say, t}) {
 
   function ask(check, more = false) {
     wanted = check;
+    row.hidden = true;  // until there is an answer
     gen = store.state.design?.gen;
     place(check)?.append(box);
     say({what: "job", name: NAME, options: {check, longer: more}});
