@@ -40,7 +40,8 @@ def draw(
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
     building: the mechanism stands still at its start, assembled or not, where its kind has tools to build it.
-    moving: while a hand moves the design, its quick scene is enough where its kind has one; no analysis goes with that.
+    moving: while a hand moves the design, its quick scene is enough where its kind has one; no analysis goes with that, and nothing of
+    what is missing.
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
@@ -54,10 +55,12 @@ def draw(
         if construction:  # what is not assembled is drawn as the spec states it; the error says the rest
             _send_scene(send, design, spec, construction.sketch(spec), [], construction.unfinished(spec))
         raise
-    connected = not construction or construction.connected(spec)
-    quick = _quick_scene(spec, model) if moving and connected else None
-    scene, remarks = (quick, []) if quick else _scene(spec, model) if connected else (construction.sketch(spec), [])
-    missing = construction.unfinished(spec) if construction else None
+    quick = _quick_scene(spec, model) if moving else None
+    if construction and not construction.connected(spec):
+        scene, remarks = construction.sketch(spec), []
+    else:
+        scene, remarks = (quick, []) if quick else _scene(spec, model)
+    missing = construction.unfinished(spec) if construction and not moving else None
     _send_scene(send, design, spec, scene, remarks, missing, _programme(spec, model))
     if quick or not affordable:
         return None
