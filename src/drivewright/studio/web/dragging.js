@@ -12,7 +12,7 @@ const SHAKE = 3, FINE = 1, COARSE = 6;  // px of a hand that presses without mov
  * `others(handle)` the other handles with their pixels, `nameOf(handle)` its name, `numbers(handle)` the numbers of its keys.
  */
 export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, say, t, clock}) {
-  let hold = null, box = null, pending = 0;
+  let hold = null, box = null, pending = 0, bubbleSize = {wide: 0, high: 0};
 
   function attach(button, handleOf) {
     button.addEventListener("pointerdown", event => { if (event.button === 0) press(event, button, handleOf); });
@@ -114,10 +114,16 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     if (!hold) return;
     const handle = hold.handleOf(), [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "];
     const words = hold.words ? ` · ${t(hold.words)}` : "";
+    tell(`${nameOf(handle)}  ${hold.now.map((value, n) => `${names[n]}${value} ${hold.start[n].unit}`).join("  ")}${words}`);
+    const {wide, high} = bubbleSize, {width, height} = view(), left = x + 16 + wide > width ? x - 16 - wide : x + 16;
+    bubble.style.transform = `translate(${within(left, width - wide)}px, ${within(y - 34, height - high)}px)`;
+  }
+  /** The text of the bubble; it is measured when it gets longer or shorter only, for that has the whole page laid out. */
+  function tell(text) {
+    const anew = bubble.hidden || text.length !== bubble.textContent.length;
     bubble.hidden = false;
-    bubble.textContent = `${nameOf(handle)}  ${hold.now.map((value, n) => `${names[n]}${value} ${hold.start[n].unit}`).join("  ")}${words}`;
-    const wide = bubble.offsetWidth, left = x + 16 + wide > layer.clientWidth ? x - 16 - wide : x + 16;
-    bubble.style.transform = `translate(${within(left, layer.clientWidth - wide)}px, ${within(y - 34, layer.clientHeight - bubble.offsetHeight)}px)`;
+    if (bubble.textContent !== text) bubble.textContent = text;
+    if (anew) bubbleSize = {wide: bubble.offsetWidth, high: bubble.offsetHeight};
   }
   function mark({guides: lines, words}) {
     hold.words = words;
