@@ -538,3 +538,15 @@ def test_the_past_of_a_large_design_is_shorter(monkeypatch):
     assert len(document._past) == 5
     document.undo()
     assert at(document, "drive.speed") == "118 rpm"
+
+
+def test_steps_of_designs_too_large_for_a_past_are_remembered_one_at_a_time(monkeypatch):
+    """Also where another process makes the changes, whose copy forgets the step before."""
+    document = example("four_bar")
+    monkeypatch.setattr("drivewright.studio.document.HISTORY", 10)
+    for speed in range(100, 104):
+        copy = pickle.loads(pickle.dumps(document.present()))
+        copy.set("drive.speed", f"{speed} rpm")
+        document.follow("set", copy)
+    document.undo()
+    assert at(document, "drive.speed") == "102 rpm" and not document.can_undo

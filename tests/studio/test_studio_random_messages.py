@@ -10,11 +10,10 @@ from places import EXAMPLES
 from studio_tab import Here, Tab
 
 from drivewright import registry
-from drivewright.errors import SpecError
 from drivewright.spec.keys import leaves
 from drivewright.studio.document import STEPS
 from drivewright.studio.form import form, values
-from drivewright.studio.jobs import JOBS, OPTIONS
+from drivewright.studio.jobs import JOBS
 from drivewright.studio.opening import opened
 from drivewright.studio.proposals import ENTRIES, TABLES
 from drivewright.studio.resources import ServerResources
@@ -79,7 +78,6 @@ def plausible(document):
     table = st.sets(st.sampled_from(sorted(parts)), max_size=3).flatmap(
         lambda names: st.fixed_dictionaries({name: parts[name] for name in names})
     )
-    tables = document.design.tables
     toml = st.sampled_from(
         ["", "a", 'mechanism = "cam"', "\ufeff", document.design.text() + "# end\n", document.design.text().replace("0", "1", 3)]
     )
@@ -170,7 +168,6 @@ def test_no_message_is_a_fault_and_every_change_can_be_undone_to_the_letter(name
         if any(answer["what"] == "refused" for answer in answers) and given["what"] not in ("save",):
             assert as_it_is(tab) == before
         texts.append(as_it_is(tab))
-    last = texts[-1]
     assert len(texts) < STEPS
     while tab.session.document.can_undo:
         tab.say("undo")

@@ -369,6 +369,20 @@ def test_what_is_no_request_is_nothing(tab, message):
         {"what": "begin", "name": "optimise", "table": {"settings": [{"key": "torques.load.file", "value": "/etc/passwd"}]}},
         {"what": "begin", "name": "optimise", "table": {"unknowns": 3, "objectives": None}},
         {"what": "job", "name": "fix", "options": {"seconds": 1e9}},
+        {"what": "job", "name": "fix", "options": {"check": {}}},
+        {"what": "job", "name": "fix", "options": {"check": "x", "longer": 1e9}},
+        {"what": "job", "name": "fix", "options": {"check": "x", "locks": []}},
+        {"what": "job", "name": "fix", "options": {"check": "x", "held": ["a"], "tried": 1}},
+        {"what": "job", "name": "optimise", "options": {"locks": []}},
+        {"what": "job", "name": "figures", "options": {"analyses": "statics"}},
+        {"what": "job", "name": "figures", "options": {"analyses": [["statics"]]}},
+        {"what": "job", "name": "figures", "options": {"everything": True}},
+        {"what": "job", "name": "figures", "options": {"kept": "/tmp"}},
+        {"what": "job", "name": "figures", "options": ["theme"]},
+        {"what": "job", "name": "fields", "options": {"analysis": 3}},
+        {"what": "job", "name": "fields", "options": {"analysis": "x", "run": "yes"}},
+        {"what": "job", "name": "report", "options": {"whole": []}},
+        {"what": "job", "name": {"fix": 1}},
         {"what": "job", "name": "timing", "options": {"analyses": "x"}},
     ],
 )
@@ -417,6 +431,14 @@ def test_a_search_is_written_and_begun_in_one_message_and_one_step(tab):
     assert tab.quiet.asked[-1] == ("job", "optimise", 2, tab.session.document.design, {"theme": "dark", "locks": []})
     tab.say("undo")
     assert tab.toml == before and not tab.session.document.can_undo
+
+
+def test_a_job_that_is_refused_writes_no_table(tab):
+    before, table = tab.toml, {"vary": [{"key": "drive.speed", "lower": "90 rpm", "upper": "99 rpm", "steps": 2}]}
+    for options in ({"folder": "/tmp/x"}, {"theme": 3}, [1], {"workers": 99}):
+        (refused,) = tab.say("begin", name="study", table=table, options=options)
+        assert refused["what"] == "refused" and tab.toml == before
+    assert not tab.session.document.can_undo
 
 
 def test_a_table_that_is_refused_begins_nothing(tab):

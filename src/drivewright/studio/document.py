@@ -50,6 +50,7 @@ class Document:
         self._past: list[Design] = []
         self._future: list[Design] = []
         self._gesture: tuple[str, str] | None = None
+        self._remembered = 0  # steps that have gone into the past, also those that have left it since
         self._saved = self.design
 
     # -- past and future -------------------------------------------------------------------------------------------------------
@@ -102,6 +103,7 @@ class Document:
     def _remember(self) -> None:
         """The design as it is becomes a step to go back to; the oldest ones go where there are too many, or too large ones."""
         self._past = [*self._past[1 - STEPS :], self.design]
+        self._remembered += 1
         while len(self._past) > 1 and sum(len(design.toml()) + len(design.source) for design in self._past) > HISTORY:
             del self._past[0]
 
@@ -123,7 +125,7 @@ class Document:
         elif change == "redo" and self._future:
             self._past.append(self.design)
             self._future.pop()
-        elif len(after._past) > min(len(self._past), 1):
+        elif after._remembered > self._remembered:
             self._remember()
         if self._future and not after._future and change not in ("undo", "redo"):
             self._future.clear()

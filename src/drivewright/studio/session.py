@@ -23,7 +23,7 @@ from drivewright.studio.design import Design
 from drivewright.studio.document import Document, without_folder
 from drivewright.studio.editing import Edited
 from drivewright.studio.inbox import Inbox
-from drivewright.studio.jobs import JOBS, OPTIONS
+from drivewright.studio.jobs import checked_options
 from drivewright.studio.opening import LARGEST as LARGEST
 from drivewright.studio.opening import first_design as first_design
 from drivewright.studio.opening import limited
@@ -274,11 +274,7 @@ class Session:
 
     async def job(self, name: str, options: Mapping[str, Any] | None = None) -> None:
         """Begin a job of jobs.JOBS."""
-        if name not in JOBS:
-            raise InputError(f"there is no job {brief(name)}")
-        options = {str(option): value for option, value in dict(options or {}).items()}
-        if other := sorted(set(options) - set(OPTIONS.get(name, ()))):
-            raise InputError(f"{name} takes no {brief(other[0])}")
+        options = checked_options(name, options)
         locks = {"locks": sorted(self.document.locks)} if name in TAKE_LOCKS else {}
         kept = {"kept": str(self.resources.results_folder())} if name in TAKE_RESULTS else {}
         self.computations.job(name, self.gen, self.document.design, {**options, **locks, **kept})
@@ -294,6 +290,7 @@ class Session:
             raise InputError(f"{brief(name)} has no table that a form could write")
         if not isinstance(table, Mapping):
             raise InputError("the page sent an unexpected request: a table of a search is missing")
+        checked_options(name, options)
         await self._edit("write", ALL, name=name, content=dict(table))
         await self.job(name, options)
 
