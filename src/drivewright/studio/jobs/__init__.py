@@ -34,6 +34,7 @@ JOBS = {
     "report": files.report,
     "save": files.save,
 }
+MOST, LONGEST = 100, 500  # texts in an option, and characters in one
 OPTIONS: dict[str, dict[str, type]] = {
     "fix": {"check": str, "longer": bool},
     "figures": {"theme": str, "analyses": list},
@@ -55,6 +56,13 @@ def checked_options(name: object, options: object = None) -> dict[str, Any]:
         wanted = OPTIONS.get(name, {}).get(option)
         if wanted is None:
             raise InputError(f"{name} takes no {brief(option)}")
-        if not isinstance(value, wanted) or isinstance(value, list) and not all(isinstance(each, str) for each in value):
+        if not isinstance(value, wanted) or not _is_short(value):
             raise InputError(f"{name} cannot have {brief(value)} as {option}")
     return dict(options or {})
+
+
+def _is_short(value: object) -> bool:
+    """Whether a value of an option has a length that a page sends; a list holds texts only."""
+    if isinstance(value, list):
+        return len(value) <= MOST and all(isinstance(each, str) and len(each) <= LONGEST for each in value)
+    return not isinstance(value, str) or len(value) <= LONGEST
