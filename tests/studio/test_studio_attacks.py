@@ -17,7 +17,7 @@ from places import EXAMPLES
 from studio_client import fetched, health, page
 from studio_server import below, started
 
-from drivewright.studio.session import packed
+from drivewright.studio.opening import packed
 
 pytestmark = [pytest.mark.interface, pytest.mark.needs_studio]
 

@@ -12,8 +12,8 @@ from drivewright.errors import DoesNotAssemble, SpecError
 from drivewright.registry import Analysis
 from drivewright.result import Check
 from drivewright.studio import preview
+from drivewright.studio.opening import opened
 from drivewright.studio.preview import affordable_analyses, merge_results, page_result
-from drivewright.studio.session import opened
 
 pytestmark = pytest.mark.interface
 

@@ -11,13 +11,13 @@ from studio_tab import Here, Tab
 
 from drivewright import registry
 from drivewright.spec.keys import leaves
-from drivewright.studio.document import STEPS
 from drivewright.studio.form import form, values
 from drivewright.studio.jobs import JOBS
 from drivewright.studio.opening import opened
 from drivewright.studio.proposals import ENTRIES, TABLES
 from drivewright.studio.resources import ServerResources
 from drivewright.studio.session import ACTIONS
+from drivewright.studio.undo_history import STEPS
 
 pytestmark = [pytest.mark.interface, pytest.mark.property]
 

@@ -10,8 +10,9 @@ from studio_tab import Here, Tab
 from drivewright.errors import InputError, SpecError
 from drivewright.studio.app import _files as served_files
 from drivewright.studio.jobs import JOBS
+from drivewright.studio.opening import LARGEST, first_design, opened, packed, unpacked
 from drivewright.studio.resources import KEPT, MOST_OFFERS, ServerResources
-from drivewright.studio.session import LARGEST, MOST_FILES, first_design, opened, packed, unpacked
+from drivewright.studio.session import MOST_FILES
 
 pytestmark = pytest.mark.interface
 

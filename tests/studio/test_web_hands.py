@@ -74,7 +74,8 @@ def test_alt_takes_the_place_itself_and_limits_hold():
 
 def test_a_hand_that_shakes_moves_nothing_and_opens_the_box():
     said, boxes = dragged(
-        "down(); button.fire('pointermove', {clientX: at[0] + grip[0] + 2, clientY: at[1] + grip[1]}); nextFrame(); button.fire('pointerup');"
+        "down(); button.fire('pointermove', {clientX: at[0] + grip[0] + 2, clientY: at[1] + grip[1]});"
+        "nextFrame(); button.fire('pointerup');"
         "return [said, layer.named('handle-box-').map(box => box.value)];",
         POINT,
     )
