@@ -145,10 +145,13 @@ def test_the_course_of_a_measurement_has_its_ends_and_where_they_are():
         const player = {scene: {u}, poseOf};
         const crank = {kind: "point", body: 0, point: [0.04, 0]}, frame = {kind: "point", body: -1, point: [0.1, 0]};
         const own = {kind: "point", body: 0, point: [-0.02, 0.01]};
-        return [courseOf("distance", [crank, frame], player), courseOf("distance", [crank, own], player)];
+        const circle = {kind: "circle", body: 0, point: [0, 0], radius: 0.01};
+        const asked = [["distance", [crank, frame]], ["distance", [crank, own]], ["radius", [circle]]];
+        return asked.map(([kind, parts]) => courseOf(kind, parts, player));
     """
-    moving, fixed = in_node(body, None, measures="courseOf")
+    moving, fixed, circle = in_node(body, None, measures="courseOf")
     assert (moving["low"], moving["high"]) == pytest.approx((0.06, 0.14)) and (moving["lowAt"], moving["highAt"]) == (0, 0.5)
+    assert (circle["lowAt"], circle["highAt"]) == (0, 0)  # the first of several
     assert not moving["constant"] and fixed["constant"] and fixed["low"] == pytest.approx(math.hypot(0.06, 0.01))
 
 
@@ -320,7 +323,7 @@ def test_jumps_and_peaks_of_a_programme():
     assert at == pytest.approx([0, math.pi / 2, math.pi, 1.5 * math.pi], abs=1e-6) and {jump["order"] for jump in found["jumps"]} == {2}
     lift, velocity, acceleration, jerk = found["peaks"]
     assert lift == pytest.approx(0.02) and velocity == pytest.approx(0.02) and acceleration == pytest.approx(0.04) and jerk == -1
-    smooth = {**PROGRAMME, "segments": [harmonic(0, math.pi, 0, 0.02), harmonic(math.pi, math.pi, 0.02, -0.02)]}
+    smooth = {**PROGRAMME, "segments": [harmonic(0, math.pi, 0.1, 0.02), harmonic(math.pi, math.pi, 0.12, -0.02)]}
     found = jumps_of(smooth)  # one harmonic: nothing jumps
     assert found["jumps"] == [] and found["peaks"] == pytest.approx([0.02, 0.01, 0.01, 0.01], rel=1e-4)
 
@@ -332,6 +335,16 @@ def test_a_jump_of_the_velocity_counts_before_one_of_the_acceleration():
     ramp["segments"][0]["course"] = [packed(theta), packed(0.02 * theta / math.pi), packed(np.full(61, 0.02 / math.pi)), zero, zero]
     found = jumps_of(ramp)
     assert {jump["order"] for jump in found["jumps"]} == {1} and found["peaks"][2:] == [-1, -1] and found["peaks"][1] > 0
+
+
+def test_two_jumps_at_one_place_are_one():
+    step = {**PROGRAMME, "segments": [harmonic(0, math.pi, 0, 0.02), harmonic(math.pi, math.pi, 0.02, -0.02)]}
+    rows = [np.array(struct.unpack("<61f", base64.b64decode(row))) for row in step["segments"][1]["course"]]
+    rows = [np.concatenate([row[:1], row]) for row in rows]
+    rows[3][0] += 0.01  # the acceleration jumps there and back at the border
+    step["segments"][1]["course"] = [packed(row) for row in rows]
+    (jump,) = jumps_of(step)["jumps"]
+    assert jump["order"] == 2 and jump["at"] == pytest.approx(math.pi)
 
 
 def segments(*rises, absolute=()):
@@ -601,6 +614,15 @@ def test_the_view_holds_an_assembly_over_its_whole_cycle():
     data = {"u": packed(frames), "motions": [packed(motion)], "parts": [{"points": [0, 0, 0, 2, 0, 1], "motion": 0}], "whole": whole}
     body = "const moving = unpackMotion(data); return [reachOf(data.parts, moving, data.whole), reachOf(data.parts, null, data.whole)];"
     found, still = in_node(body, data, assembly="reachOf, unpackMotion")
+    quarter = np.column_stack([0 * frames, 0 * frames, np.pi / 2 * frames]).ravel().tolist()
+    bar = {
+        **data,
+        "motions": [packed(quarter)],
+        "parts": [{"points": [0, 1, 0, 2, 1, 1], "motion": 0}],
+        "whole": {**whole, "high": [1, 1, 1]},
+    }
+    turned, _ = in_node(body, bar, assembly="reachOf, unpackMotion")
+    assert turned["low"] == pytest.approx([-1, 0, 0], abs=0.02) and turned["high"] == pytest.approx([2, math.sqrt(5), 1], abs=0.02)
     assert found["low"] == pytest.approx([-2, -2, 0], abs=0.02) and found["high"] == pytest.approx([2, 2, 1], abs=0.02)
     assert (
         found["centre"] == pytest.approx([0, 0, 0.5], abs=0.02)
@@ -656,7 +678,9 @@ def test_places_and_values_of_a_panel_go_to_pixels_and_back():
         const plain = layout(panel, axis, [{lines: [{low: -3, high: 5, from: -1, to: 1}, null]}], size);
         const log = layout({...panel, log: true}, axis, [], size), equal = layout({...panel, equal: true}, axis, [], size);
         return [[plain.toX(-1), plain.toX(2), plain.placeAt(plain.toX(1.3)), plain.toY(-3), plain.toY(100)],
-          [log.toY(1), log.toY(10), log.toY(100)], [equal.toX(1) - equal.toX(0), equal.toY(0) - equal.toY(1)]];
+          [log.toY(1), log.toY(10), log.toY(100)], [equal.toX(1) - equal.toX(0), equal.toY(0) - equal.toY(1)],
+          [equal.toX(0), equal.toX(2), equal.toY(1), equal.toY(100)]];
     """
-    plain, log, (across, up) = in_node(body, {"panel": PANEL}, plotting="layout")
+    plain, log, (across, up), inside = in_node(body, {"panel": PANEL}, plotting="layout")
     assert plain == pytest.approx([20, 190, 1.3, 85, 5]) and log == pytest.approx([85, 45, 5]) and across == pytest.approx(up)
+    assert 20 <= inside[0] < inside[1] <= 190 and inside[2:] == pytest.approx([85, 5])  # all of it, as large as it can be

@@ -108,6 +108,9 @@ def test_one_number_follows_the_hand_along_its_direction_only():
     twice = {**SIZE, "handle": {**SIZE["handle"], "direction": [1.2, 1.6]}}  # the handle goes two metres a metre
     (message,) = dragged(f"down(); to({along}, {{altKey: true}}); return said;", twice)
     assert message["changes"] == {"radius": "2.5 cm"}
+    (message,) = dragged("down(); to([0.0413, 0.0113]); return said;", SIZE)
+    (number,) = numbers_of(message)
+    assert number == pytest.approx(2.182, abs=0.03) and number * 20 == pytest.approx(round(number * 20))  # on the grid of half a millimetre
     (message,) = dragged("down(); to([-0.2, -0.2]); return said;", SIZE)
     assert message["changes"] == {"radius": "1 cm"}  # its limit
 
@@ -143,6 +146,7 @@ def test_arrow_keys_take_steps_on_the_grid_ten_with_shift():
         ("45, 12 mm", ["45 mm", "12 mm"]),
         ("45 mm, 1.2 cm", ["45 mm", "1.2 cm"]),
         ("4, 5", ["4 mm", "5 mm"]),
+        ("4, 5 cm", ["4 cm", "5 cm"]),
         ("-4, .5", ["-4 mm", "0.5 mm"]),
         ("45", None),
         ("x, 5", None),
@@ -215,6 +219,7 @@ def test_what_can_be_held_of_a_programme():
         "programme-point-2-2",
     ]
     assert transform == "translate(180.0px, 12.0px)"
+    assert programme("return made('point-2-1').style.transform;", spline=2) == "translate(360.0px, 112.0px)"  # a quarter of 120 degrees on
 
 
 def test_a_border_moves_by_whole_degrees_and_the_turn_stays_closed():
@@ -256,6 +261,8 @@ def test_a_lift_snaps_to_the_level_of_another():
     two = {"angles": [60, 60, 60, 60, 120], "rises": [5, 8, -8, 10, -15]}
     changes, words = programme("pull('lift-3', [480, 150], [480, 173]); return [said[0].changes, layer.children[0].textContent];", **two)
     assert changes == {"programme.3.rise": "8 mm", "programme.4.rise": "-13 mm"} and "level" in words
+    (changes,) = programme("pull('lift-0', [180, 100], [180, 105]); return changes();")
+    assert changes == {"programme.0.rise": "19.5 mm", "programme.2.rise": "-11.5 mm"}  # not back to the dwell that moves along
 
 
 def test_a_point_of_a_spline_stays_between_its_neighbours():
