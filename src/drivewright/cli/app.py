@@ -424,7 +424,7 @@ def studio(
 ) -> None:
     """The web studio: a design as a form, moving, with its checks and plots."""
     from drivewright.studio.app import serve
-    from drivewright.studio.session import first_design, opened
+    from drivewright.studio.opening import first_design, opened
 
     with show.located(spec or Path("studio")):
         start = opened(spec) if spec else first_design()

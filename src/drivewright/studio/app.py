@@ -23,9 +23,10 @@ from drivewright.report.worked_examples import cards, preset_films, preset_pictu
 from drivewright.studio import preview, translations
 from drivewright.studio.access import LEAST_TOKEN, LOOPBACK, AccessControl
 from drivewright.studio.design import Design
+from drivewright.studio.offers import offered
 from drivewright.studio.page_policy import PagePolicy
 from drivewright.studio.resources import ServerResources
-from drivewright.studio.session import Session, offered
+from drivewright.studio.session import Session
 from drivewright.studio.tabs import Tabs
 from drivewright.view.palette import style_sheet
 

@@ -5,8 +5,9 @@ from functools import cache
 
 from drivewright import motion
 from drivewright.mechanisms.cam.build import LAW_KEYS, CamModel
+from drivewright.motion.diagram import diagram_segments
 from drivewright.motion.laws import BUILT_IN
-from drivewright.motion_diagram import LawChoice, MotionDiagram, diagram_segments
+from drivewright.motion_diagram import LawChoice, MotionDiagram
 
 STARTS: dict[str, dict[str, str]] = {  # parameters of the laws that do not go without
     "scca": {"b": "0.25", "c": "0", "d": "0.75"},

@@ -86,7 +86,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     const fixed = near.filter(({body, at, direction}) => !direction && body !== handle.body && !coincides(at, handle)).map(({at}) => at);
     const found = hold.free ? {at: wanted, guides: [], words: ""} : snapped(wanted, {fixed, partners, lengths: lengthsOf(near)});
     mark(found);
-    const exact = inFrame(handle, found.at), snaps = found.words !== "";
+    const exact = inFrame(handle, found.at), snaps = found.words !== "" || found.guides.length > 0;
     return hold.start.map((number, n) => {
       const value = exact[n] / number.factor, step = gridOf(number);
       return kept(snaps ? tidy(value, step) : onGrid(value, step), number);

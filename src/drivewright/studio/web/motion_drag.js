@@ -100,7 +100,8 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
   /** Moves the lift at the end of segment `n`; the next segment that moves takes up the difference. */
   function moveLift(n, to, snap, gesture) {
     const {segments} = drawn(), other = partnerOf(segments, n), [own, next] = numbersOf({kind: "lift", n}), step = stepOf(own);
-    const levels = segments.filter((_, k) => k !== n && k !== other - 1).map(segment => segment.from), upon = snap && levels.find(level => Math.abs(plot.toY(level) - plot.toY(to)) < NEAR);
+    const levels = segments.filter((_, k) => k < n || k > other).map(segment => segment.from);  // the others move along
+    const upon = snap && levels.find(level => Math.abs(plot.toY(level) - plot.toY(to)) < NEAR);
     const onLevel = typeof upon === "number" && Math.abs(upon - segments[n].from) > 1e-9 ? upon : null;
     const wanted = (onLevel ?? to) - segments[n].from, exact = wanted / own.factor;
     const rise = tidy(Math.round((onLevel === null ? onGrid(exact, snap ? step : step / 10) : exact) * 1e5) / 1e5);  // courses are single precision
