@@ -107,7 +107,7 @@ export function createHead(host, {store, say, t}) {
     dot: element("span", {class: "st-dot", title: t("not saved yet")}), preset: presetChoice(),
     fresh: button({id: "new", sign: "plus", title: t("New design"), text: t("New"), ...hanging("menu")},
       made => popovers.toggle(made, "menu", t("New design"), designs)),
-    keys: button({id: "keys", sign: "ruler", title: t("What the keys measure"), long: t("What the keys measure"), ...hanging("dialog")},
+    keys: button({id: "keys", sign: "dimension", title: t("What the keys measure"), long: t("What the keys measure"), ...hanging("dialog")},
       made => popovers.toggle(made, "dialog", t("What the keys measure"), () => drawings(store, t))),
     undo: button({id: "undo", sign: "undo", title: `${t("Undo")} (Ctrl+Z)`}, () => say({what: "undo"})),
     redo: button({id: "redo", sign: "redo", title: `${t("Redo")} (Ctrl+Y)`}, () => say({what: "redo"})),
