@@ -79,10 +79,10 @@ def test_a_label_has_the_names_of_elements_and_no_underscores():
     tables = {"wear_marks": [{"name": "B"}, {"name": ""}, {}], "speeds": ["1 rpm"]}
     assert [label(tables, key) for key in ("wear_marks.0.end_gap", "wear_marks.1.a", "wear_marks.2", "wear_marks.7.a", "speeds.0")] == [
         "wear marks · B · end gap",
-        "wear marks · 1 · a",
-        "wear marks · 2",
-        "wear marks · 7 · a",
-        "speeds · 0",
+        "wear marks · 2 · a",
+        "wear marks · 3",
+        "wear marks · 8 · a",
+        "speeds · 1",
     ]
 
 
@@ -314,7 +314,9 @@ def test_each_face_counts_by_its_angle_at_the_corner():
 
 
 def test_the_size_of_an_assembly_is_that_of_the_box_around_its_parts(monkeypatch):
-    parts = [SimpleNamespace(name=name, colour=colour, body="", at=at) for name, colour, at in (("left", "blue", -2.0), ("right", "steel", 1.0))]
+    parts = [
+        SimpleNamespace(name=name, colour=colour, body="", at=at) for name, colour, at in (("left", "blue", -2.0), ("right", "steel", 1.0))
+    ]
     tetrahedron = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 2]], float), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     kind = SimpleNamespace(kind="cam", analyses=(), parts=lambda model: parts, scene=None)
     monkeypatch.setattr(solid, "registry", SimpleNamespace(mechanism=lambda name: kind))
