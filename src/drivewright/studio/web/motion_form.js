@@ -60,8 +60,16 @@ export function createMotionForm(host, tools) {
     }
     return {...programme, segments: made};
   }
+  /** The segment that states no angle has the rest of the turn: its field gets that number. */
+  function complete() {
+    const {list, keys, cycle} = programme, angles = [];
+    for (let n = 0; fields.has(`${list}.${n}.${keys.angle}`); n++) angles.push([`${list}.${n}.${keys.angle}`, fields.get(`${list}.${n}.${keys.angle}`)]);
+    const open = angles.filter(([, {value}]) => typeof value !== "number"), given = angles.reduce((sum, [, {value, unit}]) => sum + (typeof value === "number" ? value * (FACTORS[unit] || 1) : 0), 0);
+    if (open.length === 1) fields.set(open[0][0], {...open[0][1], value: tidy((cycle.span - given) / FACTORS.deg), unit: "deg"});
+  }
   function render() {
     if (!programme || !opened) return;
+    complete();
     design = readDesign();
     current = design.segments.length === programme.segments.length && design.segments.every(({law}, n) => law === programme.segments[n].law);
     const own = name => current ? designed(name) : programme.segments.map(segment => segment[name]);
