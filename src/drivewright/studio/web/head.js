@@ -86,7 +86,11 @@ export function createHead(host, {store, say, t}) {
     notice.hidden = false;
     hide = setTimeout(() => { notice.hidden = true; }, NOTICE);
   }
-  function fresh(kind, preset) { chosen = preset || ""; say({what: "fresh", kind, preset}); }
+  function fresh(kind, preset) {
+    chosen = preset || "";
+    store.set({building: Boolean(preset) && store.state.kinds.find(each => each.kind === kind)?.start === preset});  // such a design opens ready to be built on
+    say({what: "fresh", kind, preset});
+  }
   function example(name) { chosen = ""; say({what: "example", name}); }
 
   // ---- its parts
