@@ -242,7 +242,7 @@ def _of_body(clicked: Clicked, place: Place) -> str:
     bodies = _bodies_at(clicked, place)
     if not bodies:
         raise InputError("there is no body here; click a point or a bar of one")
-    return bodies[-1]
+    return max(bodies, key=list(clicked.spec.bodies).index)
 
 
 def _joined(clicked: Clicked, place: Place) -> tuple[str, list[str]]:

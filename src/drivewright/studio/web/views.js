@@ -14,6 +14,7 @@ import { createStudies } from "./studies.js";
 // -------------------------------------------------------------------------------------------------------------------- motion
 
 const LATE = 4000;  // ms
+const ROOM = 0.35;  // of its size: a drawing to build on has room around it
 const FIRST = "the first drawing after installation compiles for up to a minute";
 
 /** The player, and what there is to say where nothing can be drawn.  `reword()` writes its words anew, and leaves the view as it is. */
@@ -31,8 +32,12 @@ function createMotion(host, tools) {
     shown = scene;
     measure.expect(afresh);
     handles.load(scene.scene); builder.load(scene.scene);  // before the player draws: what lies upon the drawing is that of its bodies
-    if (player) { player.load(packed); if (afresh) player.fit(); }
-    else {
+    if (player) {
+      player.load(packed);
+      if (afresh) player.fit();
+      if (afresh && builder.active()) { const {view} = player; view.zoom(ROOM, view.width / 2, view.height / 2); player.redraw(); }
+    }
+    if (!player) {
       player = createPlayer(stage, packed, {clock, text: t, picked, sides: () => diagrams.active() ? SIDES : 0, tools: () => [...handles.bar(), measure.button, builder.button],
         drawn: () => { if (player) { handles.draw(); measure.draw(); builder.draw(); diagrams.draw(); } }, held: () => handles.held() || builder.active()});
       player.stage.append(handles.layer, builder.layer);
