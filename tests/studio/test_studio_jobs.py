@@ -77,7 +77,7 @@ def test_keys_go_by_number_whatever_they_are_called():
     assert [key for key, _ in leaves(tables)] == ["joints.0.name", "joints.0.at.0", "joints.0.at.1", "joints.1.name", "drive.speed"]
     assert numbered(tables, "joints.B.gap") == numbered(tables, "joints.1.gap") == "joints.1.gap"
     assert is_locked(tables, "joints.0.at.1", ["joints.A.at"]) and not is_locked(tables, "joints.0.atom", ["joints.A.at"])
-    assert label(tables, "joints.0.at.1") == "joints · A · at · 1"
+    assert label(tables, "joints.0.at.1") == "joints · A · at · 2"
 
 
 # -- sensitivity ---------------------------------------------------------------------------------------------------------------

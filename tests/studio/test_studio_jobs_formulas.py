@@ -79,10 +79,10 @@ def test_a_label_has_the_names_of_elements_and_no_underscores():
     tables = {"wear_marks": [{"name": "B"}, {"name": ""}, {}], "speeds": ["1 rpm"]}
     assert [label(tables, key) for key in ("wear_marks.0.end_gap", "wear_marks.1.a", "wear_marks.2", "wear_marks.7.a", "speeds.0")] == [
         "wear marks · B · end gap",
-        "wear marks · 1 · a",
-        "wear marks · 2",
-        "wear marks · 7 · a",
-        "speeds · 0",
+        "wear marks · 2 · a",
+        "wear marks · 3",
+        "wear marks · 8 · a",
+        "speeds · 1",
     ]
 
 

@@ -33,7 +33,7 @@ export function createPlayer(host, packed, options = {}) {
 
   const surface = fitCanvas(canvas, () => {
     Object.assign(view, {width: surface.width, height: surface.height, ratio: surface.ratio});
-    if (state.fitted) fit(); else draw();
+    if (state.fitted && !options.held?.()) fit(); else draw();
   });
   const theme = watchTheme(host, () => redraw());
   const unwatch = watchVisible(canvas, visible => { state.visible = visible; clock.see(player, visible); redraw(); });

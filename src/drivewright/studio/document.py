@@ -27,7 +27,7 @@ from drivewright.studio.input_parsing import (
     value_in,
 )
 from drivewright.studio.opening import LARGEST
-from drivewright.studio.proposals import search_table
+from drivewright.studio.proposals import search_table, varied_keys
 from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
 from drivewright.studio.undo_history import UndoHistory
@@ -157,6 +157,8 @@ class Document(UndoHistory):
         """The table "optimise" or "study" as its form has it; what the form does not show stays."""
         tables = deepcopy(self.design.tables)
         tables[name] = search_table(self.design, name, content)
+        if prepare := registry.mechanism(self.design.kind).before_varying:
+            tables = prepare(tables, varied_keys(tables, name))
         self._accept(self.design.with_tables(tables))
 
     def construct(self, tool: str, places: Sequence[tuple[float, float]], near: float) -> None:

@@ -25,6 +25,7 @@ def _offered(kinds):
             "programme": registry.mechanism(kind).programme is not None,
             "pictures": sorted(preset_pictures(kind)),
             "tools": [tool._asdict() for tool in _tools(kind)],
+            "start": _first_preset(kind),
             "films": sorted(preset_films(kind)),
             "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
             "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],
@@ -36,6 +37,11 @@ def _offered(kinds):
 def _tools(kind):
     construction = registry.mechanism(kind).construction
     return construction.tools if construction else ()
+
+
+def _first_preset(kind):
+    construction = registry.mechanism(kind).construction
+    return construction.start if construction else ""
 
 
 def _drawn_sheets(kind):

@@ -132,4 +132,4 @@ def test_places_that_do_not_suit_a_tool_change_nothing(hand, tool, places, words
 def test_other_kinds_have_no_tools():
     with pytest.raises(InputError, match="is not built with"):
         Document(preset("cam")).construct("pin", [(0.0, 0.0)], 0.001)
-    assert len({tool.name for tool in TOOLS}) == len(TOOLS) == 8
+    assert len({tool.name for tool in TOOLS}) == len(TOOLS) == 9

@@ -83,7 +83,7 @@ export function createChecks(host, tools) {
     }
     if (!same(names, shown)) arrange(names);
     if (active && !names.includes(active)) active = null;
-    put(empty, result ? t("This drive has no design checks.") : t("The checks appear when the design has been analysed."));
+    put(empty, result?.full && result.verdict.state === "bad" ? t("No check could be computed: the run did not end.") : result ? t("This drive has no design checks.") : t("The checks appear when the design has been analysed."));
     empty.hidden = names.length > 0;
   }
   function arrange(names) {

@@ -12,12 +12,20 @@ const SHAKE = 3, FINE = 1, COARSE = 6;  // px of a hand that presses without mov
  * `others(handle)` the other handles with their pixels, `nameOf(handle)` its name, `numbers(handle)` the numbers of its keys.
  */
 export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, say, t, clock}) {
-  let hold = null, box = null, pending = 0, bubbleSize = {wide: 0, high: 0};
+  let hold = null, pointed = null, box = null, pending = 0, bubbleSize = {wide: 0, high: 0};
 
   function attach(button, handleOf) {
     button.addEventListener("pointerdown", event => { if (event.button === 0) press(event, button, handleOf); });
     button.addEventListener("keydown", event => keys(event, button, handleOf));
+    button.addEventListener("pointerenter", event => { if (event.pointerType === "mouse") point(button, handleOf); });
+    button.addEventListener("pointerleave", () => point(null));
     button.addEventListener("dblclick", event => event.stopPropagation());
+  }
+
+  /** Says what the handle under the mouse is called, with its numbers. */
+  function point(button, handleOf) {
+    pointed = button && {button, handleOf};
+    show();
   }
 
   // ---- pointer
@@ -111,10 +119,11 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
   }
   const texts = (start, values) => Object.fromEntries(start.map(({key, unit}, n) => [key, unit ? `${values[n]} ${unit}` : String(values[n])]));
   function show() {
-    if (!hold) return;
-    const handle = hold.handleOf(), [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "];
-    const words = hold.words ? ` · ${t(hold.words)}` : "";
-    tell(`${nameOf(handle)}  ${hold.now.map((value, n) => `${names[n]}${value} ${hold.start[n].unit}`).join("  ")}${words}`);
+    const shown = hold || pointed, handle = shown?.handleOf(), own = handle && (hold ? hold.start : numbers(handle));
+    if (!own || shown.button.hidden) { bubble.hidden = true; return; }
+    const [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "], now = hold ? hold.now : own.map(({value}) => value);
+    const words = hold?.words ? ` · ${t(hold.words)}` : "";
+    tell(`${nameOf(handle)}  ${now.map((value, n) => `${names[n]}${value} ${own[n].unit}`.trim()).join("  ")}${words}`);
     const {wide, high} = bubbleSize, {width, height} = view(), left = x + 16 + wide > width ? x - 16 - wide : x + 16;
     bubble.style.transform = `translate(${within(left, width - wide)}px, ${within(y - 34, height - high)}px)`;
   }

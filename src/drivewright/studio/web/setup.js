@@ -34,9 +34,9 @@ export function createSetup(name, words, tools, create) {
     form.node.hidden = !shown || state === "running";
     if (state === "failed") form.refused(text);
   }
-  /** What is refused of its table. */
+  /** What is refused of its table, or of what was asked for in the form. */
   function refused({refused = {}}) {
-    const own = Object.entries(refused).filter(([key]) => key === "" || key === name || key.startsWith(`${name}.`));
+    const own = Object.entries(refused).filter(([key]) => key === "" && form.node.contains(document.activeElement) || key === name || key.startsWith(`${name}.`));
     if (own.length || !shown) form.refused(own.map(([, {message}]) => message).join("\n"));
   }
   function designed({design}) {
