@@ -4,6 +4,7 @@ import { figure, powered, supported, unitText } from "./numbers.js";
 import { button } from "./parts.js";
 import { element, fitCanvas, fixed, watchTheme } from "./player.js";
 import { ticks } from "./plotting.js";
+import { rangeOf, sameRow, stretched } from "./scatter_rows.js";
 import { circle, cross, rule, shade, shortened } from "./strokes.js";
 
 const MARGIN = {left: 66, right: 18, top: 14, bottom: 46};
@@ -21,15 +22,6 @@ const axisText = (column, t) => t(column.label) + (column.unit && column.unit !=
 function prepare(answer) {
   const numeric = answer.columns.map((_, n) => answer.rows.some(row => Number.isFinite(row[n])));
   return {...answer, ends: answer.ends || {}, fronts: answer.fronts || [], feasible: answer.passes, numeric};
-}
-
-/** Least and greatest finite value of a column, a little wider; never empty. */
-function rangeOf(rows, n, wider = 0.04) {
-  let low = Infinity, high = -Infinity;
-  for (const row of rows) if (Number.isFinite(row[n])) { if (row[n] < low) low = row[n]; if (row[n] > high) high = row[n]; }
-  if (!(high >= low)) return [0, 1];
-  const edge = (high - low) * wider || Math.abs(high) * 0.05 || 1;
-  return [low - edge * (wider > 0), high + edge * (wider > 0)];
 }
 
 /** The scatter inside `host`; load(answer), destroy().  `now()` gives {name of a column: its number} of the current design. */
@@ -248,9 +240,15 @@ export function createScatter(host, {say, t, now = () => ({})}) {
 
   function choose() {
     [state.x, state.y, state.colour] = selects.map(select => +select.value);
-    const {rows} = state.study, colour = state.colour >= 0 ? rangeOf(rows, state.colour, 0) : [0, 1];
-    state.ranges = {x: rangeOf(rows, state.x), y: rangeOf(rows, state.y), colour};
+    measure();
     keyOf(); draw(); mark();
+  }
+  /** The axes reach over the points and the current design; whether that is another stretch than before. */
+  function measure() {
+    const {rows, columns} = state.study, current = now(), before = state.ranges;
+    const reach = n => stretched(rangeOf(rows, n), current[columns[n].name]);
+    state.ranges = {x: reach(state.x), y: reach(state.y), colour: state.colour >= 0 ? rangeOf(rows, state.colour, 0) : [0, 1]};
+    return JSON.stringify(before) !== JSON.stringify(state.ranges);
   }
   selects.forEach(select => select.addEventListener("change", choose));
 
@@ -273,14 +271,14 @@ export function createScatter(host, {say, t, now = () => ({})}) {
       const first = !before?.fronts.length && answer.fronts?.length || !valued;
       const names = [state.x, state.y, state.colour].map(n => before && !first ? before.columns[n]?.name : undefined);
       state.study = prepare(answer);
-      state.hover = state.chosen = -1;
+      state.hover = sameRow(before, state.hover, answer); state.chosen = sameRow(before, state.chosen, answer);
       begin(names);
       const met = state.study.feasible.filter(Boolean).length;
       const failed = answer.failed ? [t("* failed", answer.failed)] : [];
       counts.textContent = [t("* of * designs", answer.rows.length, answer.total), t("* feasible", met), ...failed].join(" · ");
       choose(); table();
     },
-    mark() { if (state.study) { keyOf(); mark(); } },
+    mark() { if (state.study) { if (measure()) draw(); keyOf(); mark(); } },
     destroy() { surface.stop(); upper.stop(); theme.stop(); host.replaceChildren(); },
   };
 }
