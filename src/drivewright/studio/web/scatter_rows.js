@@ -1,6 +1,7 @@
 // What the points of a study span, and which of them are still the same ones when more have come.
 
 const FARTHEST = 3;  // widths of the points, beyond which the current design is told at the edge
+const AROUND = 1;  // widths of the feasible points that the axes reach beyond them at most, for those that fail
 
 /** Where a row of a study stands in what came of the same study since, -1 where it is not there. */
 export function sameRow(before, n, now) {
@@ -22,4 +23,12 @@ export function rangeOf(rows, n, wider = 0.04) {
   if (!(high >= low)) return [0, 1];
   const edge = (high - low) * wider || Math.abs(high) * 0.05 || 1;
   return [low - edge * (wider > 0), high + edge * (wider > 0)];
+}
+
+/** The range of a column that is worth looking at: of the feasible rows, and of the others as far as they lie near. */
+export function reachOf(rows, feasible, n) {
+  const good = rows.filter((row, k) => feasible[k] && Number.isFinite(row[n])), all = rangeOf(rows, n), [low, high] = rangeOf(good, n);
+  if (good.length < 2) return all;
+  const room = AROUND * (high - low);
+  return [Math.max(all[0], low - room), Math.min(all[1], high + room)];
 }
