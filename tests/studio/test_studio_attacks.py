@@ -239,6 +239,14 @@ ODD = [
     '{"what": "arrange", "list": {"a": 1}, "elements": []}',
     '{"what": "drag", "changes": {"a.b": "1"}, "gesture": {"a": 1}}',
     '{"what": "revert", "gesture": [1]}',
+    '{"what": "names"}',
+    '{"what": "names", "list": "__class__"}',
+    '{"what": "names", "list": "SURROGATE"}',
+    '{"what": "names", "list": ["bearings"]}',
+    '{"what": "pick", "key": "bearings.A.bearing"}',
+    '{"what": "pick", "key": "__class__.bearing", "text": "6306"}',
+    '{"what": "pick", "key": "title", "text": "SURROGATE"}',
+    '{"what": "pick", "key": {"a": 1}, "text": "6306"}',
 ]
 ODD = [odd.replace("SURROGATE", SURROGATE) for odd in ODD]
 FRAMES = [

@@ -17,7 +17,7 @@ from drivewright.execution.workers import WorkerDied, WorkerFault
 from drivewright.report.dimension_drawings import drawing_files, fitting_drawings
 from drivewright.report.folder import file_name
 from drivewright.report.worked_examples import cards, preset_films, preset_pictures
-from drivewright.studio import editing, proposals, translations
+from drivewright.studio import editing, part_lists, proposals, translations
 from drivewright.studio.computations import REST, Message, TabComputations
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document, without_folder
@@ -150,6 +150,14 @@ class Session:
     async def set(self, key: str, text: str, gesture: str = "") -> None:
         """A value as typed, or as a slider gives it."""
         await self._edit("set", _key(key), key=_key(key), text=str(text), gesture=str(gesture))
+
+    async def pick(self, key: str, text: str) -> None:
+        """A part by its name, with what it has of its own."""
+        await self._edit("pick", _key(key), key=_key(key), text=str(text))
+
+    async def names(self, list: str) -> None:
+        """The parts that a field may name, with what one chooses them by."""
+        self.send({"what": "names", "list": str(list)[:SHORT], "entries": await self._call(part_lists.entries, str(list)[:SHORT])})
 
     async def drag(self, changes: Mapping[str, str], gesture: str) -> None:
         """What a handle moves, as it moves."""
@@ -388,7 +396,7 @@ class Session:
 TAKE_LOCKS = ("sensitivity", "optimise", "fix")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset construct sketch add drop arrange put take undo redo lock source text load preset "
+    "hello again set pick names drag revert unset construct sketch add drop arrange put take undo redo lock source text load preset "
     "fresh example open share reference pin job propose begin export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}

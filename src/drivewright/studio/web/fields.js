@@ -33,6 +33,7 @@ export function createFields(body, {store, say, t}, rebuilt) {
   const context = {
     say: message => { flush(); say(message); }, send, flush, t, bounds, moving: false, released,
     chinese: () => store.state.lang === "zh", refusal: key => store.state.refused?.[key] || null, locked: key => locks.has(key),
+    parts: name => store.state.parts[name] || [], learn(name) { if (!store.state.parts[name]) say({what: "names", list: name}); }, replaced,
     reveal(row) { row.root.classList.remove("st-unset"); groups.reveal(row.root); },
   };
   const groups = createGroups(body, context, rowOf);
@@ -42,6 +43,11 @@ export function createFields(body, {store, say, t}, rebuilt) {
     const row = fits ? old : field.parts?.length ? createPair(field, context) : createRow(field, context);
     rows.set(field.key, row);
     return row;
+  }
+  /** Tells which values a new part puts out of force: they stood in place of what the one before has of its own. */
+  function replaced({key, overrides}) {
+    const above = key.slice(0, key.lastIndexOf(".") + 1), out = overrides.map(name => rows.get(above + name)?.field).filter(field => field?.given);
+    if (out.length) store.set({notice: t("Left out, because they were of the part before: *", out.map(field => context.chinese() && field.zh || field.label).join(", "))});
   }
   const anyHeld = test => [...rows.values()].some(row => row.held() && test(row));
   function released() { if (late && !anyHeld(() => true)) { late = false; show(); } }
@@ -120,6 +126,7 @@ export function createFields(body, {store, say, t}, rebuilt) {
     row.root.scrollIntoView({block: "center", behavior: "smooth"});
     row.root.querySelector(BOXES)?.focus({preventScroll: true});
   }
+  const unlisted = store.on(["parts"], () => rows.forEach(row => row.relist?.()));
   const known = key => rows.has(key) || Boolean(rows.get(key.replace(/\.\d+$/, ""))?.rows);
-  return {show, restart() { forget(); show(); }, search, focus, known, destroy: stop};
+  return {show, restart() { forget(); show(); }, search, focus, known, destroy() { stop(); unlisted(); }};
 }
