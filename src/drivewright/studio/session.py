@@ -47,7 +47,7 @@ class Session:
     def __init__(self, send: Callable[[Message], object], resources: ServerResources, start: Design, name: str = "") -> None:
         self.send, self.resources, self.start, self.start_name = send, resources, start, name
         self._document: Document | None = None
-        self.gen, self.files = 0, ""
+        self.gen = 0
         self._kept, self._kind = b"", ""
         self._waiting: asyncio.TimerHandle | None = None  # for the end of a drag, to show the text of the spec
         self._inbox = Inbox(self._act, self._refuse)
@@ -58,6 +58,12 @@ class Session:
         """The design with its past; there is one as soon as the page has said hello."""
         assert self._document is not None
         return self._document
+
+    @property
+    def files(self) -> str:
+        """Token of the folder that the page has sent the data files of the design into, "" where it has none."""
+        folder = self._document.design.folder if self._document else None
+        return folder.name if folder and self.resources.folder(folder.name) == folder else ""
 
     # -- messages --------------------------------------------------------------------------------------------------------------
 
@@ -130,7 +136,7 @@ class Session:
                 trouble = error
             else:
                 return
-        self._open(await self._call(editing.begin, self.start, self.start_name), "")
+        self._begin(await self._call(editing.begin, self.start, self.start_name))
         if trouble:
             self._refuse(trouble)
 
@@ -138,7 +144,12 @@ class Session:
         """The design that a page brings, with the files that it once sent, or those of the start."""
         folder = self.resources.folder(files)
         place = Design({}, folder, frozenset(folder.iterdir())) if folder else self.start
-        self._open(await self._call(editing.begin, place, "", saved, shared), files if folder else "")
+        self._begin(await self._call(editing.begin, place, "", saved, shared))
+
+    def _begin(self, edited: Edited) -> None:
+        """The first design of a page."""
+        self._document = None
+        self._open(edited)
 
     async def again(self) -> None:
         """The connection was lost for a moment: everything once more."""
@@ -242,7 +253,7 @@ class Session:
 
     async def fresh(self, kind: str, preset: str | None = None) -> None:
         """Another drive."""
-        self._open(await self._call(editing.begin_preset, str(kind), preset and str(preset)), "")
+        self._open(await self._call(editing.begin_preset, str(kind), preset and str(preset)))
 
     async def example(self, name: str) -> None:
         """A worked example, with copies of its data files."""
@@ -260,7 +271,7 @@ class Session:
             for name, text in given.items():
                 (folder / name).write_text(text, encoding="utf-8")
             place = Design({}, folder, frozenset(folder.iterdir()))
-            self._open(await self._call(editing.begin, place, Path(specs[0]).stem, given[specs[0]]), token)
+            self._open(await self._call(editing.begin, place, Path(specs[0]).stem, given[specs[0]]))
         finally:
             if self.files != token:
                 self.resources.drop_folder(token)
@@ -340,9 +351,11 @@ class Session:
             self._waiting.cancel()
             self._waiting = None
 
-    def _open(self, edited: Edited, files: str) -> None:
-        """A design that has nothing to do with the one before."""
-        self._document, self._kept, self.files = edited.document, edited.kept, files
+    def _open(self, edited: Edited) -> None:
+        """A design that has nothing to do with the one before, which a step back brings again."""
+        if self._document is not None:
+            edited.document.continue_from(self._document)
+        self._document, self._kept = edited.document, edited.kept
         self._changed(edited, ALL, opened=True)
 
     def _changed(self, edited: Edited, *settled: str, opened: bool = False, moving: bool = False) -> None:
