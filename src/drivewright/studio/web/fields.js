@@ -29,7 +29,7 @@ function createQueue(say) {
  */
 export function createFields(body, {store, say, t}, rebuilt) {
   const bounds = new Map(), {send, flush, stop} = createQueue(say);
-  let rows = new Map(), kept = rows, shape = null, kind = "", late = false, locks = new Set();
+  let rows = new Map(), kept = rows, shape = null, kind = "", drive = null, late = false, locks = new Set();
   const context = {
     say: message => { flush(); say(message); }, send, flush, t, bounds, moving: false, released,
     chinese: () => store.state.lang === "zh", refusal: key => store.state.refused?.[key] || null, locked: key => locks.has(key),
@@ -101,6 +101,7 @@ export function createFields(body, {store, say, t}, rebuilt) {
     shape = design.form;
     groups.retitle();
     if (!same) rebuilt();
+    if (design.opened !== drive) { drive = design.opened; body.scrollTop = 0; }
   }
 
   /** Shows only what matches all the words. */
@@ -108,6 +109,7 @@ export function createFields(body, {store, say, t}, rebuilt) {
     const words = query.toLowerCase().split(/\s+/).filter(Boolean), hit = text => words.every(word => text.toLowerCase().includes(word));
     const titles = groups.shown(), miss = (root, missed) => { root.classList.toggle("st-miss", missed); return !missed; };
     let found = 0;
+    if (words.length) body.scrollTop = 0;
     body.classList.toggle("st-searching", words.length > 0);
     for (const {field, root} of rows.values()) {
       const title = titles.get(root.closest(".st-group")?.dataset.key ?? "") || "";
