@@ -44,7 +44,7 @@ export function createCombobox(input, options, name, none, opened = () => {}) {
     shown = hits.sort((a, b) => first(b) - first(a)).slice(0, MOST);
     const blank = shown.length ? [] : [element("li", {class: "st-option is-none", "aria-disabled": "true"}, none)];
     list.replaceChildren(...blank, ...shown.map(({text, note}, n) => {
-      const made = element("li", {role: "option", id: `${id}-${n}`, class: "st-option"}, text, ...(note ? [element("small", {}, note)] : []));
+      const made = element("li", {role: "option", id: `${id}-${n}`, class: "st-option"}, text, ...(note ? [" ", element("small", {}, note)] : []));
       made.addEventListener("pointerdown", event => event.preventDefault());  // the box keeps the focus
       made.addEventListener("click", () => pick(n));
       return made;

@@ -253,7 +253,7 @@ export function createScatter(host, {say, t, now = () => ({})}) {
   /** The axes reach over the points and the current design; whether that is another stretch than before. */
   function measure() {
     const {rows, columns, feasible} = state.study, current = now(), before = state.ranges;
-    const reach = n => stretched(reachOf(rows, feasible, n), current[columns[n].name]);
+    const reach = n => stretched(columns[n].role === "key" ? rangeOf(rows, n) : reachOf(rows, feasible, n), current[columns[n].name]);
     state.ranges = {x: reach(state.x), y: reach(state.y), colour: state.colour >= 0 ? rangeOf(rows, state.colour, 0) : [0, 1]};
     return JSON.stringify(before) !== JSON.stringify(state.ranges);
   }

@@ -1,7 +1,7 @@
 // What the points of a study span, and which of them are still the same ones when more have come.
 
 const FARTHEST = 3;  // widths of the points, beyond which the current design is told at the edge
-const AROUND = 1;  // widths of the feasible points that the axes reach beyond them at most, for those that fail
+const AROUND = 2;  // widths of the feasible points that the axes reach beyond them at most, where others would press them together
 
 /** Where a row of a study stands in what came of the same study since, -1 where it is not there. */
 export function sameRow(before, n, now) {
@@ -25,10 +25,9 @@ export function rangeOf(rows, n, wider = 0.04) {
   return [low - edge * (wider > 0), high + edge * (wider > 0)];
 }
 
-/** The range of a column that is worth looking at: of the feasible rows, and of the others as far as they lie near. */
+/** The range of a column that is worth looking at: that of all rows, unless a few that fail lie far from all that is feasible. */
 export function reachOf(rows, feasible, n) {
-  const good = rows.filter((row, k) => feasible[k] && Number.isFinite(row[n])), all = rangeOf(rows, n), [low, high] = rangeOf(good, n);
-  if (good.length < 2) return all;
-  const room = AROUND * (high - low);
+  const good = rows.filter((_, k) => feasible[k]), all = rangeOf(rows, n), [low, high] = rangeOf(good, n, 0), room = AROUND * (high - low);
+  if (!good.some(row => row[n] !== good[0][n]) || all[1] - all[0] <= (2 * AROUND + 1) * (high - low)) return all;
   return [Math.max(all[0], low - room), Math.min(all[1], high + room)];
 }
