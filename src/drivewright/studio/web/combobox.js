@@ -89,7 +89,7 @@ export function createCombobox(input, options, name, none, opened = () => {}) {
   input.addEventListener("focus", () => addEventListener("scroll", scrolled, {capture: true, passive: true}));
   function scrolled(event) {
     if (document.activeElement !== input) removeEventListener("scroll", scrolled, {capture: true});
-    else if (event.target !== list) close();
+    else if (event.target !== list && event.target.contains(input)) close();  // not the text of another box, which moves as it is left
   }
   return {relist() { if (open) show(asked); }, searching: () => open && !options().some(({value, text}) => [value, text].includes(input.value.trim()))};
 }
