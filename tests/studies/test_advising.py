@@ -47,6 +47,19 @@ def test_the_smallest_change_of_a_square_is_found_and_rounded(monkeypatch):
 
 
 @pytest.mark.analytical
+def test_a_high_power_gets_no_more_than_it_needs(monkeypatch):
+    """As a life does, which grows with a high power of the rating: the whole range would give 60 000 times what is wanted."""
+
+    def checks(spec):
+        return (Check("life", (spec.size / 0.01) ** 8, 6.0, ">=", "-", "life"),)
+
+    (advice,) = dw.advise(toy(monkeypatch, checks, {"size": 5.0}, size="10 mm"), None).advice
+    (change,) = advice.changes
+    needed = 0.01 * 6.0**0.125
+    assert needed <= change.after <= needed + 0.25 * (needed - 0.01)
+
+
+@pytest.mark.analytical
 def test_a_dimension_is_made_smaller_where_that_helps(monkeypatch):
     for limit in (0.00771, 0.00776):  # the nearest number of two digits passes, and does not pass
         advised = dw.advise(toy(monkeypatch, lambda spec: (at_most("small", spec.size, limit),), {"size": 2.0}, size="10 mm"), None)  # noqa: B023

@@ -289,6 +289,14 @@ ODD = [
     '{"what": "construct", "tool": "body", "places": [["0", true], [[], {}]], "near": 0.001}',
     '{"what": "construct", "tool": "slide", "places": [[0, 0], [0, 0]], "near": 1e5}',
     '{"what": "construct", "tool": "pin", "places": [[0, 0]], "near": 5e-324}',
+    '{"what": "names"}',
+    '{"what": "names", "list": "__class__"}',
+    '{"what": "names", "list": "SURROGATE"}',
+    '{"what": "names", "list": ["bearings"]}',
+    '{"what": "pick", "key": "bearings.A.bearing"}',
+    '{"what": "pick", "key": "__class__.bearing", "text": "6306"}',
+    '{"what": "pick", "key": "title", "text": "SURROGATE"}',
+    '{"what": "pick", "key": {"a": 1}, "text": "6306"}',
 ]
 ODD = [odd.replace("SURROGATE", SURROGATE) for odd in ODD]
 FRAMES = [

@@ -179,6 +179,22 @@ def test_parts_of_a_default_begin_with_all_of_it():
     assert at(document, "limits") == {"joint_force": "2 kN"}
 
 
+def test_another_part_brings_its_own_values():
+    """The ratings that a spec gives for one bearing say nothing about another; the same bearing once more keeps them."""
+    document = example("gearbox_shaft")
+    assert at(document, "bearings.A.bearing") == "6306"
+    given = at(document, "bearings.A.dynamic_rating")
+    document.pick("bearings.A.bearing", "6306")
+    assert at(document, "bearings.A.dynamic_rating") == given and not document.can_undo
+    document.pick("bearings.A.bearing", "6406")
+    assert at(document, "bearings.A.bearing") == "6406"
+    assert at(document, "bearings.A.dynamic_rating") is ABSENT and at(document, "bearings.A.static_rating") is ABSENT
+    document.undo()
+    assert at(document, "bearings.A.dynamic_rating") == given and not document.can_undo
+    document.lock("bearings.A.dynamic_rating", True)
+    assert "locked" in refused(document, document.pick, "bearings.A.bearing", "6406").message
+
+
 def test_one_drag_is_one_step_and_its_numbers_are_short(toy):
     for number in (0.1, 0.2, 0.30000000000000004):
         toy.set("ratio", repr(number), "drag 1")

@@ -261,8 +261,23 @@ def test_a_search_for_speed_ends_below_the_acceleration_allowed(monkeypatch):
     (requirement,) = answer["requirements"]
     assert requirement["ok"] and requirement["limit"] == "≤ 140\u00a0m/s²" and requirement["name"] == "max_acceleration"
     assert answer["objective"]["goal"] == "maximise" and answer["verdict"]["state"] in ("good", "warn", "bad")
-    on_the_way = {"cases": 16, "history": answer["history"], "best": answer["changes"], "objective": answer["objective"]}
-    assert search._so_far(problems[0], kept) == on_the_way
+    on_the_way = {
+        "cases": 16,
+        "history": answer["history"],
+        "best": answer["changes"],
+        "objective": answer["objective"],
+        "tried": answer["tried"],
+    }
+    assert search._so_far(cam, problems[0], kept) == on_the_way
+    tried = answer["tried"]
+    assert (
+        tried["total"] == len(tried["rows"]) == 16
+        and tried["passes"] == [row[-1] <= allowed for row in tried["rows"]]
+        and not all(tried["passes"])
+    )
+    (best,) = tried["fronts"]
+    assert [tried["rows"][row] for row in best["rows"]] == front["rows"]
+    assert best["objectives"] == [{"name": "max_velocity", "goal": "maximise"}, {"name": "max_jerk", "goal": "minimise"}]
     assert [figure["name"] for figure in answer["figures"]] == ["plot-search"]
 
 

@@ -19,7 +19,7 @@ from drivewright.execution.outputs import CHECK, MARGIN_OF, OutputInfo
 from drivewright.studies.plan import Block, Plan
 from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
-from drivewright.studio.jobs import figures, files, search, solid
+from drivewright.studio.jobs import figures, files, search, solid, trade_off
 from drivewright.studio.jobs import study as studying
 from drivewright.studio.jobs.design_keys import input_text, label, numeric, plain
 from drivewright.units import SI
@@ -133,8 +133,8 @@ def test_the_message_of_a_search(front, feasible, left_out, said):
 def test_settings_of_a_search_go_with_its_unknowns():
     length = key_kind(design("disc_cam").spec(), "follower.offset")
     set_too = [SimpleNamespace(key="a", value=True), SimpleNamespace(key="b", value="lowest"), SimpleNamespace(key="c", value=3)]
-    found = SimpleNamespace(spec=SimpleNamespace(optimise=SimpleNamespace(settings=set_too)), keys=("x.y",), kinds=(length,))
-    assert search._settings(found, np.array([0.002])) == {"a": "true", "b": "lowest", "c": "3", "x.y": "2 mm"}
+    found = SimpleNamespace(search=SimpleNamespace(settings=set_too), keys=("x.y",), kinds=(length,))
+    assert trade_off.settings(found, np.array([0.002])) == {"a": "true", "b": "lowest", "c": "3", "x.y": "2 mm"}
 
 
 def test_unknowns_that_are_locked_are_left_out_of_the_search_alone():

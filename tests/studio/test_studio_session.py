@@ -471,8 +471,30 @@ def test_after_a_lost_connection_everything_comes_once_more(tab):
 def test_another_kind_forgets_what_was_computed(tab):
     other = next(kind["kind"] for kind in only(tab.say("hello"), "start")[0]["kinds"] if kind["kind"] != tab.session.document.design.kind)
     (design,) = tab.say("fresh", kind=other)
-    assert design["kind"] == other and not design["undo"]
+    assert design["kind"] == other and design["undo"] and not design["redo"]
     assert tab.quiet.asked[-2:-1] == [("reset", tab.session.gen)]
+
+
+def test_opening_another_design_loses_nothing(tab):
+    """A step back brings what was open, with its changes and its past, and a step forward the other one; its data files are there again."""
+    first = tab.session.document.design.kind
+    before = tab.session.document.design.text()
+    other = "linkage" if first != "linkage" else "cam"
+    tab.say("set", key="title", text="changed, and in no file yet")
+    mine = tab.session.document.design.text()
+    tab.say("fresh", kind=other)
+    tab.say("example", name="valve_train")  # which has a data file
+    files = tab.session.files
+    assert files and tab.session.document.design.spec().data_files()
+    (back,) = tab.say("undo")
+    assert (back["kind"], back["files"]) == (other, "") and back["redo"]
+    (back,) = tab.say("undo")
+    assert back["kind"] == first and tab.session.document.design.text() == mine != before
+    tab.say("undo")
+    assert tab.session.document.design.text() == before and not tab.session.document.can_undo
+    for _ in range(3):
+        (last,) = tab.say("redo")
+    assert last["files"] == files and tab.session.document.design.spec().data_files()
 
 
 def test_an_offered_file_is_fetched_once(resources):

@@ -107,7 +107,7 @@ function axes(context, panel, axis, at, colours, foot) {
   context.textAlign = "right"; context.textBaseline = "middle";
   for (const value of up.values) {
     rule(context, margin.left, toY(value), margin.left + w, toY(value), value === 0 ? colours["grid-strong"] : colours.grid);
-    context.fillText(panel.log ? scientific(value, 0) : tickText(value, up.decimals), margin.left - 7, toY(value));
+    context.fillText(panel.log ? scientific(value, 0) : tickText(value, up.decimals), margin.left - 7, toY(value), margin.left - 8);  // a long one narrower
   }
   context.textBaseline = "top";
   for (const [place, text] of across(axis, at)) {

@@ -27,7 +27,8 @@ from drivewright.units import scale
 NEAR = 0.02  # of the change: how well the point where the margin is 0 is known before it is rounded
 ROUNDED = 0.2  # of the change, that rounding to few digits may add
 TRIED = 4  # dimensions whose lines are searched for one check
-STEPS = 8  # of the search along a line
+STEPS = 12  # of the search along a line
+SLOW = 2  # steps of the secant that do not halve what is searched, after which the middle is taken
 PATIENCE = 3.0  # seconds that a run spends on advice
 HOPEFUL = 4.0  # times the whole range that the slopes may say is needed: most margins are no straight lines
 TINY = 1e-9  # of the limit: no change of a margin
@@ -202,7 +203,7 @@ def _advice(designs: _Designs, check: Check, slopes: Floats) -> list[Advice]:
 def _passing_length(designs: _Designs, check: Check, line: _Line) -> float | None:
     """The shortest length along a line, to `NEAR`, at which the check passes; None where it is not reached."""
     near, far = (0.0, check.margin), None
-    length = min(1.1 * line.predicted, 1.0)
+    length, wide, slow = min(1.1 * line.predicted, 1.0), math.inf, 0
     for _ in range(STEPS):
         margin = designs.margins(designs.moved(line.moves(length)), (check,))[check.name]
         if margin >= 0:
@@ -213,12 +214,18 @@ def _passing_length(designs: _Designs, check: Check, line: _Line) -> float | Non
             near = (length, margin)
         if far and far[0] - near[0] <= NEAR * far[0]:
             break
-        length = _between(near, far) if far else min(_beyond(length, margin, check.margin), 1.0)
+        if far:
+            before, wide = wide, far[0] - near[0]
+            slow = 0 if wide <= 0.5 * before else slow + 1
+            length = _between(near, far) if slow < SLOW else near[0] + 0.5 * wide
+        else:
+            length = min(_beyond(length, margin, check.margin), 1.0)
     return far[0] if far else None
 
 
 def _between(near: tuple[float, float], far: tuple[float, float]) -> float:
-    """By the secant, kept within the inner nine tenths so that both ends move."""
+    """By the secant, kept within the inner nine tenths so that both ends move.  Where that does not halve what is between them, the
+    middle comes next: a margin that grows with a high power of the dimension lets the secant creep from one end."""
     share = near[1] / (near[1] - far[1])
     return near[0] + min(max(share * 1.005, 0.05), 0.95) * (far[0] - near[0])
 

@@ -6,6 +6,7 @@ is gone through again from its beginning, and what its folder holds is not evalu
 
 import time
 from collections import Counter
+from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivewright import registry
-from drivewright._typing import Floats
+from drivewright._typing import Floats, Ints
 from drivewright.digits import plain
 from drivewright.errors import InputError, SolverError
 from drivewright.execution.case_table import MESSAGE, STATUS
@@ -192,7 +193,7 @@ def _place(out, spec, method):
 def _outcome(problem, table):
     """What an `Optimised` says of the evaluations of a table."""
     _, designs, values = history.read(problem, table)
-    chosen = _front(problem, values)
+    chosen = front_rows(problem, values)
     front, front_values = designs[chosen], {name: column[chosen] for name, column in values.items()}
     if table[STATUS][int(chosen[0])].as_py() != "complete":
         raise SolverError(_nothing(problem, table, front[0]))
@@ -236,7 +237,7 @@ def _label_of(name: str, best: Result[Any]) -> str:
     return f"{named.display_label}, margin" if named else name
 
 
-def _front(problem, values):
+def front_rows(problem: Problem, values: Mapping[str, Floats]) -> Ints:
     """Rows of the designs that meet every requirement and that no other beats, by the first objective; else the least violating one."""
     violation = problem.total_violation(values)
     rows = np.flatnonzero(violation <= 0)

@@ -99,6 +99,18 @@ class Document(UndoHistory):
         enter_text(tables, spec_class(self.design), key, tidied(text) if gesture else text)
         return self._accept(self.design.with_tables(tables), (key, gesture) if gesture else None)
 
+    def pick(self, key: str, text: str) -> None:
+        """A part by its name; values beside it that stood in place of what the part before has of its own go with that one."""
+        key = form_key(self.design.tables, key)
+        info = field_info_at(spec_class(self.design), key.split("."))
+        tables = deepcopy(self.design.tables)
+        enter_text(tables, spec_class(self.design), key, text)
+        above = key.rpartition(".")[0]
+        for name in (info.overrides if info else ()) if text != value_in(self.design.tables, key) else ():
+            if value_in(tables, beside := f"{above}.{name}".lstrip(".")) is not ABSENT:
+                remove_key(tables, beside)
+        self._accept(self.design.with_tables(tables))
+
     def drag(self, changes: Mapping[str, str], gesture: str) -> None:
         """Keys that a handle moves, {key: typed text}; the steps of one drag are one undo step."""
         tables, model = deepcopy(self.design.tables), spec_class(self.design)

@@ -29,7 +29,7 @@ class EditedDesign:
     def __init__(self, send: Callable[[Message], object], resources: ServerResources, start: Design, name: str = "") -> None:
         self.send, self.resources, self.start, self.start_name = send, resources, start, name
         self._document: Document | None = None
-        self.gen, self.files = 0, ""
+        self.gen = 0
         self._kept, self._kind = b"", ""
         self.computations = TabComputations(send, self._describe, resources)
 
@@ -38,6 +38,12 @@ class EditedDesign:
         """The design with its past; there is one as soon as the page has said hello."""
         assert self._document is not None
         return self._document
+
+    @property
+    def files(self) -> str:
+        """Token of the folder that the page has sent the data files of the design into, "" where it has none."""
+        folder = self._document.design.folder if self._document else None
+        return folder.name if folder and self.resources.folder(folder.name) == folder else ""
 
     # -- changes ----------------------------------------------------------------------------------------------------------------
 
@@ -55,9 +61,11 @@ class EditedDesign:
         self._kept = edited.kept
         return edited
 
-    def _open(self, edited: Edited, files: str) -> None:
-        """A design that has nothing to do with the one before."""
-        self._document, self._kept, self.files = edited.document, edited.kept, files
+    def _open(self, edited: Edited) -> None:
+        """A design that has nothing to do with the one before, which a step back brings again."""
+        if self._document is not None:
+            edited.document.continue_from(self._document)
+        self._document, self._kept = edited.document, edited.kept
         self._changed(edited, ALL, opened=True)
 
     def _changed(self, edited: Edited, *settled: str, opened: bool = False, moving: bool = False) -> None:

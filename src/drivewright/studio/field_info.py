@@ -42,6 +42,8 @@ class FieldInfo:
     fixed: bool = False
     parts: tuple[str, ...] = ()  # what the entries of a pair or a point are called
     suggestions: tuple[str, ...] = ()  # of a text: what it may be, among other things
+    listed: str = ""  # name of the list of parts (`part_lists`) that a text is chosen from
+    overrides: tuple[str, ...] = ()  # keys beside it that stand in place of what that part has of its own
     default_changes: tuple[tuple[str, Any], ...] = ()  # of a table: (key, raw value) where its default says something else than its class
 
     @property
@@ -131,6 +133,7 @@ def _field_info(name, annotation, mark, limits, hint="", required=True, default=
         fixed,
         _part_names(about, items) if fixed else (),
         _suggestions(about) if kind == "text" else (),
+        *_of_a_part(about),
         own,
     )
 
@@ -148,6 +151,15 @@ def _suggestions(field: PydanticField | None) -> tuple[str, ...]:
     """Several examples of a text are what one may choose from; a single one shows how it looks."""
     examples = (field.examples if field is not None else None) or ()
     return tuple(map(str, examples)) if len(examples) > 1 else ()
+
+
+def _of_a_part(field: PydanticField | None) -> tuple[str, tuple[str, ...]]:
+    """(name of the list that a bought part is chosen from, keys that override it): `json_schema_extra={"list": ..., "overrides": [...]}`."""
+    extra = field.json_schema_extra if field is not None else None
+    if not isinstance(extra, dict):
+        return "", ()
+    named, overrides = extra.get("list", ""), extra.get("overrides", [])
+    return str(named), tuple(map(str, overrides)) if isinstance(overrides, list) else ()
 
 
 def field_info_at(model: type[Spec], steps: Sequence[str]) -> FieldInfo | None:

@@ -177,6 +177,8 @@ def _field(info, value, key, label, zh, given, optional, slid=None):
         "slider": ends,
         "choices": list(info.choices),
         "suggestions": list(info.suggestions),
+        "list": info.listed,
+        "overrides": list(info.overrides),
     }
 
 

@@ -12,7 +12,7 @@ from typing import Any
 from drivewright.errors import DrivewrightError, InputError, brief
 from drivewright.execution.workers import WorkerFault
 from drivewright.report.folder import file_name
-from drivewright.studio import editing, proposals, translations
+from drivewright.studio import editing, part_lists, proposals, translations
 from drivewright.studio.computations import REST, Message
 from drivewright.studio.design import Design
 from drivewright.studio.edited_design import ALL, LONGEST_KEY, SHORT, EditedDesign
@@ -96,7 +96,7 @@ class Session(EditedDesign):
                 trouble = error
             else:
                 return
-        self._open(await self._call(editing.begin, self.start, self.start_name), "")
+        self._begin(await self._call(editing.begin, self.start, self.start_name))
         if trouble:
             self._refuse(trouble)
 
@@ -104,7 +104,12 @@ class Session(EditedDesign):
         """The design that a page brings, with the files that it once sent, or those of the start."""
         folder = self.resources.folder(files)
         place = Design({}, folder, frozenset(folder.iterdir())) if folder else self.start
-        self._open(await self._call(editing.begin, place, "", saved, shared), files if folder else "")
+        self._begin(await self._call(editing.begin, place, "", saved, shared))
+
+    def _begin(self, edited: Edited) -> None:
+        """The first design of a page."""
+        self._document = None
+        self._open(edited)
 
     async def again(self) -> None:
         """The connection was lost for a moment: everything once more."""
@@ -116,6 +121,14 @@ class Session(EditedDesign):
     async def set(self, key: str, text: str, gesture: str = "") -> None:
         """A value as typed, or as a slider gives it."""
         await self._edit("set", _key(key), key=_key(key), text=str(text), gesture=str(gesture))
+
+    async def pick(self, key: str, text: str) -> None:
+        """A part by its name, with what it has of its own."""
+        await self._edit("pick", _key(key), key=_key(key), text=str(text))
+
+    async def names(self, list: str) -> None:
+        """The parts that a field may name, with what one chooses them by."""
+        self.send({"what": "names", "list": str(list)[:SHORT], "entries": await self._call(part_lists.entries, str(list)[:SHORT])})
 
     async def drag(self, changes: Mapping[str, str], gesture: str) -> None:
         """What a handle moves, as it moves."""
@@ -200,7 +213,7 @@ class Session(EditedDesign):
 
     async def fresh(self, kind: str, preset: str | None = None) -> None:
         """Another drive."""
-        self._open(await self._call(editing.begin_preset, str(kind), preset and str(preset)), "")
+        self._open(await self._call(editing.begin_preset, str(kind), preset and str(preset)))
 
     async def example(self, name: str) -> None:
         """A worked example, with copies of its data files."""
@@ -218,7 +231,7 @@ class Session(EditedDesign):
             for name, text in given.items():
                 (folder / name).write_text(text, encoding="utf-8")
             place = Design({}, folder, frozenset(folder.iterdir()))
-            self._open(await self._call(editing.begin, place, Path(specs[0]).stem, given[specs[0]]), token)
+            self._open(await self._call(editing.begin, place, Path(specs[0]).stem, given[specs[0]]))
         finally:
             if self.files != token:
                 self.resources.drop_folder(token)
@@ -292,7 +305,7 @@ class Session(EditedDesign):
 TAKE_LOCKS = ("sensitivity", "optimise", "fix")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set drag revert unset construct sketch add drop arrange put take undo redo lock source text load preset "
+    "hello again set pick names drag revert unset construct sketch add drop arrange put take undo redo lock source text load preset "
     "fresh example open share reference pin job propose begin export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}

@@ -75,6 +75,13 @@ class UndoHistory:
         while len(self._past) > 1 and sum(len(design.toml()) + len(design.source) for design in self._past) > HISTORY:
             del self._past[0]
 
+    def continue_from(self, before: Self) -> None:
+        """The design that was open until now is a step to go back to: opening another one loses nothing."""
+        self._past = [*before._past, *self._past]
+        opened, self.design = self.design, before.design
+        self._remember()
+        self.design = opened
+
     # -- in two processes ------------------------------------------------------------------------------------------------------
 
     def present(self) -> Self:

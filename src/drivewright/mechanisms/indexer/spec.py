@@ -111,7 +111,11 @@ class IndexerBearings(Spec):
     """Rolling bearings of one kind; give either bearing or stiffness."""
 
     bearing: Designation | None = Field(
-        None, title="Bearing designation", description="designation in the catalogue, e.g. NU207E", examples=["NU207E"]
+        None,
+        title="Bearing designation",
+        description="designation in the catalogue, e.g. NU207E",
+        examples=["NU207E"],
+        json_schema_extra={"list": "bearings", "overrides": ["radial_clearance"]},
     )
     stiffness: Stiffness | None = Field(
         None, gt=0, title="Radial stiffness", description="constant radial stiffness, instead of a bearing", examples=["4.5e8 N/m"]

@@ -71,7 +71,11 @@ class Bearing(Spec):
         description="CSV of the radial force over the radial displacement, instead of a stiffness: displacement [um],force [N] from 0, 0",
     )
     bearing: Designation | None = Field(
-        None, title="Bearing designation", description="designation of a rolling bearing, e.g. 6306 or NU206", examples=["6306"]
+        None,
+        title="Bearing designation",
+        description="designation of a rolling bearing, e.g. 6306 or NU206",
+        examples=["6306"],
+        json_schema_extra={"list": "bearings", "overrides": ["radial_clearance", "dynamic_rating", "static_rating"]},
     )
     geometry: BallBearing | None = Field(None, description="inner geometry of a ball bearing, instead of a designation")
     roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing, instead of a designation")

@@ -8,20 +8,18 @@ from typing import Any
 import numpy as np
 
 from drivewright.errors import SpecError
-from drivewright.execution.outputs import CHECK
 from drivewright.report.content import Views, pictures, summary
 from drivewright.studies.optimisation import run_search
 from drivewright.studies.search import history
 from drivewright.studies.search.problem import prepare
 from drivewright.studies.store import Memory, joined
 from drivewright.studio.design import Design
-from drivewright.studio.jobs.design_keys import input_text, is_locked, label, plain
+from drivewright.studio.jobs.design_keys import is_locked, label, plain
 from drivewright.studio.jobs.figures import drawn
 from drivewright.studio.jobs.progress import Progress
-from drivewright.studio.jobs.study import Live, evenly_spaced_rows
-from drivewright.view.text import SIGNS, display_unit, quantity, sentence, uncertain
-
-MOST_FRONT = 500  # designs of a front that a page is sent
+from drivewright.studio.jobs.study import Live
+from drivewright.studio.jobs.trade_off import front_table, label_of, settings, tried
+from drivewright.view.text import SIGNS, display_unit, quantity, uncertain
 
 
 def optimise(
@@ -30,13 +28,13 @@ def optimise(
     """The best design of the [optimise] table, unknowns that are locked left as they are.
 
     {"changes": {key: text}, "unknowns", "objectives", "requirements", "feasible", "message", "findings", "verdict", "evaluations", "front":
-    {"columns", "rows", "load"}, "history", "figures"}; on the way {"cases", "history", "best": {key: text}, "objective"}.  history:
-    [number of designs, best value so far in the unit people read or None, least violation of the requirements so far].
+    {"columns", "rows", "load"}, "tried": `trade_off.tried`, "history", "figures"}; on the way {"cases", "history", "best": {key: text},
+    "objective", "tried"}.  history: [number of designs, best value so far in the unit people read or None, least violation so far].
     """
     free, left_out = _freed(design, locks)
     problem = prepare(free.spec_on_screen())
     kept = Memory()
-    outcome = run_search(problem, kept, workers, on, Live(progress, lambda: _so_far(problem, kept)))
+    outcome = run_search(problem, kept, workers, on, Live(progress, lambda: _so_far(design, problem, kept)))
     return _search_summary(design, outcome, left_out, theme)
 
 
@@ -62,7 +60,7 @@ def _freed(design, locks):
 # -- the course of the search --------------------------------------------------------------------------------------------------
 
 
-def _so_far(problem, kept):
+def _so_far(design, problem, kept):
     """What the page shows while the search goes on; None before the first evaluations are there."""
     tables = kept.tables()
     if not tables:
@@ -70,7 +68,13 @@ def _so_far(problem, kept):
     table = joined(tables)
     _, designs, values = history.read(problem, table)
     course, best = _best_so_far(problem, values)
-    return {"cases": table.num_rows, "history": course, "best": _settings(problem, designs[best]), "objective": _objective(problem)}
+    return {
+        "cases": table.num_rows,
+        "history": course,
+        "best": settings(problem, designs[best]),
+        "objective": _objective(problem),
+        "tried": tried(design, problem, designs, values),
+    }
 
 
 def _best_so_far(problem, values):
@@ -89,20 +93,10 @@ def _objective(problem):
     name, sign = problem.objectives[0]
     return {
         "name": name,
-        "label": _label(problem, name),
+        "label": label_of(problem, name),
         "unit": display_unit(problem.about[name].unit)[1],
         "goal": "minimise" if sign > 0 else "maximise",
     }
-
-
-def _settings(problem, x):
-    """{key: text} of a design of the search, with what the search sets besides."""
-    texts = {setting.key: _plain_text(setting.value) for setting in problem.spec.optimise.settings}
-    return texts | {key: input_text(kind, value) for key, kind, value in zip(problem.keys, problem.kinds, x, strict=True)}
-
-
-def _plain_text(value):
-    return str(value).lower() if isinstance(value, bool) else str(value)
 
 
 # -- the outcome ---------------------------------------------------------------------------------------------------------------
@@ -110,13 +104,13 @@ def _plain_text(value):
 
 def _search_summary(design, outcome, left_out, theme):
     problem = outcome.problem
-    _, _, values = history.read(problem, outcome.table)
+    _, designs, values = history.read(problem, outcome.table)
     return {
-        "changes": _settings(problem, outcome.front[0]),
+        "changes": settings(problem, outcome.front[0]),
         "unknowns": _unknowns(design, outcome),
         "objective": _objective(problem),
         "objectives": [
-            {"name": name, "label": _label(problem, name), "text": text, "goal": goal} for name, text, goal in outcome.objective_rows()
+            {"name": name, "label": label_of(problem, name), "text": text, "goal": goal} for name, text, goal in outcome.objective_rows()
         ],
         "requirements": [_requirement(check) for check in outcome.requirements],
         "feasible": outcome.feasible,
@@ -127,13 +121,10 @@ def _search_summary(design, outcome, left_out, theme):
         "seed": outcome.seed,
         "method": outcome.method,
         "history": _best_so_far(problem, values)[0],
-        "front": _front(design, outcome),
+        "front": front_table(design, outcome),
+        "tried": tried(design, problem, designs, values),
         "figures": _figures(outcome, theme),
     }
-
-
-def _label(problem, name):
-    return sentence(problem.about[name].meaning or name)
 
 
 def _unknowns(design, outcome):
@@ -168,27 +159,6 @@ def _message(outcome, left_out):
         else f"no design of {outcome.evaluations} meets every requirement; this one comes nearest"
     )
     return message + (f". Locked and left as they are: {', '.join(left_out)}" if left_out else "")
-
-
-def _front(design, outcome):
-    """The designs that no other beats as a table like that of a study."""
-    problem, chosen = outcome.problem, evenly_spaced_rows(len(outcome.front), MOST_FRONT)
-    columns = [
-        {"name": key, "label": label(design.tables, key), "unit": display_unit(kind.unit)[1], "role": "key"}
-        for key, kind in zip(problem.keys, problem.kinds, strict=True)
-    ]
-    columns += [
-        {"name": name, "label": _label(problem, name), "unit": display_unit(about.unit)[1], "role": _role(name)}
-        for name, about in problem.about.items()
-    ]
-    units = [kind.unit for kind in problem.kinds] + [about.unit for about in problem.about.values()]
-    data = [*outcome.front.T, *(outcome.front_values[name] for name in problem.about)]
-    rows = [[plain(column[n], unit) for column, unit in zip(data, units, strict=True)] for n in chosen]
-    return {"columns": columns, "rows": rows, "load": [_settings(problem, outcome.front[n]) for n in chosen]}
-
-
-def _role(name):
-    return "check" if name.startswith(CHECK) else "value"
 
 
 def _figures(outcome, theme):

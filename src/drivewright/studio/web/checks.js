@@ -83,7 +83,8 @@ export function createChecks(host, tools) {
     }
     if (!same(names, shown)) arrange(names);
     if (active && !names.includes(active)) active = null;
-    put(empty, result?.full && result.verdict.state === "bad" ? t("No check could be computed: the run did not end.") : result ? t("This drive has no design checks.") : t("The checks appear when the design has been analysed."));
+    const partial = result?.full && (result.verdict.state === "bad" || result.outcome !== "complete");
+    put(empty, partial ? t("No check could be computed; the findings say why.") : result ? t("This drive has no design checks.") : t("The checks appear when the design has been analysed."));
     empty.hidden = names.length > 0;
   }
   function arrange(names) {

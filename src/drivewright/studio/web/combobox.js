@@ -3,14 +3,19 @@
 import { element } from "./player.js";
 
 const HIGH = 260;  // px that the list takes at most
+const MOST = 500;  // options that are shown at once
 
 let lists = 0;
 
-/** Makes `input` a combobox over `options`, [{value, text}]; what is picked is typed into it and committed with Enter. */
-export function createCombobox(input, options, name) {
+/**
+ * Makes `input` a combobox over `options()`, [{value, text, note}]; what is picked is typed into it and committed with Enter.  `none` is
+ * what the list says where nothing matches, `opened()` is called whenever it opens.  Returns {show again, for other options: relist(),
+ * whether a text that is typed is still a search: searching()}.
+ */
+export function createCombobox(input, options, name, none, opened = () => {}) {
   const id = `st-list-${++lists}`;
   const list = element("ul", {class: "st-list", role: "listbox", id, "aria-label": name});
-  let open = false, shown = [], active = -1;
+  let open = false, shown = [], active = -1, asked = "";
 
   for (const [key, value] of Object.entries({role: "combobox", "aria-autocomplete": "list", "aria-expanded": "false", "aria-controls": id}))
     input.setAttribute(key, value);
@@ -19,7 +24,7 @@ export function createCombobox(input, options, name) {
   // ---- the list
   function place() {
     const box = input.getBoundingClientRect(), below = innerHeight - box.bottom - 8, over = below < 140 && box.top > below;
-    const high = Math.min(HIGH, over ? box.top - 8 : below), wide = Math.max(box.width, 170);
+    const high = Math.min(HIGH, over ? box.top - 8 : below), wide = Math.max(box.width, shown.some(({note}) => note) ? 320 : 170);
     Object.assign(list.style, {left: `${Math.max(4, box.right - wide)}px`, width: `${wide}px`, maxHeight: `${high}px`,
       top: over ? "" : `${box.bottom + 2}px`, bottom: over ? `${innerHeight - box.top + 2}px` : ""});
   }
@@ -33,18 +38,22 @@ export function createCombobox(input, options, name) {
   function show(query) {
     if (input.readOnly || input.disabled) return;
     const words = query.toLowerCase().split(/\s+/).filter(Boolean);
-    shown = options.filter(({value, text}) => words.every(word => `${value} ${text}`.toLowerCase().includes(word)));
-    if (!shown.length) { close(); return; }
-    list.replaceChildren(...shown.map(({text}, n) => {
-      const made = element("li", {role: "option", id: `${id}-${n}`, class: "st-option"}, text);
+    asked = query;
+    const hits = options().filter(({value, text, note = ""}) => words.every(word => `${value} ${text} ${note}`.toLowerCase().includes(word)));
+    const first = ({text}) => Number(text.toLowerCase().startsWith(words[0] ?? ""));
+    shown = hits.sort((a, b) => first(b) - first(a)).slice(0, MOST);
+    const blank = shown.length ? [] : [element("li", {class: "st-option is-none", "aria-disabled": "true"}, none)];
+    list.replaceChildren(...blank, ...shown.map(({text, note}, n) => {
+      const made = element("li", {role: "option", id: `${id}-${n}`, class: "st-option"}, text, ...(note ? [" ", element("small", {}, note)] : []));
       made.addEventListener("pointerdown", event => event.preventDefault());  // the box keeps the focus
       made.addEventListener("click", () => pick(n));
       return made;
     }));
-    if (!open) input.closest(".st").append(list);
+    if (!open) { input.closest(".st").append(list); opened(); }
     open = true;
     input.setAttribute("aria-expanded", "true");
     place();
+    list.scrollTop = 0;
     mark(query ? -1 : shown.findIndex(({text, value}) => text === input.value || value === input.value));
   }
   function close() {
@@ -68,7 +77,7 @@ export function createCombobox(input, options, name) {
     const step = {ArrowDown: 1, ArrowUp: -1}[event.key], taken = () => { event.preventDefault(); event.stopImmediatePropagation(); };
     if (step) {
       taken();
-      if (!open) show(""); else mark((active + step + shown.length) % shown.length);
+      if (!open) show(""); else if (shown.length) mark((active + step + shown.length) % shown.length);
     } else if (open && event.key === "Enter" && active >= 0) { taken(); pick(active); }
     else if (open && event.key === "Escape") { taken(); close(); }
     else if (event.key === "Enter" || event.key === "Tab") close();
@@ -80,6 +89,7 @@ export function createCombobox(input, options, name) {
   input.addEventListener("focus", () => addEventListener("scroll", scrolled, {capture: true, passive: true}));
   function scrolled(event) {
     if (document.activeElement !== input) removeEventListener("scroll", scrolled, {capture: true});
-    else if (event.target !== list) close();
+    else if (event.target !== list && event.target.contains(input)) close();  // not the text of another box, which moves as it is left
   }
+  return {relist() { if (open) show(asked); }, searching: () => open && !options().some(({value, text}) => [value, text].includes(input.value.trim()))};
 }

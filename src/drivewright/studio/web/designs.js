@@ -38,7 +38,23 @@ export function createDesigns({store, t}, {fresh, example, close}) {
     element("div", {class: "st-kind", role: "group", "aria-label": t(spoken(kind))},
       element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
       element("div", {class: "st-cards"}, ...[...presets].sort((a, b) => (b === more.start) - (a === more.start)).map(preset({kind, ...more})), ...examples.map(worked)));
-  return () => (store.state.kinds || []).map(group);
+  /** A box that leaves only the cards whose words hold all that is typed; a kind without any goes too. */
+  function finder(groups) {
+    const box = element("input", {class: "st-find-design", type: "search", placeholder: t("Find a design"), "aria-label": t("Find a design"),
+      spellcheck: "false", autocomplete: "off", "data-testid": "find-design"});
+    const none = element("p", {class: "st-item-hint", role: "status", hidden: ""}, t("none"));
+    const cards = groups.map(made => [made, [...made.querySelectorAll(".st-card")].map(card => [card, `${made.firstChild.textContent} ${card.textContent}`.toLowerCase()])]);
+    box.addEventListener("input", () => {
+      const words = box.value.toLowerCase().split(/\s+/).filter(Boolean);
+      for (const [made, own] of cards) {
+        for (const [card, text] of own) card.hidden = !words.every(word => text.includes(word));
+        made.hidden = own.every(([card]) => card.hidden);
+      }
+      none.hidden = cards.some(([made]) => !made.hidden);
+    });
+    return [element("div", {class: "st-find-row"}, box), none];
+  }
+  return () => { const groups = (store.state.kinds || []).map(group); return [...finder(groups), ...groups]; };
 }
 
 /** Title of a preset of the design's kind, in English. */

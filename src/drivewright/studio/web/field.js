@@ -41,7 +41,7 @@ function offerReset(reset, {given, default: usual, optional}, t) {
 }
 
 /** What stands for a value: {input, show(field), text(), whole}; one that is not `whole` is typed in letter by letter. */
-function createControl(field, name, t) {
+function createControl(field, name, {t, parts, learn}) {
   const common = {"aria-label": name, class: "st-box"};
   if (field.kind === "choice" && field.choices.length <= MANY) {
     const choice = element("select", {...common, class: "st-select st-box"});
@@ -54,22 +54,23 @@ function createControl(field, name, t) {
     return {input: flag, show: now => { flag.checked = now.value === true; }, text: () => String(flag.checked), whole: true};
   }
   const named = field.key === "title", many = field.kind === "choice" ? field.choices : field.suggestions || [];
-  const options = many.map(value => ({value: String(value), text: t(String(value))}));
+  const own = many.map(value => ({value: String(value), text: t(String(value))}));
+  const options = () => field.list ? parts(field.list).map(([value, note]) => ({value, text: value, note})) : own;
   const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
   if (field.optional || field.value === null) box.placeholder = field.default ?? t("not set");
-  const counted = COUNTED.includes(field.kind), told = options.length > 0;
-  const read = text => counted ? unitsRead(text) : named || told ? t(text) : text, value = text => options.find(one => one.text === text)?.value ?? text;
+  const counted = COUNTED.includes(field.kind), told = own.length > 0 || Boolean(field.list);
+  const read = text => counted ? unitsRead(text) : named || told ? t(text) : text, value = text => options().find(one => one.text === text)?.value ?? text;
   /** The text of the spec: a title that is shown in the language of the page is still the one of the spec. */
   const text = () => counted ? unitsTyped(box.value) : named && box.value === read(spec) ? spec : value(box.value);
   let spec = "";
   function show(now) { spec = now.text ?? ""; if (box.value !== read(spec)) box.value = read(spec); }
-  if (told) createCombobox(box, options, name);
-  return {input: box, show, text, whole: false};
+  const combo = told && createCombobox(box, options, name, t("none"), () => field.list && learn(field.list));
+  return {input: box, show, text, whole: false, searching: () => Boolean(combo && combo.searching()), relist: () => combo && combo.relist()};
 }
 
 /** The elements of a row, and how they look when it is locked, refused or given; `back()` takes it to its usual value. */
-function createLook(row, {say, t}, back) {
-  const {field} = row, control = createControl(field, row.name, t), {input} = control, message = messageOf(row.key);
+function createLook(row, context, back) {
+  const {say, t} = context, {field} = row, control = createControl(field, row.name, context), {input} = control, message = messageOf(row.key);
   const toggle = () => say({what: "lock", key: row.key, on: !row.locked}), lock = tool("unlock", t("Lock: keep this value"), toggle);
   const reset = tool("reset", "", back);
   reset.classList.add("st-reset");
@@ -120,6 +121,7 @@ export function createRow(field, context) {
   const look = createLook(row, context, () => { settle(); say({what: "unset", key: row.key}); }), {root, input, control} = look;
   let slider = null, typed = false, sent = null, before = "", original = "", waiting = 0, patience = 0, last = null;  // text of this edit that was sent last
   row.root = root;
+  row.relist = () => control.relist?.();
 
   // ---- from the server
   function held() { return typed || Boolean(slider?.dragging); }
@@ -198,6 +200,7 @@ export function createRow(field, context) {
     if (last === null || !text.startsWith(last) && !last.startsWith(text)) gesture.begin();  // not a number that is typed on
     last = text;
     if (!text.trim() && (row.field.optional || row.field.default != null)) say({what: "unset", key: row.key});
+    else if (row.field.list) { context.replaced(row.field); expect(text); say({what: "pick", key: row.key, text}); }
     else { expect(text); send({what: "set", key: row.key, text, gesture: gesture.current()}, true); }
   }
   /** The edit is over: the next one is another step of undo. */
@@ -244,7 +247,7 @@ export function createRow(field, context) {
     typed = true;
     input.dataset.unsent = "";
     clearTimeout(waiting);
-    waiting = setTimeout(commit, PAUSE);
+    waiting = setTimeout(() => control.searching() || commit(), PAUSE);  // what is typed to search a list is no value yet
   }
   function leave() {
     if (context.moving) return;

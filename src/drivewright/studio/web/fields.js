@@ -29,10 +29,11 @@ function createQueue(say) {
  */
 export function createFields(body, {store, say, t}, rebuilt) {
   const bounds = new Map(), {send, flush, stop} = createQueue(say);
-  let rows = new Map(), kept = rows, shape = null, kind = "", late = false, locks = new Set();
+  let rows = new Map(), kept = rows, shape = null, kind = "", drive = null, late = false, locks = new Set();
   const context = {
     say: message => { flush(); say(message); }, send, flush, t, bounds, moving: false, released,
     chinese: () => store.state.lang === "zh", refusal: key => store.state.refused?.[key] || null, locked: key => locks.has(key),
+    parts: name => store.state.parts[name] || [], learn(name) { if (!store.state.parts[name]) say({what: "names", list: name}); }, replaced,
     reveal(row) { row.root.classList.remove("st-unset"); groups.reveal(row.root); },
   };
   const groups = createGroups(body, context, rowOf);
@@ -42,6 +43,11 @@ export function createFields(body, {store, say, t}, rebuilt) {
     const row = fits ? old : field.parts?.length ? createPair(field, context) : createRow(field, context);
     rows.set(field.key, row);
     return row;
+  }
+  /** Tells which values a new part puts out of force: they stood in place of what the one before has of its own. */
+  function replaced({key, overrides}) {
+    const above = key.slice(0, key.lastIndexOf(".") + 1), out = overrides.map(name => rows.get(above + name)?.field).filter(field => field?.given);
+    if (out.length) store.set({notice: t("Left out, because they were of the part before: *", out.map(field => context.chinese() && field.zh || field.label).join(", "))});
   }
   const anyHeld = test => [...rows.values()].some(row => row.held() && test(row));
   function released() { if (late && !anyHeld(() => true)) { late = false; show(); } }
@@ -95,6 +101,7 @@ export function createFields(body, {store, say, t}, rebuilt) {
     shape = design.form;
     groups.retitle();
     if (!same) rebuilt();
+    if (design.opened !== drive) { drive = design.opened; body.scrollTop = 0; }
   }
 
   /** Shows only what matches all the words. */
@@ -102,6 +109,7 @@ export function createFields(body, {store, say, t}, rebuilt) {
     const words = query.toLowerCase().split(/\s+/).filter(Boolean), hit = text => words.every(word => text.toLowerCase().includes(word));
     const titles = groups.shown(), miss = (root, missed) => { root.classList.toggle("st-miss", missed); return !missed; };
     let found = 0;
+    if (words.length) body.scrollTop = 0;
     body.classList.toggle("st-searching", words.length > 0);
     for (const {field, root} of rows.values()) {
       const title = titles.get(root.closest(".st-group")?.dataset.key ?? "") || "";
@@ -120,6 +128,7 @@ export function createFields(body, {store, say, t}, rebuilt) {
     row.root.scrollIntoView({block: "center", behavior: "smooth"});
     row.root.querySelector(BOXES)?.focus({preventScroll: true});
   }
+  const unlisted = store.on(["parts"], () => rows.forEach(row => row.relist?.()));
   const known = key => rows.has(key) || Boolean(rows.get(key.replace(/\.\d+$/, ""))?.rows);
-  return {show, restart() { forget(); show(); }, search, focus, known, destroy: stop};
+  return {show, restart() { forget(); show(); }, search, focus, known, destroy() { stop(); unlisted(); }};
 }

@@ -135,7 +135,7 @@ function best(answer, {say, t, store}) {
   const unknowns = answer.unknowns.map(one => line(t(one.label), one.best, `${one.key}: ${one.lower} … ${one.upper}`));
   const found = folded(t("Unknowns"), answer.unknowns.length, ...unknowns, ...answer.findings.map(text => element("p", {class: "pn-note"}, t(text))));
   const load = button(t("Load best"), () => say({what: "load", changes: answer.changes}), {testid: "load-best", look: "main"});
-  const front = answer.front.rows.length > 1 ? [button(t("Show the trade-off"), () => store.set({view: "study"}))] : [];
+  const front = answer.tried ? [button(t("Show the trade-off"), () => store.set({view: "study"}))] : [];
   const kept = met.length ? [folded(t("Requirements met"), met.length, ...needs(met))] : [];
   return [head, element("p", {class: "pn-note"}, t(answer.message)), element("div", {class: "pn-row"}, load, ...front), ...goals, ...needs(unmet), ...kept, found];
 }
@@ -145,25 +145,28 @@ export function createOptimise(host, tools) {
   const setup = createSetup("optimise", t("Set up"), tools, createSearchForm);
   const done = answer => [...best(answer, tools), ...(answer.history.length > 1 ? [historyPlot(answer.history, answer.objective, t)] : [])];
   return [...createJob(host, "optimise", t("Optimise"), meaning, tools, (answer, job) => answer.changes ? done(answer) : soFar(answer, job, tools),
-    () => ({theme: themeOf(store.state)}), setup), opening("optimise", tools, answer => answer?.front?.rows.length > 1 && answer.objectives.length > 1)];
+    () => ({theme: themeOf(store.state)}), setup), opening("optimise", tools, answer => answer.tried?.rows.length > 1)];
 }
 
 // --------------------------------------------------------------------------------------------------------------------- study
 
-/** An answer that comes while one waits for it is shown in the centre, where there is something to see. */
+/** What comes while one waits for it is shown in the centre, once a run and as soon as there is something to see. */
 function opening(name, {store}, worth) {
-  let before = null;
+  let before = null, opened = false;
   return store.on(["jobs"], ({jobs}) => {
-    const job = jobs?.[name], came = before === "running" && job?.state === "done" && worth(job.answer);
+    const job = jobs?.[name], running = job?.state === "running";
+    if (running && before !== "running") opened = false;
+    const came = !opened && (running || before === "running" && job?.state === "done") && job.answer && worth(job.answer);
     before = job?.state;
-    if (came) store.set({view: "study"});
+    if (came) { opened = true; store.set({view: "study"}); }
   });
 }
 
 export function createStudy(host, tools) {
   const {store, t} = tools, setup = createSetup("study", t("Set up"), tools, createStudyForm);
+  const words = answer => answer.failed === undefined ? t("* of * designs", answer.rows.length, answer.total) : t("* designs computed, * failed", answer.total, answer.failed);
   const shown = (answer, job) => job.state === "running" ? [] :
-    [about(t("* designs computed, * failed", answer.total, answer.failed)), button(t("Show the study"), () => store.set({view: "study"}))];
+    [about(words(answer)), button(t("Show the study"), () => store.set({view: "study"}))];
   const meaning = t("Computes many cases of the design: sweeps over levels, tolerances, samples.");
-  return [...createJob(host, "study", t("Run study"), meaning, tools, shown, () => ({theme: themeOf(store.state)}), setup), opening("study", tools, () => true)];
+  return [...createJob(host, "study", t("Run study"), meaning, tools, shown, () => ({theme: themeOf(store.state)}), setup), opening("study", tools, answer => answer.rows.length > 1)];
 }

@@ -74,7 +74,7 @@ export function createPopovers() {
     open = null;
   }
   function walk(event) {
-    const items = [...open.panel.querySelectorAll("button, input")], at = items.indexOf(document.activeElement);
+    const items = [...open.panel.querySelectorAll("button, input")].filter(item => item.checkVisibility()), at = items.indexOf(document.activeElement);
     const to = {ArrowDown: at + 1, ArrowUp: at < 0 ? -1 : at - 1, Home: 0, End: -1}[event.key];
     if (to === undefined || document.activeElement?.matches("input") && event.key !== "ArrowDown" && event.key !== "ArrowUp") return;
     event.preventDefault();

@@ -4,6 +4,7 @@ import { figure, powered, supported, unitText } from "./numbers.js";
 import { button } from "./parts.js";
 import { element, fitCanvas, fixed, watchTheme } from "./player.js";
 import { ticks } from "./plotting.js";
+import { rangeOf, reachOf, sameRow, stretched } from "./scatter_rows.js";
 import { circle, cross, rule, shade, shortened } from "./strokes.js";
 
 const MARGIN = {left: 66, right: 18, top: 14, bottom: 46};
@@ -21,15 +22,6 @@ const axisText = (column, t) => t(column.label) + (column.unit && column.unit !=
 function prepare(answer) {
   const numeric = answer.columns.map((_, n) => answer.rows.some(row => Number.isFinite(row[n])));
   return {...answer, ends: answer.ends || {}, fronts: answer.fronts || [], feasible: answer.passes, numeric};
-}
-
-/** Least and greatest finite value of a column, a little wider; never empty. */
-function rangeOf(rows, n, wider = 0.04) {
-  let low = Infinity, high = -Infinity;
-  for (const row of rows) if (Number.isFinite(row[n])) { if (row[n] < low) low = row[n]; if (row[n] > high) high = row[n]; }
-  if (!(high >= low)) return [0, 1];
-  const edge = (high - low) * wider || Math.abs(high) * 0.05 || 1;
-  return [low - edge * (wider > 0), high + edge * (wider > 0)];
 }
 
 /** The scatter inside `host`; load(answer), destroy().  `now()` gives {name of a column: its number} of the current design. */
@@ -51,6 +43,10 @@ export function createScatter(host, {say, t, now = () => ({})}) {
   const toX = value => MARGIN.left + (value - state.ranges.x[0]) / (state.ranges.x[1] - state.ranges.x[0]) * inner().w;
   const toY = value => MARGIN.top + (state.ranges.y[1] - value) / (state.ranges.y[1] - state.ranges.y[0]) * inner().h;
   const place = row => [toX(row[state.x]), toY(row[state.y])];
+  const within = (value, [low, high]) => value >= low && value <= high;
+  /** Whether a row has both numbers, and whether these lie within the axes. */
+  const placed = row => Number.isFinite(row[state.x]) && Number.isFinite(row[state.y]);
+  const inView = row => within(row[state.x], state.ranges.x) && within(row[state.y], state.ranges.y);
   const front = () => {
     const {fronts, columns} = state.study, pair = [columns[state.x].name, columns[state.y].name];
     return fronts.find(front => pair.every(name => front.objectives.some(goal => goal.name === name))) || fronts[0];
@@ -118,8 +114,8 @@ export function createScatter(host, {say, t, now = () => ({})}) {
     for (const {colour, feasible, rows} of groups(colours)) {
       context.beginPath();
       for (const row of rows) {
+        if (!inView(row)) continue;
         const [x, y] = place(row);
-        if (!Number.isFinite(x + y)) continue;
         if (feasible) { context.moveTo(x + radius, y); context.arc(x, y, radius, 0, 2 * Math.PI); }
         else for (const way of [1, -1]) { context.moveTo(x - arm, y - way * arm); context.lineTo(x + arm, y + way * arm); }
       }
@@ -182,6 +178,8 @@ export function createScatter(host, {say, t, now = () => ({})}) {
     if (front()) parts.push(entry("front", t("Pareto front")));
     const current = now();
     if ([state.x, state.y].every(n => Number.isFinite(current[study.columns[n].name]))) parts.push(entry("now", t("this design")));
+    const beyond = study.rows.filter(row => placed(row) && !inView(row)).length;
+    if (beyond) parts.push(element("span", {class: "sc-beyond"}, t("* lie beyond the axes", beyond)));
     if (column) {
       const [low, high] = state.ranges.colour, band = element("i", {style: `background: linear-gradient(90deg, ${scaleNow().join(", ")})`});
       parts.push(element("span", {class: "sc-key is-scale"}, `${shown(low)} `, band, ` ${shown(high)}${unitText(column.unit)}`));
@@ -212,6 +210,7 @@ export function createScatter(host, {say, t, now = () => ({})}) {
     let found = -1, least = NEAR * NEAR;
     const preferred = new Set(front()?.rows || []);
     state.study.rows.forEach((row, n) => {
+      if (!inView(row)) return;
       const [px, py] = place(row), d = (px - x) ** 2 + (py - y) ** 2 - (preferred.has(n) ? 16 : 0);
       if (d < least) { least = d; found = n; }
     });
@@ -248,9 +247,15 @@ export function createScatter(host, {say, t, now = () => ({})}) {
 
   function choose() {
     [state.x, state.y, state.colour] = selects.map(select => +select.value);
-    const {rows} = state.study, colour = state.colour >= 0 ? rangeOf(rows, state.colour, 0) : [0, 1];
-    state.ranges = {x: rangeOf(rows, state.x), y: rangeOf(rows, state.y), colour};
+    measure();
     keyOf(); draw(); mark();
+  }
+  /** The axes reach over the points and the current design; whether that is another stretch than before. */
+  function measure() {
+    const {rows, columns, feasible} = state.study, current = now(), before = state.ranges;
+    const reach = n => stretched(columns[n].role === "key" ? rangeOf(rows, n) : reachOf(rows, feasible, n), current[columns[n].name]);
+    state.ranges = {x: reach(state.x), y: reach(state.y), colour: state.colour >= 0 ? rangeOf(rows, state.colour, 0) : [0, 1]};
+    return JSON.stringify(before) !== JSON.stringify(state.ranges);
   }
   selects.forEach(select => select.addEventListener("change", choose));
 
@@ -273,14 +278,14 @@ export function createScatter(host, {say, t, now = () => ({})}) {
       const first = !before?.fronts.length && answer.fronts?.length || !valued;
       const names = [state.x, state.y, state.colour].map(n => before && !first ? before.columns[n]?.name : undefined);
       state.study = prepare(answer);
-      state.hover = state.chosen = -1;
+      state.hover = sameRow(before, state.hover, answer); state.chosen = sameRow(before, state.chosen, answer);
       begin(names);
       const met = state.study.feasible.filter(Boolean).length;
       const failed = answer.failed ? [t("* failed", answer.failed)] : [];
       counts.textContent = [t("* of * designs", answer.rows.length, answer.total), t("* feasible", met), ...failed].join(" · ");
       choose(); table();
     },
-    mark() { if (state.study) { keyOf(); mark(); } },
+    mark() { if (state.study) { if (measure()) draw(); keyOf(); mark(); } },
     destroy() { surface.stop(); upper.stop(); theme.stop(); host.replaceChildren(); },
   };
 }

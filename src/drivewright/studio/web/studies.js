@@ -19,13 +19,10 @@ function standing({design, result}, columns) {
 
 const offs = new WeakMap();
 
-/** Designs of an optimisation that no other beats, as a study has them; null with a single objective. */
+/** The designs that a search with several objectives has tried, as a study has them; null with a single objective. */
 function tradeOff(answer) {
-  if (!answer?.front || answer.objectives.length < 2) return null;
-  if (!offs.has(answer)) {
-    const {rows} = answer.front, passes = rows.map(() => answer.feasible), fronts = [{objectives: answer.objectives, rows: rows.map((_, n) => n)}];
-    offs.set(answer, {...answer.front, passes, figures: answer.figures, failed: 0, total: rows.length, fronts});
-  }
+  if (!answer?.tried) return null;
+  if (!offs.has(answer)) offs.set(answer, {...answer.tried, figures: answer.figures, failed: 0});
   return offs.get(answer);
 }
 

@@ -74,11 +74,11 @@ export function createStudyForm(tools, closed) {
     tolerance: t("tolerance study"), "sobol-indices": t("Sobol indices")};
   const method = choice(METHODS.map(name => [name, words[name]]), METHODS[0], t("Method"), "study-method", changed);
   const samples = box(String(SAMPLES), t("Sample size"), "study-samples", {inputmode: "numeric"}), estimate = element("p", {class: "pn-about", "data-testid": "study-estimate", role: "status"});
-  const sampling = element("div", {class: "sf-part"}, element("label", {class: "sf-pair"}, t("Method"), method), element("label", {class: "sf-pair"}, t("Sample size"), samples));
+  const sampling = element("div", {class: "sf-part"}, element("h4", {}, t("Cases")), element("label", {class: "sf-pair"}, t("Method"), method), element("label", {class: "sf-pair"}, t("Sample size"), samples));
   const wrong = element("p", {class: "pn-note pn-bad", role: "alert", "data-testid": "study-refused", hidden: ""});
   const start = button(t("Start"), begin, {testid: "study-start", look: "main"}), away = button(t("Close"), closed, {testid: "study-close", look: "quiet"});
   const node = element("div", {class: "sf", role: "group", "aria-label": t("Set up the study"), "data-testid": "study-form"},
-    part(t("What varies"), keys.node), part(t("Cases"), sampling, kept.node),
+    part(t("What varies"), keys.node), sampling, kept.node,
     element("div", {class: "sf-foot"}, wrong, estimate, element("div", {class: "pn-row"}, start, away)));
   let ready = false;
 

@@ -49,13 +49,12 @@ function createMotion(host, tools) {
   }
   function remark(scene) {
     const missing = scene && !scene.scene, words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? scene.remarks : [];
-    const said = words.some(text => text.startsWith("no motion to show"));
-    const head = missing && !said ? [element("b", {}, t("There is no motion to show"))] : [];
+    const head = missing ? [element("b", {}, t("There is no motion to show"))] : [];
     const back = missing && store.state.design?.undo ? [button(t("Undo"), () => store.state.design.undo && say({what: "undo"}), {testid: "note-undo"})] : [];
     stage.hidden = !player;
     stage.classList.toggle("is-old", Boolean(player) && !scene?.scene);
     note.hidden = Boolean(scene?.scene);
-    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text))), ...back);
+    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text.replace(/^no motion to show: /, "")))), ...back);
   }
   function update({scene}) {
     if (scene?.scene && scene !== shown) load(scene);
