@@ -38,6 +38,7 @@ MODULES = (
     "panel.js",
     "plots.js",
 )  # each behind those that it imports
+SOLID_MODULES = ("assembly.js", "cube.js", "pacing.js", "shaders.js", "triangles.js", "solid.js")  # behind those, for solids that move
 
 
 def write_report(
