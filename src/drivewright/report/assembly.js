@@ -11,9 +11,9 @@ function integers(text, count) {
 }
 
 /** Parts of an answer of the job "solid" as the renderer takes them. */
-export const unpackParts = parts => parts.map(({name, colour, positions, normals, corners, edges, motion}) => {
+export const unpackParts = parts => parts.map(({name, label, colour, positions, normals, corners, edges, motion}) => {
   const points = floats(positions), count = points.length / 3;
-  return {name, colour, motion, points, normals: floats(normals), corners: integers(corners, count), edges: integers(edges, count)};
+  return {name, label, colour, motion, points, normals: floats(normals), corners: integers(corners, count), edges: integers(edges, count)};
 });
 
 /** Displacements of an answer of the job "solid": {u, motions} as arrays, null where nothing moves. */

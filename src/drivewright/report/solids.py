@@ -2,11 +2,12 @@
 
 import base64
 from collections.abc import Callable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from drivewright._typing import Floats, Ints
+from drivewright.errors import counted
 from drivewright.report.pack import floats
 from drivewright.scene import Part, Scene
 from drivewright.solids import facets
@@ -14,27 +15,56 @@ from drivewright.solids.shading import surface_shape
 from drivewright.view.motion import fractions
 
 TOLERANCE = 3e-5  # m: chords stay about so near to a round surface
+MOST_TRIANGLES = 120_000  # of a report: about 5 MB of text
 MOST_SHORT = 65536  # points that two bytes number
 
 
-def pack_solids(parts: Sequence[Part], scene: Scene | None, progress: Callable[[int, int, str], object] | None = None) -> dict[str, Any]:
-    """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "motion", ...`shaded`}], "motions", "u"}.
+class SolidSurface(NamedTuple):
+    """A part as triangles at its start position: points (n, 3) [m], corners (m, 3) counter-clockwise from outside; it moves with `body`."""
 
-    motions: base64 of (frames, 3) displacements (x, y, angle) from the start position about the z axis, at the phases `u` of the cycle;
-    `motion` of a part is the number of its own, -1 where it stands still.  MissingExtra where a part needs the CAD kernel.
+    name: str
+    colour: str
+    body: str
+    points: Floats
+    corners: Ints
+
+
+def solid_surfaces(
+    parts: Sequence[Part], progress: Callable[[int, int, str], object] | None = None, most: int | None = None
+) -> tuple[SolidSurface, ...]:
+    """The surfaces of parts, chords within about `TOLERANCE` of round ones.
+
+    MissingExtra where a part needs the CAD kernel, InputError where there are more than `most` triangles.
     """
-    packed, ends = [], []
-    moving = displacements(scene) if scene else {}
-    motions: dict[str, int] = {}
+    made: list[SolidSurface] = []
     for number, part in enumerate(parts):
         if progress:
             progress(number, len(parts), part.name)
-        points, corners = facets.viewed_triangles(part, TOLERANCE)
-        ends += [points.min(axis=0), points.max(axis=0)]
-        moved = moving.get(part.body or part.name)
+        made.append(SolidSurface(part.name, part.colour, part.body or part.name, *facets.viewed_triangles(part, TOLERANCE)))
+        if most is not None:
+            counted(
+                sum(len(each.corners) for each in made),
+                most,
+                "triangles of the solids of a report",
+                "export STEP or STL, which hold them all",
+            )
+    return tuple(made)
+
+
+def pack_solids(surfaces: Sequence[SolidSurface], scene: Scene | None) -> dict[str, Any]:
+    """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "motion", ...`shaded`}], "motions", "u"}.
+
+    motions: base64 of (frames, 3) displacements (x, y, angle) from the start position about the z axis, at the phases `u` of the cycle;
+    `motion` of a part is the number of its own, -1 where it stands still.
+    """
+    packed = []
+    moving = displacements(scene) if scene else {}
+    motions: dict[str, int] = {}
+    for name, colour, body, points, corners in surfaces:
+        moved = moving.get(body)
         motion = motions.setdefault(moved, len(motions)) if moved else -1
-        packed.append({"name": part.name, "colour": part.colour, "triangles": len(corners), "motion": motion, **shaded(points, corners)})
-    low, high = np.min(ends, axis=0), np.max(ends, axis=0)
+        packed.append({"name": name, "colour": colour, "triangles": len(corners), "motion": motion, **shaded(points, corners)})
+    low, high = (end([end(each.points, axis=0) for each in surfaces], axis=0) for end in (np.min, np.max))
     cycle = {"motions": list(motions), "u": floats(fractions(scene.cycle)) if scene else ""}
     size = float(np.linalg.norm(high - low))
     return {"unit": "m", "size": size, "low": low.tolist(), "high": high.tolist(), "parts": packed, **cycle}

@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 PLAYER = HERE.parent / "report"
-SHARED = (*MODULES, *SOLID_MODULES, "player.css")  # with the report
+SHARED = (*MODULES, *SOLID_MODULES, "player.css", "solid.css")  # with the report
 TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".webp": "image/webp"}
 SAFE = {"X-Content-Type-Options": "nosniff", "Cache-Control": "no-cache"}
 PORT = 8123

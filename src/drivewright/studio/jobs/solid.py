@@ -4,7 +4,7 @@ from typing import Any
 
 from drivewright import registry, runner
 from drivewright.errors import InputError
-from drivewright.report.solids import pack_solids
+from drivewright.report.solids import pack_solids, solid_surfaces
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.progress import Progress
 
@@ -22,4 +22,4 @@ def solid(design: Design, progress: Progress) -> dict[str, Any]:
         raise InputError(f"{mechanism.kind} has no solids to show")
     scene = mechanism.scene(model) if mechanism.scene else None
     analyses = [{"name": a.name, "meaning": a.meaning, "missing": a.missing(spec)} for a in mechanism.analyses if a.fields]
-    return {**pack_solids(parts, scene, progress), "analyses": analyses}
+    return {**pack_solids(solid_surfaces(parts, progress), scene), "analyses": analyses}
