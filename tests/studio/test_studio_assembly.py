@@ -8,11 +8,12 @@ import pytest
 from places import EXAMPLES
 
 from drivewright import registry, runner
+from drivewright.report.solids import displacements
 from drivewright.scene import Body, Frame, Scene, Shape, circle, place
 from drivewright.solids import facets
 from drivewright.spec import load
 from drivewright.studio.design import Design
-from drivewright.studio.jobs.solid import displacements, solid
+from drivewright.studio.jobs.solid import solid
 
 pytestmark = [pytest.mark.needs_studio, pytest.mark.property]
 MOVING = {  # example: parts that stand still

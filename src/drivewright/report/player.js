@@ -10,7 +10,7 @@ import { MOST, TEXT, button, exaggerator, icon, magnifiedBy, pace, press, scrubb
 import { createPainter, createView, steer } from "./drawing.js";
 import { STILL, boxOf, poseAt, poseOf, seenFrom, unpack } from "./scene.js";
 
-export { createClock, element, fitCanvas, fixed, floats, nice, watchTheme } from "./clock.js";
+export { createClock, element, fitCanvas, fixed, floats, locate, nice, pressable, same, watchTheme } from "./clock.js";
 
 /**
  * A player inside `host`.  Options: clock (shared with plots; it outlives the player), autoplay, duration [s per cycle at speed 1],

@@ -7,6 +7,7 @@ import numpy as np
 from drivewright._typing import Floats, Ints
 from drivewright.scene import Bar, Part, Prism, Turned, circle, place
 from drivewright.solids import cad, outlines, turning
+from drivewright.solids.stacked import stacked_triangles
 
 if TYPE_CHECKING:
     import shapely
@@ -18,6 +19,15 @@ def surface_triangles(part: Part, tolerance: float = 1e-5) -> tuple[Floats, Ints
         return cad.cad_triangles(part, tolerance)
     (solid,) = part.solids
     points, corners = MAKERS[type(solid)](solid, f"part {part.name!r}", tolerance)
+    return np.column_stack([place(points[:, :2], part.pose), points[:, 2]]), corners
+
+
+def viewed_triangles(part: Part, tolerance: float) -> tuple[Floats, Ints]:
+    """The same for a picture: prisms that are fused need no CAD kernel, and no more points than `tolerance` [m] needs."""
+    prisms = [solid for solid in part.solids if isinstance(solid, Prism)]
+    if not prisms or len(prisms) < len(part.solids):
+        return surface_triangles(part, tolerance)
+    points, corners = stacked_triangles(prisms, f"part {part.name!r}", tolerance)
     return np.column_stack([place(points[:, :2], part.pose), points[:, 2]]), corners
 
 

@@ -1,9 +1,9 @@
 // A small viewer of solids: triangles with normals, feature edges, orbit, pan and zoom.  Nothing is drawn while nothing changes.
 
-import { matrixOf, displacementAt, pullsOf, reachOf, unpackMotion } from "./assembly.js";
+import { displacementAt, matrixOf, pullsOf, reachOf, unpackMotion, unpackParts } from "./assembly.js";
 import { createCube } from "./cube.js";
-import { pressable, same } from "./parts.js";
-import { element, fixed, floats, nice, watchTheme } from "./player.js";
+import { element, fixed, nice, pressable, same, watchTheme } from "./clock.js";
+import { createPacing } from "./pacing.js";
 import { createRenderer } from "./triangles.js";
 
 const VIEWS = {iso: [0.62, 0.5], front: [0, 0], top: [0, Math.PI / 2], side: [Math.PI / 2, 0], back: [Math.PI, 0], bottom: [0, -Math.PI / 2],
@@ -42,7 +42,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   const view = {turn: VIEWS.iso[0], tilt: VIEWS.iso[1], scale: 1, fitted: true, shift: [-aside / 2, 0], width: 0, height: 0, ratio: 1};
   const look = {hidden: new Set(), lit: new Set(), section: null};  // names of parts; section: [axis, part of the way along it]
   const state = {parts: [], whole: {low: [0, 0, 0], high: [1, 1, 1], centre: [0, 0, 0], size: 1}, frame: 0, moving: null, phase: 0, pulls: [], apart: 0, drawn: 0};
-  const renderer = createRenderer(canvas), theme = watchTheme(host, () => redraw());
+  const renderer = createRenderer(canvas), theme = watchTheme(host, () => redraw()), pacing = createPacing(() => redraw());
   host.classList.add("so");
   if (!renderer) {
     const words = t("This browser has no WebGL, so solids cannot be shown. STEP and STL can still be exported.");
@@ -78,7 +78,9 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
     renderer.move(places());
     state.drawn++;
     host.dataset.drawn = state.drawn;
-    renderer.paint(placing(axes), theme.colours, {hidden: look.hidden, faint: faintness(), cut: cutPlane()});
+    const smooth = pacing.smooth(performance.now());
+    host.dataset.smooth = smooth;
+    renderer.paint(placing(axes), theme.colours, {hidden: look.hidden, faint: faintness(), cut: cutPlane(), smooth});
     annotate(axes, view.scale);
   }
   /** Where each part stands at the phase, pulled out as far as wanted. */
@@ -222,8 +224,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   return {
     load({parts, ...answer}) {
       state.moving = unpackMotion(answer);
-      show(parts.map(({name, colour, positions, normals, edges, motion}) => ({name, colour, motion,
-        points: floats(positions), normals: floats(normals), edges: floats(edges)})));
+      show(unpackParts(parts));
     },
     show,
     get moving() { return Boolean(state.moving); },
@@ -234,6 +235,6 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
     cut(section) { look.section = section; redraw(); },
     setRamp(stops, bare) { renderer.setRamp(stops, bare); redraw(); },
     highlight(list) { look.lit = new Set(list.map(plain)); redraw(); },
-    destroy() { observer.disconnect(); theme.stop(); cancelAnimationFrame(state.frame); renderer.close(); host.replaceChildren(); },
+    destroy() { observer.disconnect(); theme.stop(); pacing.stop(); cancelAnimationFrame(state.frame); renderer.close(); host.replaceChildren(); },
   };
 }

@@ -1,6 +1,6 @@
 // A small cube that turns with the view of the solids; a press on a face looks at the assembly from there.
 
-import { element } from "./player.js";
+import { element } from "./clock.js";
 
 const HALF = 27;  // px: half of an edge
 // Of each face its name, and how it is turned from the one in front.

@@ -1,0 +1,112 @@
+"""An assembly as triangles for a viewer, and how its parts move: flat arrays for the graphics card, as base64 text."""
+
+import base64
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from drivewright._typing import Floats, Ints
+from drivewright.errors import counted
+from drivewright.report.pack import floats
+from drivewright.scene import Part, Scene
+from drivewright.solids import facets
+from drivewright.solids.shading import surface_shape
+from drivewright.view.motion import fractions
+
+TOLERANCE = 3e-5  # m: chords stay about so near to a round surface
+MOST_TRIANGLES = 120_000  # of a report: about 5 MB of text
+MOST_SHORT = 65536  # points that two bytes number
+
+
+class SolidSurface(NamedTuple):
+    """A part as triangles at its start position: points (n, 3) [m], corners (m, 3) counter-clockwise from outside; it moves with `body`."""
+
+    name: str
+    colour: str
+    body: str
+    points: Floats
+    corners: Ints
+
+
+def solid_surfaces(
+    parts: Sequence[Part], progress: Callable[[int, int, str], object] | None = None, most: int | None = None
+) -> tuple[SolidSurface, ...]:
+    """The surfaces of parts, chords within about `TOLERANCE` of round ones.
+
+    MissingExtra where a part needs the CAD kernel, InputError where there are more than `most` triangles.
+    """
+    made: list[SolidSurface] = []
+    for number, part in enumerate(parts):
+        if progress:
+            progress(number, len(parts), part.name)
+        made.append(SolidSurface(part.name, part.colour, part.body or part.name, *facets.viewed_triangles(part, TOLERANCE)))
+        if most is not None:
+            counted(
+                sum(len(each.corners) for each in made),
+                most,
+                "triangles of the solids of a report",
+                "export STEP or STL, which hold them all",
+            )
+    return tuple(made)
+
+
+def pack_solids(surfaces: Sequence[SolidSurface], scene: Scene | None) -> dict[str, Any]:
+    """{"unit": "m", "size", "low", "high", "parts": [{"name", "colour", "triangles", "motion", ...`shaded`}], "motions", "u"}.
+
+    motions: base64 of (frames, 3) displacements (x, y, angle) from the start position about the z axis, at the phases `u` of the cycle;
+    `motion` of a part is the number of its own, -1 where it stands still.
+    """
+    packed = []
+    moving = displacements(scene) if scene else {}
+    motions: dict[str, int] = {}
+    for name, colour, body, points, corners in surfaces:
+        moved = moving.get(body)
+        motion = motions.setdefault(moved, len(motions)) if moved else -1
+        packed.append({"name": name, "colour": colour, "triangles": len(corners), "motion": motion, **shaded(points, corners)})
+    low, high = (end([end(each.points, axis=0) for each in surfaces], axis=0) for end in (np.min, np.max))
+    cycle = {"motions": list(motions), "u": floats(fractions(scene.cycle)) if scene else ""}
+    size = float(np.linalg.norm(high - low))
+    return {"unit": "m", "size": size, "low": low.tolist(), "high": high.tolist(), "parts": packed, **cycle}
+
+
+def displacements(scene: Scene) -> dict[str, str]:
+    """{body: its displacements (frames, 3) from the first frame as text} of the bodies that move, without play that is drawn enlarged.
+
+    A point p of the start position is at  (x, y) + R(angle) p.
+    """
+    packed = {}
+    for body in scene.bodies:
+        poses = np.asarray(body.poses if body.rest is None else body.rest, float)
+        angle = np.unwrap(poses[:, 2]) - poses[0, 2]
+        (x, y), c, s = poses[0, :2], np.cos(angle), np.sin(angle)
+        moved = np.column_stack([poses[:, 0] - (c * x - s * y), poses[:, 1] - (s * x + c * y), angle])
+        if np.any(np.ptp(moved, axis=0) > 0):
+            packed[body.name] = floats(moved)
+    return packed
+
+
+def shaded(points: Floats, corners: Ints) -> dict[str, Any]:
+    """{"positions", "normals", "corners", "edges"} of a closed surface: points (n, 3), corners (m, 3).
+
+    positions and normals: base64 of float32 x, y, z, every different pair once; corners: three numbers of such pairs a triangle,
+    counter-clockwise from outside; edges: two of them each, numbers as `numbered`.
+    """
+    shape = surface_shape(points, corners)
+    rows = np.column_stack([points[shape.corners.ravel()], shape.normals.reshape(-1, 3)]).astype("<f4")
+    vertices, numbers = np.unique(rows + np.float32(0.0), axis=0, return_inverse=True)  # + 0: a normal -0 is 0
+    numbers = np.ravel(numbers)
+    of_point = np.zeros(len(points), int)
+    of_point[shape.corners.ravel()] = numbers
+    count = len(vertices)
+    return {
+        "positions": floats(vertices[:, :3]),
+        "normals": floats(vertices[:, 3:]),
+        "corners": numbered(numbers, count),
+        "edges": numbered(of_point[shape.edges], count),
+    }
+
+
+def numbered(values: Ints, count: int) -> str:
+    """base64 of whole numbers below `count`: as uint16 where all below have room there, else as uint32."""
+    return base64.b64encode(np.ascontiguousarray(values, "<u2" if count <= MOST_SHORT else "<u4").tobytes()).decode()

@@ -1,0 +1,72 @@
+"""Solids in a report in a real browser: they move with the report's clock, turn, are cut and pulled apart; paper gets a picture."""
+
+import pytest
+from browsing import until
+from sample_designs import all_views, four_bar_result
+from sample_solids import SOLIDS
+
+pytestmark = [pytest.mark.browser, pytest.mark.needs_browser]
+STAGE = "document.querySelector('#solids-view .so-stage')"
+INK = """() => {
+  const c = document.querySelector('.so-canvas'), slider = document.querySelector('[data-testid=solid-explode]');
+  const copy = document.createElement('canvas');
+  const frame = () => new Promise(requestAnimationFrame);
+  Object.assign(copy, {width: c.width, height: c.height});
+  return (async () => {
+    for (let n = 0; n < 3; n++) { slider.dispatchEvent(new Event('input')); await frame(); }
+    const g = copy.getContext('2d');
+    g.drawImage(c, 0, 0);
+    const d = g.getImageData(0, 0, c.width, c.height).data;
+    let count = 0, x = 0;
+    for (let i = 0; i < d.length; i += 4) {
+      if ([0, 1, 2].reduce((sum, k) => sum + Math.abs(d[i + k] - d[k]), 0) > 40) { count++; x += i / 4 % c.width; }
+    }
+    return [count, x / count];
+  })();
+}"""
+
+
+@pytest.fixture(scope="module")
+def address(tmp_path_factory):
+    from drivewright.report.content import Views, pictures
+    from drivewright.report.html import write_report
+
+    result, seen = four_bar_result(), all_views()._replace(solids=SOLIDS)
+    return write_report(result, seen, tmp_path_factory.mktemp("solids"), pictures(result, Views(solids=SOLIDS))).as_uri()
+
+
+def test_solids_move_with_the_clock_of_the_report(open_page, address):
+    page = open_page(address)
+    if not page.evaluate("Boolean(document.createElement('canvas').getContext('webgl2'))"):
+        pytest.skip("this browser has no WebGL 2")
+    page.evaluate("document.querySelector('#solids').scrollIntoView()")
+    until(page, f"Number({STAGE}.dataset.drawn) > 2")
+    page.evaluate("drivewright.clock.pause(); drivewright.clock.set(0)")
+    count, left = page.evaluate(INK)
+    page.evaluate("drivewright.clock.set(0.5)")  # the crank points the other way
+    moved, there = page.evaluate(INK)
+    assert count > 1000 and moved > 1000 and there < left - 5
+    assert page.get_by_test_id("solid-scrub").input_value() == "0.5"
+    page.get_by_test_id("solid-cut").select_option("2")
+    assert page.get_by_test_id("solid-cut-depth").is_visible()
+    cut, _ = page.evaluate(INK)
+    assert 0 < cut < moved
+    page.locator(".so-legend .dw-chip", has_text="crank").click()
+    assert page.evaluate(INK)[0] < cut
+
+
+def test_paper_gets_the_picture_and_not_the_viewer(open_page, address):
+    page = open_page(address)
+    image = page.locator("#figures img[alt='Solids of the assembly']")
+    page.emulate_media(media="print")
+    assert not page.locator("#solids-view").is_visible()
+    page.locator("#figures").evaluate("details => { details.open = true; }")
+    assert image.is_visible() and image.evaluate("image => image.naturalWidth") > 200
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_ground_is_that_of_the_theme(open_page, address, theme):
+    page = open_page(address, color_scheme=theme)
+    page.evaluate("document.querySelector('#solids').scrollIntoView()")
+    canvas = page.evaluate("getComputedStyle(document.querySelector('#solids-view .so-stage')).backgroundColor")
+    assert (sum(map(int, canvas.strip("rgba()").split(",")[:3])) > 380) == (theme == "light")
