@@ -150,6 +150,12 @@
     return [...wrong];
   }
 
+  /** Colours of the page in pairs, [what is seen, upon what, least contrast], that do not stand out: what is drawn on a canvas and not written. */
+  function colours(pairs) {
+    const style = getComputedStyle(document.querySelector('.st')), of = name => { const told = style.getPropertyValue(`--${name}`).trim(); if (!told) throw new Error(`no colour ${name}`); return rgba(told); };
+    return pairs.map(([front, back, least]) => [front, back, least, ratio(of(front), of(back))]).filter(([, , least, got]) => got < least).map(([front, back, least, got]) => `${front} on ${back} ${got.toFixed(2)} < ${least}`);
+  }
+
   /** English words where the page is Chinese: texts and names without a Chinese letter. */
   function english(scope) {
     const wrong = new Set(), isPlain = text => /[A-Za-z]{3,}/.test(text) && !/[\u4e00-\u9fff]/.test(text);
@@ -173,5 +179,5 @@
     }
     return wrong;
   }
-  return {controls, panels, cut, contrast, english, nameless};
+  return {controls, panels, cut, contrast, colours, english, nameless};
 })()
