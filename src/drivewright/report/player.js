@@ -24,7 +24,7 @@ export { createClock, element, fitCanvas, fixed, floats, locate, nice, pressable
 export function createPlayer(host, packed, options = {}) {
   const clock = options.clock || createClock({duration: options.duration || 4}), text = options.text || (english => english);
   const canvas = element("canvas", {class: "dw-canvas", tabindex: 0, role: "img"});
-  const legend = element("div", {class: "dw-legend"}), top = element("div", {class: "dw-top"}), bar = element("div", {class: "dw-bar"});
+  const legend = element("div", {class: "dw-legend", role: "group"}), top = element("div", {class: "dw-top"}), bar = element("div", {class: "dw-bar"});
   const stage = element("div", {class: "dw-stage", "data-testid": "player"}, canvas, top);
   const view = createView(), switches = {ghosts: false, traces: true, hidden: new Set(), lit: new Set(), scale: 1};
   const state = {scene: null, painter: null, observer: null, reference: null, fitted: true, pending: 0, visible: true, controls: {}};
@@ -127,7 +127,7 @@ export function createPlayer(host, packed, options = {}) {
     const scrub = scrubber(clock, cycle, text), speed = speedBox(clock, text), exaggeration = exaggerator(most, text, setExaggeration);
     const frames = segments(text(TEXT.frame), observers.map(o => [o.name, text(o.label)]), setFrame), chips = names();
     const value = element("span", {class: "dw-value", title: text(cycle.label)}), phase = element("span", {class: "dw-phase"}), rate = element("span", {class: "dw-rate"});
-    canvas.setAttribute("aria-label", text(TEXT.canvas));
+    canvas.setAttribute("aria-label", text(TEXT.canvas)); legend.setAttribute("aria-label", text(TEXT.shown));
     press(ghosts, switches.ghosts); press(traces, switches.traces);
     legend.replaceChildren(...chips.values());
     top.replaceChildren(legend, ...(observers.length > 1 ? [frames.node] : []));

@@ -3,6 +3,7 @@
 import { pressable } from "./parts.js";
 import { element, nice } from "./player.js";
 import { onGrid } from "./snapping.js";
+import { refusedText } from "./words.js";
 
 const NEAR = 9, FINE = 10, STEP = 12;  // px: what a click falls upon, a step of the grid at least, a step of an arrow key
 const SVG = "http://www.w3.org/2000/svg";
@@ -119,7 +120,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     for (const {name, label} of tools) { buttons.get(name).textContent = t(label); buttons.get(name).setAttribute("aria-pressed", String(name === tool)); }
     row.setAttribute("aria-label", t("Tools"));
     sheet.setAttribute("aria-label", t("Drawing to build on: arrow keys move, the space bar sets a place, Enter ends"));
-    words.textContent = refused ? t(refused) : current ? t(current.hint) : "";
+    words.textContent = refused ? refusedText(refused, t) : current ? t(current.hint) : "";
     words.classList.toggle("is-refused", Boolean(refused));
     const texts = (store.state.scene?.missing || []).filter(text => text !== refused);
     missing.replaceChildren(...texts.map(text => element("li", {}, t(text))));

@@ -6,6 +6,7 @@ import { decimals, quantityOf, unitsRead, unitsTyped, withUnit } from "./numbers
 import { tool } from "./parts.js";
 import { element } from "./player.js";
 import { createGesture, createSlider } from "./slider.js";
+import { refusedText } from "./words.js";
 
 const PAUSE = 700;                       // ms after the last key until a text is sent
 const PATIENCE = 2500;                   // ms that a sent value stays on screen without an answer
@@ -26,10 +27,10 @@ function agrees(field, text) {
 const messageOf = key => element("div", {class: "st-message", role: "alert", "data-testid": `message-${key}`, hidden: ""});
 const nameOf = (field, name, t) => element("span", {class: "st-name", title: `${field.key}${field.hint ? `\n${t(field.hint)}` : ""}`}, name);
 
-function tell(message, root, refusal) {
-  root.classList.toggle("st-refused", Boolean(refusal));
-  message.textContent = refusal?.message || "";
-  message.hidden = !refusal;
+function tell(message, root, refused, t) {
+  root.classList.toggle("st-refused", Boolean(refused));
+  message.textContent = refusedText(refused?.message || "", t);
+  message.hidden = !refused;
 }
 
 /** The button that takes a value back to the usual one is there where that is another. */
@@ -89,7 +90,7 @@ function createLook(row, context, back) {
     },
     slide(slider) { message.before(slider.root); root.classList.add("st-slid"); },
     refuse(refusal) {
-      tell(message, root, refusal);
+      tell(message, root, refusal, t);
       if (refusal) input.setAttribute("aria-invalid", "true"); else input.removeAttribute("aria-invalid");
     },
     lock(locked) {
@@ -290,7 +291,7 @@ export function createPair(field, context) {
     rows.forEach((row, index) => row.update(now.parts[index], context.refusal(row.key), locked || context.locked(row.key)));
     if (refusal?.message === pair.refusal?.message) return;
     pair.refusal = refusal;
-    tell(message, root, refusal);
+    tell(message, root, refusal, t);
     if (refusal) context.reveal(pair);
   }
   return pair;

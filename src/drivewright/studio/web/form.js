@@ -6,6 +6,7 @@ import { icon } from "./icons.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createText } from "./text.js";
+import { refusedText } from "./words.js";
 
 /** The column in `host`. */
 export function createForm(host, {store, say, t}) {
@@ -69,7 +70,7 @@ export function createForm(host, {store, say, t}) {
     if (strip.dataset.lines === lines.join("\n")) return;
     strip.dataset.lines = lines.join("\n");
     strip.hidden = !lines.length;
-    strip.replaceChildren(...lines.map(line => element("p", {}, line)));
+    strip.replaceChildren(...lines.map(line => element("p", {}, refusedText(line, t))));
   }
   /** All words anew; what was typed into the text stays. */
   function restart() {

@@ -66,7 +66,7 @@ export function createHandles(getPlayer, tools) {
   }
   /** What each is called, with its numbers. */
   function name() {
-    layer.setAttribute("aria-label", t("Handles of the drawing"));
+    layer.setAttribute("aria-label", t("Handles of the drawing: arrow keys move, with Shift further, Enter types numbers, Esc takes back"));
     packed.forEach((handle, n) => {
       const numbers = numbersOf(handle, fields), button = buttons[n], called = names.of(handle);
       const locked = Boolean(numbers?.some(({key}) => isLocked(key)));

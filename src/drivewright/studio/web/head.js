@@ -137,7 +137,7 @@ export function createHead(host, {store, say, t}) {
   });
 
   function build() {
-    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste(),};
+    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste()}, focused = bar.contains(document.activeElement) ? document.activeElement.dataset.testid : "";
     popovers.close(false);
     overflow?.stop();
     overflow = createOverflow(t, [rule(), p.preset, held(p.keys), element("i", {class: "st-space"}),
@@ -147,6 +147,7 @@ export function createHead(host, {store, say, t}) {
       element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.undo, p.redo, p.save, overflow.button, overflow.list);
     files.reword();
     showDesign(); showReference(); showJobs(); showTheme();
+    if (focused) bar.querySelector(`[data-testid="${focused}"]`)?.focus();
   }
 
   // ---- what they show

@@ -128,6 +128,7 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
   const pixel = event => { const area = stage.getBoundingClientRect(); return [event.clientX - area.left, event.clientY - area.top]; };
   function press(event, made, thing) {
     event.preventDefault(); event.stopPropagation();
+    if (grip) return;  // another finger has one
     const [x, y] = pixel(event), [ox, oy] = at(thing, drawn().segments[thing.n]);
     made.focus({preventScroll: true});
     made.setPointerCapture(event.pointerId);
