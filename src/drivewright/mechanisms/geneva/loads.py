@@ -118,7 +118,10 @@ def _side_values(model: GenevaModel, turn: TurnForces, pressure: Floats) -> Iter
         yield f"max_force.{name}", Value(float(force[at]), "N", meaning, label=f"Maximum pin force, {words} side")
         if force[at] > 0:
             meaning = f"crank angle at the maximum force on the {words} side"
-            yield f"max_force.{name}.at", Value(float(model.samples.angle[at]), "rad", meaning, label=f"Crank angle at it, {words} side")
+            yield (
+                f"max_force.{name}.at",
+                Value(float(model.samples.angle[at]), "rad", meaning, label=f"Crank angle at maximum, {words} side"),
+            )
             meaning = f"maximum Hertz pressure on the {words} side of the slot"
             yield f"max_pressure.{name}", Value(float(pressure[at]), "Pa", meaning, label=f"Maximum Hertz pressure, {words} side")
     yield (

@@ -29,11 +29,11 @@ def _over_turn(model):
     wheel = model.wheel_by_time
     columns = (
         *cycle_columns(model),
-        Column("crank_speed", "rad/s", "angular speed of the crank", model.samples.speed),
-        Column("wheel", "rad", "angle of the wheel from the start of its step", wheel.d0),
-        Column("wheel_speed", "rad/s", "angular speed of the wheel", wheel.d1),
-        Column("wheel_acceleration", "rad/s^2", "angular acceleration of the wheel", wheel.d2),
-        Column("wheel_jerk", "rad/s^3", "angular jerk of the wheel within its step", wheel.d3),
+        Column("crank_speed", "rad/s", "angular speed of the crank", model.samples.speed, "Crank speed"),
+        Column("wheel", "rad", "angle of the wheel from the start of its step", wheel.d0, "Wheel angle"),
+        Column("wheel_speed", "rad/s", "angular speed of the wheel", wheel.d1, "Wheel speed"),
+        Column("wheel_acceleration", "rad/s^2", "angular acceleration of the wheel", wheel.d2, "Wheel acceleration"),
+        Column("wheel_jerk", "rad/s^3", "angular jerk of the wheel within its step", wheel.d3, "Wheel jerk"),
     )
     return Table("motion", "Motion of the wheel over a turn", columns)
 
@@ -44,7 +44,7 @@ def _over_step(model):
     angle, wheel = model.samples.angle[inside], model.wheel_by_angle[inside]
     columns = (
         Column("angle", "rad", f"crank angle, {FROM_CENTRES}", angle),
-        Column("wheel", "rad", "angle of the wheel from the start of its step", wheel.d0),
+        Column("wheel", "rad", "angle of the wheel from the start of its step", wheel.d0, "Wheel angle"),
         Column("rate", "-", "speed of the wheel over that of the crank", wheel.d1, "Speed ratio"),
         Column("bend", "1/rad", "second derivative of the wheel angle by the crank angle", wheel.d2, "Second derivative"),
         Column("third", "1/rad^2", "third derivative of the wheel angle by the crank angle", wheel.d3, "Third derivative"),
@@ -77,7 +77,10 @@ def _ratios(model: GenevaModel) -> Iterator[tuple[str, Value]]:
     yield (
         "max_bend.at",
         Value(
-            step.largest_bend_angle, "rad", "crank angle from the line of centres at the maximum acceleration", label="Crank angle at it"
+            step.largest_bend_angle,
+            "rad",
+            "crank angle from the line of centres at the maximum acceleration",
+            label="Crank angle at maximum acceleration",
         ),
     )
 
