@@ -78,12 +78,11 @@ def _centred(model: GenevaModel) -> Scene:
 
 
 def _clearances(model: GenevaModel, drawn: Scene) -> Iterator[Dimension]:
-    """Play of the pin, and of the locking disc where the wheel rests."""
+    """The pin at the bottom of the slot."""
     shape, pin = model.shape, max(circles_of(drawn, "pin", "roller"))
     bottom = placed_point(drawn, "wheel", (shape.slot_bottom, 0.0))
+    yield Length("crank_radius", origin_of(drawn, "crank"), pin[0], -0.4)
     yield Length("wheel.end_clearance", (pin[0][0] + pin[1], 0.0), bottom, 0.05)
-    tip = placed_point(drawn, "wheel", (shape.outer_radius, 0.0))
-    yield Length("locking.relief", (shape.relief_depth, 0.0), tip, -0.07)
 
 
 def _locked(model: GenevaModel) -> Scene:
@@ -132,7 +131,7 @@ def _section(model: GenevaModel, drawn: Scene) -> Iterator[Dimension]:
 
 SHEETS = (
     DimensionSheet("geneva", "Geneva drive", "default", _drive, BOTH, scene=_engaged),
-    DimensionSheet("geneva-clearances", "Geneva drive, pin nearest to the wheel", "default", _clearances, WIDE, scene=_centred),
+    DimensionSheet("geneva-clearances", "Geneva drive, pin nearest to the wheel", "default", _clearances, (*BOTH, *WIDE), scene=_centred),
     DimensionSheet("geneva-locked", "Geneva drive in the dwell", "default", _lock, WIDE, scene=_locked),
     DimensionSheet("geneva-section", "Geneva wheel, cut along its axis", "default", _section, scene=_cut),
 )

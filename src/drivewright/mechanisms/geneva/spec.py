@@ -48,7 +48,7 @@ class Locking(Spec):
         None, gt=0, description="radius of the locking disc; default: the crank radius less three radii of the pin", examples=["46 mm"]
     )
     clearance: Length = Field("0.05 mm", ge=0, description="clearance between the locking disc and the arcs of the wheel")
-    relief: Length = Field("1 mm", ge=0, description="clearance between the tips of the wheel and the relief of the disc")
+    relief: Length = Field("1 mm", ge=0, description="depth of the relief of the disc beyond what the tips of the wheel need")
     bore: Length | None = Field(None, gt=0, description="bore diameter of disc and crank", examples=["20 mm"])
 
 
