@@ -175,7 +175,7 @@ def test_a_thread_looks_while_a_kernel_is_compiled(monkeypatch, capsys):
     assert "compiling kernels for 'stranger' (each once, when first needed) 1/1" in err
 
 
-@pytest.mark.parametrize("kind", ["cam", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"])
+@pytest.mark.parametrize("kind", ["cam", "geneva", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"])
 def test_every_kind_has_been_measured(kind):
     kernels = tomllib.loads(USUAL.read_text())[kind]
     assert registry.mechanism(kind) and usual_seconds(kind) == kernels
