@@ -140,13 +140,18 @@ def test_a_table_built_in_python_complains_like_a_file():
         (b"# nothing\n", "mechanism: is missing; one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy"),
         (
             b'mechansim = "toy"',
-            "mechanism: is missing (did you mean 'mechansim'?); one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",
+            "mechanism: is missing (did you mean 'mechansim'?); "
+            "one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",
         ),
         (
             b'mechanism = "seeding-pusher"',
-            "mechanism: no mechanism is called 'seeding-pusher' (did you mean 'seedling-pusher'?); known: cam, geneva, indexer, linkage, seed",
+            "mechanism: no mechanism is called 'seeding-pusher' (did you mean 'seedling-pusher'?); "
+            "known: cam, geneva, indexer, linkage, seed",
         ),
-        (b"mechanism = 3", "mechanism: must be a text, got 3; one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy"),
+        (
+            b"mechanism = 3",
+            "mechanism: must be a text, got 3; one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",
+        ),
         (
             b'mechanism = ["toy"]',
             "mechanism: must be a text, got ['toy']; one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 SIZE = (480, 300)
 SECONDS = 2.4  # a round of the moving picture
 IMAGES = 24  # of a round
-FILMS = ("linkage",)  # kinds whose presets have moving pictures
+FILMS = ("linkage", "geneva")  # kinds whose presets have moving pictures
 STILL_BUDGET, MOVING_BUDGET = 40_000, 150_000  # bytes
 QUALITY, MOVING_QUALITY = 75, 62
 

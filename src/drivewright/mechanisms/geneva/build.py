@@ -107,13 +107,13 @@ def build(spec: GenevaSpec) -> GenevaModel:
     """The `GenevaModel` of a spec; SpecError where wheel or disc do not exist."""
     step = _step(spec)
     for key, name in (("pin.material", spec.pin.material), ("wheel.material", spec.wheel.material)):
-        _known_material(key, name)
+        _known(materials.material, key, name)
     if spec.bearing.friction and spec.bearing.radius is None:
         raise SpecError("is missing: the friction of the bearing needs the radius at which it acts", "bearing.radius")
     if spec.pin.kind == "roller" and spec.pin.journal_radius is not None and spec.pin.journal_radius >= spec.pin.radius:
         raise SpecError(f"must be below pin.radius, {1e3 * spec.pin.radius:.4g} mm", "pin.journal_radius")
     law = None if spec.drive.law == "uniform" else motion.law(spec.drive.law)
-    rolling = bearings.bearing(spec.bearing.bearing) if spec.bearing.bearing else None
+    rolling = _known(bearings.bearing, "bearing.bearing", spec.bearing.bearing) if spec.bearing.bearing else None
     return GenevaModel(spec, step, _shape(spec, step), Crank(spec.drive.speed, law), rolling)
 
 
@@ -136,9 +136,10 @@ def _step(spec):
     return GenevaStep(spec.slots, centre, crank)
 
 
-def _known_material(key, name):
+def _known(find, key, name):
+    """What a name stands for; SpecError with its key where it stands for nothing."""
     try:
-        materials.material(name)
+        return find(name)
     except InputError as error:
         raise SpecError(str(error), key) from None
 
@@ -183,10 +184,5 @@ def _refuse_locking(spec, shape):
         raise SpecError(
             f"leaves a locking disc of {1e3 * shape.locking_radius:.4g} mm, which does not reach the wheel; its radius must be above "
             f"{1e3 * max(least - shape.locking_clearance, 0.0):.4g} mm: take a thinner pin, or give locking.radius",
-            key,
-        )
-    if shape.locking_radius >= step.crank_radius + shape.pin_radius:
-        raise SpecError(
-            f"{1e3 * shape.locking_radius:.4g} mm reaches beyond the pin, {1e3 * step.crank_radius:.4g} mm from the axis; make it smaller",
             key,
         )

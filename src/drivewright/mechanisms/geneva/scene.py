@@ -16,6 +16,7 @@ from drivewright.scene import Body, Drawing, Frame, Part, Prism, Scene, Shape, T
 FRAMES = 361
 PIN_WALL = 1.6  # radius of the crank's end over that of the pin
 SHAFT = 0.3  # radius of a shaft that has no bore, over the room that it has
+BESIDE, LEAST = 0.7, 0.12  # ... of a crank, over the depth of its relief, and at least over the locking radius
 PLATE = 0.8  # thickness of the crank over that of the wheel
 GAP = 0.05  # between crank and wheel, over the thickness of the wheel
 
@@ -73,7 +74,9 @@ def shaft_radius(model: GenevaModel, name: str) -> float:
     bore = model.spec.locking.bore if name == "crank" else model.spec.wheel.bore
     if bore:
         return bore / 2
-    return SHAFT * (model.shape.locking_radius if name == "crank" else model.shape.slot_bottom)
+    if name == "wheel":
+        return SHAFT * model.shape.slot_bottom
+    return min(SHAFT * model.shape.locking_radius, max(BESIDE * model.shape.relief_depth, LEAST * model.shape.locking_radius))
 
 
 def _wheel_shapes(model: GenevaModel) -> Iterator[Shape]:

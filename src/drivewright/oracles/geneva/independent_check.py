@@ -168,8 +168,8 @@ def _cut_wheel(model: GenevaModel, result: Result[Any]) -> Iterator[Row]:
         bore = wheel.bore / 2
         area, polar = area - np.pi * bore**2 * long, polar - np.pi * bore**4 / 2 * long
     mass, inertia = result["wheel.mass"], result["wheel.inertia"]
-    yield "wheel.mass", mass, float(density * area), "kg", 2e-5 * mass, POLYGONS
-    yield "wheel.inertia", inertia, float(density * polar), "kg m^2", 2e-5 * inertia, POLYGONS
+    yield "wheel.mass", mass, float(density * area), "kg", 1e-4 * mass, POLYGONS
+    yield "wheel.inertia", inertia, float(density * polar), "kg m^2", 1e-4 * inertia, POLYGONS
 
 
 def _apart(model: GenevaModel, result: Result[Any]) -> Iterator[Row]:
