@@ -28,6 +28,7 @@ mechanism = Mechanism(
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     scene=scene,
+    moving_presets=True,
     dimensions=SHEETS,
     plots=plots,
     drawings=drawings,

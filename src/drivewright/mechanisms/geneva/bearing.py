@@ -20,6 +20,7 @@ def bearing(model: GenevaModel, done: Answers) -> Answer:
     """Mean load over the turns of the wheel, basic life, static safety; one bearing takes the whole force."""
     load, speed = turn_forces(model).pin.resultant, model.wheel_by_time.d1
     rolling, largest = model.rolling, float(np.max(load))
+    assert rolling is not None, "the analysis is left out without a bearing"
     mean = mean_load(cycle_weights(model.samples.time), speed, load, bearings.life_exponent(rolling))
     values = {
         "bearing.max_load": Value(largest, "N", "maximum load of the bearing of the wheel", label="Maximum load of the bearing"),

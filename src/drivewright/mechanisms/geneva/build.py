@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from drivewright import bearings, materials, motion
+from drivewright.bearings import BallBearing, RollerBearing
 from drivewright.chains.plate_outline import area_moments
 from drivewright.contact.hertz import effective_modulus
 from drivewright.errors import InputError, SpecError
@@ -30,7 +30,7 @@ class GenevaModel:
     step: GenevaStep
     shape: GenevaShape
     crank: Crank
-    rolling: Any = None  # the rolling bearing of the wheel
+    rolling: BallBearing | RollerBearing | None = None  # the rolling bearing of the wheel
 
     @cached_property
     def samples(self) -> CrankSamples:
