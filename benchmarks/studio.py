@@ -219,4 +219,9 @@ def _resident(pid):
     return int(text.partition("VmRSS:")[2].split()[0]) / 1e3
 
 
-SECTIONS = (("Studio: slider to new drawing", latency), ("Studio: frames", frames), ("Studio: dragging", dragging), ("Studio: memory", memory))
+SECTIONS = (
+    ("Studio: slider to new drawing", latency),
+    ("Studio: frames", frames),
+    ("Studio: dragging", dragging),
+    ("Studio: memory", memory),
+)

@@ -102,6 +102,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     dimensions: "tuple[DimensionSheet, ...]" = ()  # drawings that show what its keys measure
     claims: Callable[[SpecT], Claims] | None = None  # what its results obey exactly, for `drivewright.testing`
     construction: "Construction | None" = None  # how it is built by clicks on its drawing
+    moving_presets: bool = False  # its presets are offered as starts, with pictures that move
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 
     def presets(self) -> dict[str, Path]:

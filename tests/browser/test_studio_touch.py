@@ -9,9 +9,9 @@ pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_
 
 KEY = "bodies.coupler.points.C"
 TEXT = f"{STATE}.design.form.groups.flatMap(group => group.fields).find(({{key}}) => key === '{KEY}').text"
-PLACES = f"""(() => {{
+PLACES = """(() => {
   const scrolled = [document.scrollingElement, ...document.querySelectorAll('.st, .st *')].map(one => one.scrollTop + one.scrollLeft);
-  return JSON.stringify([scrolled.filter(Boolean), scrollX, scrollY, visualViewport.scale]); }})()"""
+  return JSON.stringify([scrolled.filter(Boolean), scrollX, scrollY, visualViewport.scale]); })()"""
 
 
 @pytest.fixture(scope="module")

@@ -27,8 +27,8 @@ KINDS = [kind for kind in registry.kinds() if (registry.mechanism(kind).folder /
 CHINESE = re.compile(r"[\u4e00-\u9fff]")
 SAME = {"* · *", "*（*）", "*／*", "LuGre", "Ambrósio", "Kelvin-Voigt"}  # texts that are the same in both languages
 # units, symbols and names inside Chinese texts; r/min, L10rh, Lnmh, C0/Fr
-LATIN = {"mm", "kN", "Hz", "arcmin", "min", "rh", "Lnmh", "Fr", "von", "Mises", "Hy", "Vo", "max", "ds", "cos"}
-OURS = {"cam", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"}
+LATIN = {"mm", "kN", "MPa", "Hz", "arcmin", "min", "rh", "Lnmh", "Fr", "von", "Mises", "Hy", "Vo", "max", "ds", "cos"}
+OURS = {"cam", "geneva", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"}
 
 
 def keys(model, path=""):

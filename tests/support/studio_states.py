@@ -5,13 +5,18 @@ from typing import NamedTuple
 from browsing import until
 from studio_running import EXAMPLES
 
-from drivewright.studio.session import packed
+from drivewright.studio.opening import packed
 
 STATE = "window.drivewright.state"
 RADIUS = "follower.prime_radius"
 DISTANCE = ("|handle ground.points.O2", "coupler|handle bodies.coupler.points.C")  # in the four-bar
-SPECS = {"four_bar": ("four_bar", ()), "cam": ("disc_cam", ()), "failing_cam": ("disc_cam", (('prime_radius = "40 mm"', 'prime_radius = "24 mm"'),)),
-         "shaft": ("pressure_roller_shaft", ()), "pusher": ("seedling_pusher", ())}  # fmt: skip
+SPECS = {
+    "four_bar": ("four_bar", ()),
+    "cam": ("disc_cam", ()),
+    "failing_cam": ("disc_cam", (('prime_radius = "40 mm"', 'prime_radius = "24 mm"'),)),
+    "shaft": ("pressure_roller_shaft", ()),
+    "pusher": ("seedling_pusher", ()),
+}
 
 
 class State(NamedTuple):

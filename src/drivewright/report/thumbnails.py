@@ -98,8 +98,7 @@ def remake(names: Sequence[str] | None = None, progress: Callable[[str], None] =
 
 
 def remake_presets(kind: str, progress: Callable[[str], None] = print) -> list[str]:
-    """Make the pictures of the presets of a kind that are outdated, of a kind that is built by clicks also moving ones; names of what was
-    made."""
+    """Make the pictures of the presets of a kind that are outdated, moving ones where the kind says so; names of what was made."""
     mechanism, chosen = registry.mechanism(kind), outdated_presets(kind)
     place = mechanism.folder / "presets" / PICTURES
     place.mkdir(exist_ok=True)
@@ -108,7 +107,7 @@ def remake_presets(kind: str, progress: Callable[[str], None] = print) -> list[s
         spec = load(mechanism.presets()[name])
         assert mechanism.scene is not None
         scene = mechanism.scene(mechanism.build(spec))
-        if mechanism.construction:
+        if mechanism.moving_presets:
             still, moving = thumbnail_of(scene)
             (place / f"{name}.moving.webp").write_bytes(moving)
         else:

@@ -16,6 +16,7 @@ from drivewright.studio import editing, part_lists, proposals, translations
 from drivewright.studio.computations import REST, Message
 from drivewright.studio.design import Design
 from drivewright.studio.edited_design import ALL, LONGEST_KEY, SHORT, EditedDesign
+from drivewright.studio.editing import Edited
 from drivewright.studio.inbox import Inbox
 from drivewright.studio.jobs import checked_options
 from drivewright.studio.offers import offered

@@ -74,6 +74,7 @@ mechanism = Mechanism(
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
+    moving_presets=True,
     quick_scene=quick_scene,
     dimensions=SHEETS,
     plots=plots,
