@@ -79,7 +79,7 @@ PAIRS = [
 ]
 OUTDATED = """({drivewright: store}) => {
   const {result} = store.state;
-  store.set({result: {...result, full: false, verdict: {...result.verdict, stale: true}, 
+  store.set({result: {...result, full: false, verdict: {...result.verdict, stale: true},
     checks: result.checks.map(check => ({...check, stale: true}))}});
 }"""
 
