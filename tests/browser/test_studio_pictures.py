@@ -116,6 +116,7 @@ def test_measured(tab):
         for feature in features:
             page.get_by_test_id("measure-point").select_option(feature)
             page.get_by_test_id("measure-pick").click()
+    assert page.get_by_test_id("measure-list").inner_text().startswith("Distance: frame · O2 – coupler · C")
     keep(page, "studio-measured")
 
 
@@ -147,7 +148,7 @@ def test_a_change_that_makes_a_check_pass(tab):
     until(page, "window.drivewright.state.design.toml.includes('24 mm')")
     analysed(page)
     page.get_by_test_id("fix-pressure_angle").click()
-    page.get_by_test_id("fix-apply").wait_for(timeout=90_000)
+    page.get_by_test_id("fix-answer").filter(has_text="instead of").wait_for(timeout=120_000)
     keep(page, "studio-fix")
 
 

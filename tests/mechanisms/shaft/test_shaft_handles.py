@@ -39,7 +39,7 @@ def test_bearings_gears_and_loads_stand_at_their_places():
         above, below = found[f"gears.{number}.pitch_diameter"], found[f"gears.{number}.position"]
         assert above.point == pytest.approx((gear.position, gear.pitch_diameter / 2)) and above.direction == (0.0, 0.5)
         assert below.point == pytest.approx((gear.position, -gear.pitch_diameter / 2)) and below.direction == (1.0, 0.0)
-    for number, load in enumerate(spec.loads):
-        if load.position is not None:
+    for number, force in enumerate(spec.loads):
+        if force.position is not None:
             x, y = found[f"loads.{number}.position"].point
-            assert x == pytest.approx(load.position) and y > widest / 2  # clear of the shaft
+            assert x == pytest.approx(force.position) and y > widest / 2  # clear of the shaft

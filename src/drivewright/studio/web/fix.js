@@ -27,6 +27,7 @@ export function createFix(place, {store, say, t}) {
   function ask(check, more = false) {
     wanted = check;
     gen = store.state.design?.gen;
+    row.hidden = true;  // until there is an answer
     place(check)?.append(box);
     say({what: "job", name: NAME, options: {check, longer: more}});
   }

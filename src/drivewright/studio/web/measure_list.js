@@ -16,7 +16,7 @@ export function createMeasureList({t, clock}, acts) {
   const words = () => ({distance: t("Distance"), horizontal: t("Horizontal"), vertical: t("Vertical"), angle: t("Angle"), radius: t("Radius")});
   const hints = () => ({point: t("Pick a point on the drawing"), line: t("Pick the other edge"), circle: t("Pick a circle or an arc"), both: t("Pick three points, or two edges")});
   /** What a feature is called: its own name, or what it is a part of. */
-  const nameOf = ({label, of}) => label.includes("*") ? t(label, t(of)) : t(label);
+  const nameOf = ({label, of, last}) => label.includes("*") ? t(label, t(of)) : label ? t(label) : t("* · *", t(of), t(last));
 
   function reword() {
     const kinds = words(), made = Object.entries(kinds).map(([kind, text]) => pressable({"data-kind": kind, "data-testid": `measure-${kind}`}, () => acts.choose(kind), text));
