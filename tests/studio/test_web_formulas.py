@@ -83,7 +83,7 @@ def test_features_are_named_ones_first_each_place_once():
     assert seen[:2] == [("point", "crank", [0.04, 0]), ("point", "rod", [0.1, 0.05])]  # no handle of a size, which is no point
     assert ("circle", "crank", [0.04, 0]) in seen and [each["to"] for each in found if each["kind"] == "line"] == [[0.04, 0]]
     assert sum(each["kind"] == "circle" for each in found) == 2  # two equal shapes of the rod are one
-    assert found[0]["ref"] == "crank|handle crank.A" and {each["of"] for each in found} == {"crank", "rod"}
+    assert found[0]["ref"] == "crank|handle crank.A" and found[0]["last"] == "A" and {each["of"] for each in found} == {"crank", "rod"}
 
 
 def test_the_distance_of_a_pixel_from_a_feature():

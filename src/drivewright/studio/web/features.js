@@ -10,8 +10,8 @@ export function carried([x, y], [px, py, angle]) {
 }
 
 /**
- * Everything of a packed scene that can be picked, those first that have a name: [{ref, kind, body, owner, label, of, point, to, radius}].
- * `ref` finds it again in the next state of the design; `body` is a number, -1 for the frame; `kind` is "point", "line" or "circle".
+ * Everything of a packed scene that can be picked, those first that have a name: [{ref, kind, body, owner, label, of, point, to, radius, last}].
+ * `ref` finds it again in the next state of the design; `last` is the name of a point of the spec, which has no label; `body` is a number, -1 for the frame; `kind` is "point", "line" or "circle".
  */
 export function featuresOf(scene) {
   const found = [], taken = new Set();

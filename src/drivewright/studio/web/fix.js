@@ -28,6 +28,7 @@ export function createFix(place, {store, say, t}) {
     wanted = check;
     row.hidden = true;  // until there is an answer
     gen = store.state.design?.gen;
+    row.hidden = true;  // until there is an answer
     place(check)?.append(box);
     say({what: "job", name: NAME, options: {check, longer: more}});
   }
