@@ -239,7 +239,9 @@ def _angle(spec, number):
     if angles[number] is not None:
         return angles[number]
     if angles.count(None) > 1:
-        raise SpecError("is missing: one segment may leave its angle out, which is then the rest of the turn", key=f"programme.{number}.angle")
+        raise SpecError(
+            "is missing: one segment may leave its angle out, which is then the rest of the turn", key=f"programme.{number}.angle"
+        )
     given = math.fsum(angle for angle in angles if angle is not None)
     if given >= TURN:
         raise SpecError(

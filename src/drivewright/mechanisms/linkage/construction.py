@@ -190,7 +190,17 @@ def _delete(clicked: Clicked, places: Sequence[Place]) -> None:
         del tables[kind]
 
 
-ACTS = {"body": _body, "pin": _pin, "slide": _slide, "drive": _drive, "force": _force, "spring": _spring, "load": _load, "output": _output, "delete": _delete}
+ACTS = {
+    "body": _body,
+    "pin": _pin,
+    "slide": _slide,
+    "drive": _drive,
+    "force": _force,
+    "spring": _spring,
+    "load": _load,
+    "output": _output,
+    "delete": _delete,
+}
 TOOLS = (
     Tool("body", "Body", "Click the points of the body; Enter or a double click ends it", 2, 12),
     Tool("pin", "Pin", "Click a place that two bodies share, or a body to pin it to the frame"),
