@@ -124,7 +124,9 @@ def test_a_search_of_segment_angles_keeps_the_turn(page):
     page.get_by_test_id("search-start").click()
     until(page, f"{STATE}.jobs.optimise?.state === 'done'", 200)
     assert page.evaluate(f"{STATE}.jobs.optimise.answer.feasible")
+    gen = page.evaluate(f"{STATE}.design.gen")
     page.get_by_test_id("load-best").click()
+    until(page, f"{STATE}.design.gen > {gen}")
     analysed(page)
     assert value(page, "max_jerk") < 0.8 * before and value(page, "stroke") == pytest.approx(20.0)
     assert page.evaluate(f"{STATE}.result.checks.every(check => check.ok)")
@@ -202,7 +204,9 @@ def test_a_drag_too_far_leaves_plots_and_checks_in_place(page):
     until(page, f"{STATE}.result?.unsolved", 60)
     page.wait_for_timeout(400)
     assert plots.bounding_box() == box and page.locator(".sd-card").count() == checks
+    gen = page.evaluate(f"{STATE}.design.gen")
     page.keyboard.press("Control+z")
+    until(page, f"{STATE}.design.gen > {gen}")
     analysed(page)
     assert page.evaluate(f"!{STATE}.result.unsolved && Object.keys({STATE}.refused).length === 0")
 
