@@ -36,7 +36,10 @@ def fix(design: Design, progress: Progress, check: str = "", longer: bool = Fals
     deadline, free, stopped, found = time.monotonic() + seconds, 0, False, None
     for asked in _questions(result) if is_advisable(failed) else ():
         held = {each.key for each in dimensions(asked.spec) if is_locked(design.tables, each.key, locks)}
-        free += len(dimensions(asked.spec)) - len(held)
+        here = len(dimensions(asked.spec)) - len(held)
+        free += here
+        if not here:
+            continue
         advised = advise(
             asked,
             deadline - time.monotonic(),

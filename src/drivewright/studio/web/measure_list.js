@@ -6,11 +6,13 @@ import { button, pressable, put, same } from "./parts.js";
 import { element, fixed } from "./player.js";
 import { csvText, saveText, svgText } from "./plotfiles.js";
 import { axisOf } from "./plotting.js";
+import { createScaling } from "./scaling.js";
 
 const SVG = "http://www.w3.org/2000/svg", WIDE = 200, TALL = 30, EDGE = 3;  // of the small plot
 
 /** The panel; `acts` are {choose(kind), pick(feature), remove(id), close()}, `nameOfHandle(handle)` the name of a point that a hand can move. */
-export function createMeasureList({store, t, clock}, acts, nameOfHandle) {
+export function createMeasureList(tools, acts, nameOfHandle) {
+  const {store, t, clock} = tools;
   const node = element("section", {class: "ms", "data-testid": "measure-panel", hidden: ""});
   node.addEventListener("keydown", event => { if (event.key !== "Escape") event.stopPropagation(); });  // the player has keys of its own
   let rows = new Map(), parts = null, state = null, told = [], phase = 0;
@@ -83,11 +85,15 @@ export function createMeasureList({store, t, clock}, acts, nameOfHandle) {
     plot.addEventListener("pointerdown", event => { plot.setPointerCapture(event.pointerId); follow(event); });
     plot.addEventListener("pointermove", event => { if (plot.hasPointerCapture(event.pointerId)) follow(event); });
     const made = element("li", {class: "ms-row", "data-kind": kind, style: `--chip: var(--${role})`}, element("i", {}), name, value, drop, range, files, ends, plot);
-    const row = {node: made, name, value, range, files, ends, drop, path, plot, cursor};
-    files.append(...[["svg", "image/svg+xml", state => svgText(state, store.state.design.title)], ["csv", "text/csv", csvText]].map(([ending, type, text]) =>
-      pressable({class: "bt-export", "data-testid": `measure-${ending}`}, () => saveText(`${store.state.design.name || store.state.design.kind}-${kind}.${ending}`, type, text(plotOf(id, role))), ending.toUpperCase())));
+    const row = {node: made, name, value, range, files, saves: [], ends, drop, path, plot, cursor};
+    row.scale = createScaling(range, tools, () => lengthOf(state.measures.find(measure => measure.id === id)));
+    row.saves = [["svg", "image/svg+xml", state => svgText(state, store.state.design.title)], ["csv", "text/csv", csvText]].map(([ending, type, text]) =>
+      pressable({class: "bt-export", "data-testid": `measure-${ending}`}, () => saveText(`${store.state.design.name || store.state.design.kind}-${kind}.${ending}`, type, text(plotOf(id, role))), ending.toUpperCase()));
+    files.append(row.scale.node, ...row.saves);
     return row;
   }
+  /** What of a measured length has a size of its own: its range where it moves. */
+  const lengthOf = ({course}) => course.constant ? Math.abs(course.high) : course.high - course.low;
   /** The course of a measurement as the plot that files show. */
   function plotOf(id, role) {
     const {kind, now, course} = state.measures.find(measure => measure.id === id);
@@ -102,9 +108,11 @@ export function createMeasureList({store, t, clock}, acts, nameOfHandle) {
     row.drop.title = t("Remove this measurement");
     row.drop.setAttribute("aria-label", `${row.drop.title}: ${title}`);
     row.plot.style.display = moves ? "" : "none";
-    row.range.hidden = row.files.hidden = !moves;
+    row.range.hidden = !moves;
+    row.scale.show(Boolean(course) && ["distance", "horizontal", "vertical"].includes(kind) && lengthOf({course}) > 0);
     if (moves) put(row.range, t("range *", textOf(kind, course.high - course.low)));
-    for (const made of row.files.children) {
+    for (const made of row.saves) {
+      made.hidden = !moves;
       made.title = t("Download this plot as *", made.textContent);
       made.setAttribute("aria-label", `${title}: ${made.title}`);
     }
