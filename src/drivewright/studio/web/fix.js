@@ -24,13 +24,12 @@ export function createFix(place, {store, say, t}) {
   const box = element("div", {class: "fx-box", "data-testid": "fix-answer"}, bar.node, words, more, row);
   let wanted = null, load = {}, before = null, gen = null;
 
-  function ask(check, more = false) {
+  function ask(check, patient = false) {
     wanted = check;
-    row.hidden = true;  // until there is an answer
     gen = store.state.design?.gen;
-    row.hidden = true;  // until there is an answer
+    words.hidden = more.hidden = row.hidden = true;  // of the answer before, until the job has begun
     place(check)?.append(box);
-    say({what: "job", name: NAME, options: {check, longer: more}});
+    say({what: "job", name: NAME, options: {check, longer: patient}});
   }
   function dismiss() {
     if (store.state.jobs?.[NAME]?.state === "running") say({what: "cancel", name: NAME});
