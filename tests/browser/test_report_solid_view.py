@@ -1,9 +1,12 @@
 """Solids in a report in a real browser: they move with the report's clock, turn, are cut and pulled apart; paper gets a picture."""
 
+import numpy as np
 import pytest
 from browsing import until
 from sample_designs import all_views, four_bar_result
 from sample_solids import SOLIDS
+
+from drivewright.report.html import MODULES, SOLID_MODULES, scripts
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser]
 STAGE = "document.querySelector('#solids-view .so-stage')"
@@ -70,3 +73,21 @@ def test_the_ground_is_that_of_the_theme(open_page, address, theme):
     page.evaluate("document.querySelector('#solids').scrollIntoView()")
     canvas = page.evaluate("getComputedStyle(document.querySelector('#solids-view .so-stage')).backgroundColor")
     assert (sum(map(int, canvas.strip("rgba()").split(",")[:3])) > 380) == (theme == "light")
+
+
+def test_a_turn_about_a_line_in_space_is_that_of_rodrigues(browser):
+    """As the page computes it: points of a part turned by an angle about a line, and pulled out."""
+    page = browser.new_page()
+    page.set_content(f"<script type='module'>{scripts((*MODULES, *SOLID_MODULES))}\nwindow.turned = turnMatrix;</script>")
+    until(page, "window.turned !== undefined")
+    point, direction, angle, pull = np.array([0.08, 0.01, -0.02]), np.array([0.3, 0.9, -0.2]), 1.1, np.array([0.0, 0.002, 0.01])
+    found = page.evaluate(
+        "([point, direction, angle, pull]) => [...turned({point, direction}, angle, pull)]",
+        [point.tolist(), direction.tolist(), angle, pull.tolist()],
+    )
+    page.close()
+    matrix = np.array(found).reshape(4, 4).T
+    at, k = np.array([0.03, -0.04, 0.05]), direction / np.linalg.norm(direction)
+    arm = at - point
+    wanted = point + arm * np.cos(angle) + np.cross(k, arm) * np.sin(angle) + k * (k @ arm) * (1 - np.cos(angle)) + pull
+    assert np.allclose(matrix[:3, :3] @ at + matrix[:3, 3], wanted, atol=1e-7)

@@ -60,7 +60,7 @@ class Picture(NamedTuple):
 
 
 class Views(NamedTuple):
-    """What there is to see of a run besides its numbers; `remarks` say what could not be drawn, `solids` are there where they are wanted."""
+    """What there is to see of a run besides its numbers; `remarks` say what could not be drawn, `solids` are there where wanted."""
 
     scene: Scene | None = None
     plots: tuple[Plot, ...] = ()

@@ -1,6 +1,6 @@
 // A small viewer of solids: triangles with normals, feature edges, orbit, pan and zoom.  Nothing is drawn while nothing changes.
 
-import { displacementAt, matrixOf, pullsOf, reachOf, unpackMotion, unpackParts } from "./assembly.js";
+import { matrixAt, pullsOf, reachOf, unpackMotion, unpackParts } from "./assembly.js";
 import { createCube } from "./cube.js";
 import { element, fixed, nice, pressable, same, watchTheme } from "./clock.js";
 import { createPacing } from "./pacing.js";
@@ -86,10 +86,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   /** Where each part stands at the phase, pulled out as far as wanted. */
   function places() {
     if (!state.moving && !state.apart) return [];
-    return state.parts.map(({motion}, n) => {
-      const moved = state.moving && motion >= 0 ? displacementAt(state.moving, state.moving.motions[motion], state.phase) : [0, 0, 0];
-      return matrixOf(moved, (state.pulls[n] || [0, 0, 0]).map(pull => state.apart * pull));
-    });
+    return state.parts.map((part, n) => matrixAt(state.moving, part, state.phase, (state.pulls[n] || [0, 0, 0]).map(pull => state.apart * pull)));
   }
   /** Matrices from the parts' space to the window's, column by column. */
   function placing(axes) {
