@@ -8,7 +8,7 @@ const MODULES = {own: "/studio/triangles.js", quick: "/studio/triangles.js", thr
 
 /** {parts, moving, whole} of an answer of the job "solid". */
 export function unpack(answer) {
-  const moving = unpackMotion(answer), parts = unpackParts(answer.parts);
+  const moving = unpackMotion(answer), parts = unpackParts(answer);
   const {low, high, size} = answer, whole = {low, high, size, centre: low.map((end, k) => (end + high[k]) / 2)};
   return {parts, moving, whole: reachOf(parts, moving, whole)};
 }

@@ -58,6 +58,36 @@ def test_solids_move_with_the_clock_of_the_report(open_page, address):
     assert page.evaluate(INK)[0] < cut
 
 
+def test_the_pointer_names_parts_and_the_cube_is_reached_by_keys(open_page, address):
+    page = open_page(address)
+    if not page.evaluate("Boolean(document.createElement('canvas').getContext('webgl2'))"):
+        pytest.skip("this browser has no WebGL 2")
+    page.evaluate("document.querySelector('#solids').scrollIntoView()")
+    until(page, f"Number({STAGE}.dataset.drawn) > 2")
+    page.evaluate("drivewright.clock.pause(); drivewright.clock.set(0)")
+    tip, canvas, named = page.get_by_test_id("solid-name"), page.locator(".so-canvas"), set()
+    box = canvas.bounding_box()
+    for across in range(2, 19):
+        for down in range(3, 18):
+            page.mouse.move(box["x"] + box["width"] * across / 20, box["y"] + box["height"] * down / 20)
+            named |= {tip.inner_text()} if tip.is_visible() else set()
+    assert {"crank", "coupler"} <= named <= {"crank", "coupler", "frame"}
+    page.mouse.move(box["x"] + 4, box["y"] + box["height"] - 4)
+    assert not tip.is_visible()
+
+    front = page.get_by_test_id("cube-front")
+    front.focus()
+    page.keyboard.press("Enter")
+    assert page.locator(".so-tools button", has_text="Front").get_attribute("aria-pressed") == "true"
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("document.activeElement.dataset.testid") == "cube-back"
+    for _ in range(3):
+        page.keyboard.press("ArrowRight")
+    assert page.evaluate("document.activeElement.dataset.testid") == "cube-top"
+    assert page.locator(".so-tools button", has_text="Top").get_attribute("aria-pressed") == "true"
+    assert page.evaluate("document.querySelectorAll('.so-face[tabindex=\"0\"]').length") == 1
+
+
 def test_paper_gets_the_picture_and_not_the_viewer(open_page, address):
     page = open_page(address)
     image = page.locator("#figures img[alt='Solids of the assembly']")

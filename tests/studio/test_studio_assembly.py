@@ -10,7 +10,7 @@ from packed_solids import solid_corners
 from places import EXAMPLES
 
 from drivewright import registry, runner
-from drivewright.report.solids import displacements, pack_solids, solid_surfaces
+from drivewright.report.solids import displacements, pack_solids, solid_surfaces, with_repeats
 from drivewright.scene import Body, Frame, Part, Scene, Shape, Turned, Turning, circle, place
 from drivewright.solids import facets
 from drivewright.spec import load
@@ -137,3 +137,29 @@ def test_parts_of_a_scene_that_is_unrolled_or_seen_from_the_side_have_a_turn_of_
 def rolling_scene():
     poses = np.column_stack([[0.0, 0.1, 0.2], np.zeros((3, 2))])
     return Scene(np.linspace(0, 1, 3), "", "-", 1.0, (replace(body(poses), name="shaft"),), (Frame("m", "m", np.zeros((3, 3))),))
+
+
+def test_links_of_a_chain_repeat_the_first_ones_where_the_scene_has_them():
+    """Every link of the scene has a solid; a repeated one is placed as its body is, inner and outer plates in turn."""
+    model = runner.build(load(EXAMPLES / "roller_chain.toml"))
+    mechanism = registry.mechanism(model.spec.mechanism)
+    scene, surfaces = mechanism.scene(model), solid_surfaces(mechanism.parts(model))
+    bodies = {each.name: each for each in scene.bodies}
+    packed = pack_solids(surfaces, scene)
+    whole = with_repeats(surfaces, scene)
+    assert {each.body for each in whole} == set(displacements(scene)) and len(whole) == len(surfaces) + len(packed["repeats"])
+    for again, surface in zip(packed["repeats"], whole[len(surfaces) :], strict=True):
+        original = surfaces[again["part"]]
+        assert (int(surface.body.removeprefix("link")) - int(original.body.removeprefix("link"))) % 2 == 0
+        motion = of_text(packed["motions"][again["motion"]])
+        for frame in (0, 17, -1):
+            carrier, start = bodies[surface.body].poses[frame], bodies[original.body].poses[0]
+            own = unplaced(original.points[:20, :2], start)
+            assert place(original.points[:20, :2], motion[frame]) == pytest.approx(place(own, carrier), abs=1e-7)
+        assert place(original.points[:, :2], motion[0]) == pytest.approx(surface.points[:, :2], abs=1e-7)
+
+
+def unplaced(points, pose):
+    """The points in the frame of the pose."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    return (points - pose[:2]) @ np.array([[c, -s], [s, c]])

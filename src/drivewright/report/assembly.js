@@ -10,11 +10,14 @@ function integers(text, count) {
   return count > 65536 ? new Uint32Array(bytesOf(text)) : new Uint16Array(bytesOf(text));
 }
 
-/** Parts of an answer of the job "solid" as the renderer takes them. */
-export const unpackParts = parts => parts.map(({name, label, colour, positions, normals, corners, edges, motion, turn}) => {
-  const points = floats(positions), count = points.length / 3;
-  return {name, label, colour, motion, turn, points, normals: floats(normals), corners: integers(corners, count), edges: integers(edges, count)};
-});
+/** Parts of an answer of the job "solid" as the renderer takes them; those that are there once more share everything but their motion. */
+export function unpackParts({parts, repeats = []}) {
+  const made = parts.map(({name, label, colour, positions, normals, corners, edges, motion, turn}) => {
+    const points = floats(positions), count = points.length / 3;
+    return {name, label, colour, motion, turn, points, normals: floats(normals), corners: integers(corners, count), edges: integers(edges, count)};
+  });
+  return [...made, ...repeats.map(({part, motion}) => ({...made[part], motion, again: true}))];
+}
 
 /** How the parts of an answer of the job "solid" move: {u, motions, turns} as arrays, null where nothing moves. */
 export function unpackMotion({motions = [], turns = [], u}) {
@@ -35,8 +38,8 @@ function middleOf(points) {
 }
 
 /** How far [x, y, z] each part is pulled out at most: away from the middle, along the axis by more where the parts lie close together. */
-export function pullsOf(parts, {low, high, centre, size}) {
-  const middles = parts.map(({points}) => middleOf(points)), deep = high[2] - low[2], stretch = Math.max(1, TALL * size / (deep || 1e-9));
+export function pullsOf(parts, moving, {low, high, centre, size}) {
+  const middles = parts.map(part => part.again ? carried(matrixAt(moving, part, 0), middleOf(part.points)) : middleOf(part.points)), deep = high[2] - low[2], stretch = Math.max(1, TALL * size / (deep || 1e-9));
   return middles.map(at => at.map((x, k) => SPREAD * (x - centre[k]) * (k === 2 ? stretch : 1)));
 }
 
@@ -73,14 +76,14 @@ export function reachOf(parts, moving, whole) {
     const corners = cornersOf(part.points);
     for (let n = 0; n < 24; n++) {
       const m = matrixAt(moving, part, n / 24);
-      for (const [x, y, z] of corners) for (let k = 0; k < 3; k++) {
-        const at = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k];
-        low[k] = Math.min(low[k], at); high[k] = Math.max(high[k], at);
-      }
+      for (const corner of corners) carried(m, corner).forEach((at, k) => { low[k] = Math.min(low[k], at); high[k] = Math.max(high[k], at); });
     }
   }
   return {low, high, centre: low.map((end, k) => (end + high[k]) / 2), size: Math.hypot(...low.map((end, k) => high[k] - end)) || 1};
 }
+
+/** A point where a matrix takes it. */
+function carried(m, [x, y, z]) { return [0, 1, 2].map(k => m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k]); }
 
 /** The eight corners of the box around points. */
 function cornersOf(points) {

@@ -1,7 +1,7 @@
 """An assembly as triangles for a viewer, and how its parts move: flat arrays for the graphics card, as base64 text."""
 
 import base64
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from drivewright._typing import Floats, Ints
 from drivewright.errors import counted
 from drivewright.report.pack import floats
-from drivewright.scene import Part, Scene, Turning
+from drivewright.scene import Body, Part, Scene, Turning, place
 from drivewright.solids import facets
 from drivewright.solids.shading import surface_shape
 from drivewright.view.motion import fractions
@@ -58,10 +58,11 @@ def solid_surfaces(
 
 def pack_solids(surfaces: Sequence[SolidSurface], scene: Scene | None) -> dict[str, Any]:
     """{"unit": "m", "size", "low", "high", "motions", "turns", "u",
-    "parts": [{"name", "colour", "triangles", "motion", "turn", ...`shaded`}]}.
+    "parts": [{"name", "colour", "triangles", "motion", "turn", ...`shaded`}], "repeats": [{"part", "motion"}]}.
 
     motions: base64 of (frames, 3) displacements (x, y, angle) from the start position about the z axis, at the phases `u` of the cycle;
     turns: [{"point", "direction", "angles": base64 of (frames,)}].  `motion` or `turn` of a part is the number of its own, -1 without.
+    repeats: parts by their number that are there once more, as `repeats` finds them, each with its own motion.
     """
     packed: list[dict[str, Any]] = []
     moving = displacements(scene) if scene else {}
@@ -73,10 +74,14 @@ def pack_solids(surfaces: Sequence[SolidSurface], scene: Scene | None) -> dict[s
         turn = _numbered_turn(each.turning, turns) if each.turning and scene else -1
         known = {"name": each.name, "colour": each.colour, "triangles": len(each.corners), "motion": motion, "turn": turn}
         packed.append({**known, **shaded(each.points, each.corners, each.turning)})
+    again = [
+        {"part": number, "motion": motions.setdefault(floats(displacement(body, model)), len(motions))}
+        for number, model, body in (repeats(surfaces, scene) if scene else ())
+    ]
     low, high = (end([end(each.points, axis=0) for each in surfaces], axis=0) for end in (np.min, np.max))
     cycle = {"motions": list(motions), "turns": turns, "u": floats(fractions(scene.cycle)) if scene else ""}
     size = float(np.linalg.norm(high - low))
-    return {"unit": "m", "size": size, "low": low.tolist(), "high": high.tolist(), "parts": packed, **cycle}
+    return {"unit": "m", "size": size, "low": low.tolist(), "high": high.tolist(), "parts": packed, "repeats": again, **cycle}
 
 
 def _numbered_turn(turning: Turning, turns: list[dict[str, Any]]) -> int:
@@ -87,20 +92,55 @@ def _numbered_turn(turning: Turning, turns: list[dict[str, Any]]) -> int:
     return turns.index(packed)
 
 
-def displacements(scene: Scene) -> dict[str, str]:
-    """{body: its displacements (frames, 3) from the first frame as text} of the bodies that move, without play that is drawn enlarged.
+def repeats(surfaces: Sequence[SolidSurface], scene: Scene) -> Iterator[tuple[int, Body, Body]]:
+    """(number of a surface, the body that it moves with, another body with the same shapes that has no surface of its own).
 
-    A point p of the start position is at  (x, y) + R(angle) p.
+    A chain has solids of its first links alone, for a CAD file; the others repeat them in turn.
     """
-    packed = {}
+    of_body: dict[str, list[int]] = {}
+    for number, each in enumerate(surfaces):
+        if each.turning is None:
+            of_body.setdefault(each.body, []).append(number)
+    alike: dict[int, list[Body]] = {}
     for body in scene.bodies:
-        poses = np.asarray(body.poses if body.rest is None else body.rest, float)
-        angle = np.unwrap(poses[:, 2]) - poses[0, 2]
-        (x, y), c, s = poses[0, :2], np.cos(angle), np.sin(angle)
-        moved = np.column_stack([poses[:, 0] - (c * x - s * y), poses[:, 1] - (s * x + c * y), angle])
-        if np.any(np.ptp(moved, axis=0) > 0):
-            packed[body.name] = floats(moved)
-    return packed
+        alike.setdefault(id(body.shapes), []).append(body)
+    for family in alike.values():
+        models = [body for body in family if body.name in of_body]
+        for number_of, body in enumerate(family):
+            if models and body.name not in of_body:
+                model = models[number_of % len(models)]
+                yield from ((number, model, body) for number in of_body[model.name])
+
+
+def with_repeats(surfaces: Sequence[SolidSurface], scene: Scene | None) -> tuple[SolidSurface, ...]:
+    """The surfaces and those that repeat them, all at the start position."""
+    more = []
+    for number, model, body in repeats(surfaces, scene) if scene else ():
+        points = surfaces[number].points
+        moved = np.column_stack([place(points[:, :2], displacement(body, model)[0]), points[:, 2]])
+        more.append(surfaces[number]._replace(body=body.name, points=moved))
+    return (*surfaces, *more)
+
+
+def displacements(scene: Scene) -> dict[str, str]:
+    """{body: its `displacement` as text} of the bodies that move."""
+    moved = {body.name: displacement(body, body) for body in scene.bodies}
+    return {name: floats(each) for name, each in moved.items() if np.any(np.ptp(each, axis=0) > 0)}
+
+
+def displacement(body: Body, start: Body) -> Floats:
+    """How a body is displaced (frames, 3) from where `start` is in the first frame, without play that is drawn enlarged.
+
+    A point p of that position is at  (x, y) + R(angle) p.
+    """
+    poses, (x, y, turned) = _true_poses(body), _true_poses(start)[0]
+    angle = np.unwrap(poses[:, 2]) - turned
+    c, s = np.cos(angle), np.sin(angle)
+    return np.column_stack([poses[:, 0] - (c * x - s * y), poses[:, 1] - (s * x + c * y), angle])
+
+
+def _true_poses(body: Body) -> Floats:
+    return np.asarray(body.poses if body.rest is None else body.rest, float)
 
 
 def shaded(points: Floats, corners: Ints, turning: Turning | None = None) -> dict[str, Any]:
