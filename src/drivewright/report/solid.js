@@ -10,6 +10,7 @@ import { AT_START, createRenderer } from "./triangles.js";
 const VIEWS = {iso: [0.62, 0.5], front: [0, 0], top: [0, Math.PI / 2], side: [Math.PI / 2, 0], back: [Math.PI, 0], bottom: [0, -Math.PI / 2],
   left: [-Math.PI / 2, 0]};
 const SHOWN = ["iso", "front", "top", "side", "fit"];  // views with a button of their own; the others by the cube
+const CLEAR = 1e-5;  // of the size: a section lies so far beyond a face in its plane, or rounding would cut that into stripes
 const DEPTH = 0.6;  // half the depth that is seen, in sizes of the whole
 
 const plain = name => name.replace(/[._\s]+/g, "_");  // checks say cam.main, solids cam_main
@@ -103,8 +104,8 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   /** The plane of the section [normal, distance], beyond which nothing is drawn; null without one. */
   function cutPlane() {
     if (!look.section) return null;
-    const [axis, part] = look.section, {low, high} = state.whole;
-    return [...[0, 1, 2].map(k => Number(k === axis)), low[axis] + part * (high[axis] - low[axis])];
+    const [axis, part] = look.section, {low, high, size} = state.whole;
+    return [...[0, 1, 2].map(k => Number(k === axis)), low[axis] + part * (high[axis] - low[axis]) + CLEAR * size];
   }
   /** Whether a part is faint, because others are lit. */
   function faintness() {
