@@ -1,6 +1,6 @@
 // Both renderers over the same parts, the same cycle and the same window: how long a frame takes, and how far their pixels differ.
 
-import { displacementAt, matrixOf, reachOf, unpackMotion, unpackParts } from "/studio/assembly.js";
+import { matrixAt, reachOf, unpackMotion, unpackParts } from "/studio/assembly.js";
 
 const COLOURS = {canvas: "#ffffff", "grid-strong": "#c3ccd6", ink: "#1d2733", steel: "#6b7785", blue: "#2563b8", orange: "#c2660a", green: "#2f7d46", violet: "#7747a8", ground: "#555555"};
 const TURN = 0.62, TILT = 0.5;  // the oblique view
@@ -8,7 +8,7 @@ const MODULES = {own: "/studio/triangles.js", quick: "/studio/triangles.js", thr
 
 /** {parts, moving, whole} of an answer of the job "solid". */
 export function unpack(answer) {
-  const moving = unpackMotion(answer), parts = unpackParts(answer.parts);
+  const moving = unpackMotion(answer), parts = unpackParts(answer);
   const {low, high, size} = answer, whole = {low, high, size, centre: low.map((end, k) => (end + high[k]) / 2)};
   return {parts, moving, whole: reachOf(parts, moving, whole)};
 }
@@ -35,12 +35,12 @@ export async function opened(kind, assembly, width, height, cut = null) {
   const {createRenderer} = await import(MODULES[kind]), canvas = canvasOf(width, height);
   const renderer = createRenderer(canvas, ...(kind === "same" ? [await import("/studio/shaders.js")] : []));
   const gl = canvas.getContext("webgl2") || canvas.getContext("webgl"), view = placing(assembly.whole, width, height), one = new Uint8Array(4);
-  const look = {hidden: new Set(), faint: () => false, cut, smooth: kind !== "quick"}, still = [0, 0, 0];
+  const look = {hidden: new Set(), faint: () => false, cut, smooth: kind !== "quick"};
   renderer.load(assembly.parts);
   return {
     gl, renderer,
     draw(phase) {
-      renderer.move(assembly.parts.map(({motion}) => matrixOf(motion >= 0 ? displacementAt(assembly.moving, assembly.moving.motions[motion], phase) : still, still)));
+      renderer.move(assembly.parts.map(part => matrixAt(assembly.moving, part, phase)));
       renderer.paint(view, COLOURS, look);
     },
     wait() { gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one); },

@@ -20,7 +20,7 @@ from drivewright.report.form import ReportForm
 from drivewright.report.letterhead import read_letterhead
 from drivewright.report.localised import localised
 from drivewright.report.paper_figures import paper_svg
-from drivewright.report.solids import MOST_TRIANGLES, SolidSurface, solid_surfaces
+from drivewright.report.solids import MOST_TRIANGLES, SolidSurface, solid_surfaces, with_repeats
 from drivewright.report.value_groups import grouped_values
 from drivewright.report.words import Words, translated, words_of
 from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table, Value
@@ -127,7 +127,7 @@ def _sketches(result, seen):
         except Exception as error:
             yield failing_sketch(f"plot-{plot.name}", plot.title, error)
     if seen.solids:
-        yield Sketch("solids", "Solids of the assembly", draw_solids, (seen.solids,))
+        yield Sketch("solids", "Solids of the assembly", draw_solids, (with_repeats(seen.solids, scene),))
     for drawing in seen.drawings:
         yield Sketch(f"drawing-{drawing.name}", sentence(drawing.title), draw_drawing, (drawing, system))
 

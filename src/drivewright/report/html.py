@@ -39,7 +39,16 @@ MODULES = (
     "panel.js",
     "plots.js",
 )  # each behind those that it imports
-SOLID_MODULES = ("assembly.js", "cube.js", "pacing.js", "shaders.js", "triangles.js", "solid.js", "assembly_bar.js")  # behind those: solids
+SOLID_MODULES = (
+    "assembly.js",
+    "cube.js",
+    "pacing.js",
+    "picking.js",
+    "shaders.js",
+    "triangles.js",
+    "solid.js",
+    "assembly_bar.js",
+)  # behind those, where solids are shown
 
 
 def write_report(

@@ -1,14 +1,16 @@
 // A small viewer of solids: triangles with normals, feature edges, orbit, pan and zoom.  Nothing is drawn while nothing changes.
 
-import { displacementAt, matrixOf, pullsOf, reachOf, unpackMotion, unpackParts } from "./assembly.js";
+import { matrixAt, pullsOf, reachOf, unpackMotion, unpackParts } from "./assembly.js";
 import { createCube } from "./cube.js";
 import { element, fixed, nice, pressable, same, watchTheme } from "./clock.js";
 import { createPacing } from "./pacing.js";
-import { createRenderer } from "./triangles.js";
+import { firstHit, takenBack } from "./picking.js";
+import { AT_START, createRenderer } from "./triangles.js";
 
 const VIEWS = {iso: [0.62, 0.5], front: [0, 0], top: [0, Math.PI / 2], side: [Math.PI / 2, 0], back: [Math.PI, 0], bottom: [0, -Math.PI / 2],
   left: [-Math.PI / 2, 0]};
 const SHOWN = ["iso", "front", "top", "side", "fit"];  // views with a button of their own; the others by the cube
+const CLEAR = 1e-5;  // of the size: a section lies so far beyond a face in its plane, or rounding would cut that into stripes
 const DEPTH = 0.6;  // half the depth that is seen, in sizes of the whole
 
 const plain = name => name.replace(/[._\s]+/g, "_");  // checks say cam.main, solids cam_main
@@ -42,6 +44,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   const view = {turn: VIEWS.iso[0], tilt: VIEWS.iso[1], scale: 1, fitted: true, shift: [-aside / 2, 0], width: 0, height: 0, ratio: 1};
   const look = {hidden: new Set(), lit: new Set(), section: null};  // names of parts; section: [axis, part of the way along it]
   const state = {parts: [], whole: {low: [0, 0, 0], high: [1, 1, 1], centre: [0, 0, 0], size: 1}, frame: 0, moving: null, phase: 0, pulls: [], apart: 0, drawn: 0};
+  const tip = element("div", {class: "so-tip", hidden: "", "data-testid": "solid-name"}), named = ({name, label}) => t(label || name.replaceAll("_", " "));
   const renderer = createRenderer(canvas), theme = watchTheme(host, () => redraw()), pacing = createPacing(() => redraw());
   host.classList.add("so");
   if (!renderer) {
@@ -50,7 +53,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
     return {load() {}, show() {}, at() {}, explode() {}, moving: false, drawn: 0, hide: names => new Set(names), cut() {}, setRamp() {}, highlight() {}, destroy() { theme.stop(); host.replaceChildren(); }};
   }
   const cube = createCube(name => from(name), t);
-  host.replaceChildren(canvas, overlay, legend, tools, cube.node);
+  host.replaceChildren(canvas, overlay, legend, tools, cube.node, tip);
 
   const observer = new ResizeObserver(() => {
     Object.assign(view, {width: host.clientWidth, height: host.clientHeight, ratio: window.devicePixelRatio || 1});
@@ -86,10 +89,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   /** Where each part stands at the phase, pulled out as far as wanted. */
   function places() {
     if (!state.moving && !state.apart) return [];
-    return state.parts.map(({motion}, n) => {
-      const moved = state.moving && motion >= 0 ? displacementAt(state.moving, state.moving.motions[motion], state.phase) : [0, 0, 0];
-      return matrixOf(moved, (state.pulls[n] || [0, 0, 0]).map(pull => state.apart * pull));
-    });
+    return state.parts.map((part, n) => matrixAt(state.moving, part, state.phase, (state.pulls[n] || [0, 0, 0]).map(pull => state.apart * pull)));
   }
   /** Matrices from the parts' space to the window's, column by column. */
   function placing(axes) {
@@ -104,13 +104,44 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   /** The plane of the section [normal, distance], beyond which nothing is drawn; null without one. */
   function cutPlane() {
     if (!look.section) return null;
-    const [axis, part] = look.section, {low, high} = state.whole;
-    return [...[0, 1, 2].map(k => Number(k === axis)), low[axis] + part * (high[axis] - low[axis])];
+    const [axis, part] = look.section, {low, high, size} = state.whole;
+    return [...[0, 1, 2].map(k => Number(k === axis)), low[axis] + part * (high[axis] - low[axis]) + CLEAR * size];
   }
   /** Whether a part is faint, because others are lit. */
   function faintness() {
     const isLit = ({name}) => look.lit.has(plain(name)), some = state.parts.some(part => !look.hidden.has(part.name) && isLit(part));
     return part => some && !isLit(part);
+  }
+
+  /** The name of the part under the pointer, beside it. */
+  function hover(x, y) {
+    const part = partAt(x, y);
+    tip.hidden = !part;
+    if (!part) return;
+    tip.textContent = named(part);
+    tip.style.transform = `translate(${Math.min(x + 14, view.width - tip.offsetWidth - 4)}px, ${Math.max(y - 10 - tip.offsetHeight, 4)}px)`;
+  }
+  /** The part that is seen at a place of the window, null where there is none; what a section has taken away is not seen. */
+  function partAt(x, y) {
+    const axes = axesOf(view.turn, view.tilt), {centre, size} = state.whole, cut = cutPlane(), places_ = places();
+    const across = [(x - view.width / 2 - view.shift[0]) / view.scale, (view.height / 2 - y - view.shift[1]) / view.scale];
+    const eye = centre.map((at, k) => at + across[0] * axes[0][k] + across[1] * axes[1][k] + size * axes[2][k]), ray = axes[2].map(part => -part);
+    let found = null, nearest = Infinity;
+    state.parts.forEach((part, n) => {
+      if (look.hidden.has(part.name)) return;
+      const m = places_[n] || AT_START, begin = cut ? beyond(cut, eye, ray) : 0;
+      const from = eye.map((at, k) => at + begin * ray[k]), far = begin + firstHit(part, takenBack(m, from), takenBack(m, ray, true));
+      if (far < nearest && !(cut && isCutAway(cut, eye, ray, far))) { nearest = far; found = part; }
+    });
+    return found;
+  }
+  /** How far along a ray the half-space beyond a plane of section ends; 0 where it begins outside. */
+  function beyond([a, b, c, d], eye, ray) {
+    const slope = a * ray[0] + b * ray[1] + c * ray[2], above = a * eye[0] + b * eye[1] + c * eye[2] - d;
+    return above > 0 && slope < 0 ? above / -slope : 0;
+  }
+  function isCutAway([a, b, c, d], eye, ray, far) {
+    return a * (eye[0] + far * ray[0]) + b * (eye[1] + far * ray[1]) + c * (eye[2] + far * ray[2]) > d + 1e-9;
   }
 
   /** Triad and scale bar. */
@@ -186,6 +217,8 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
     held = [event.clientX, event.clientY, pans];
     pans ? move(dx, dy) : turn(dx * 0.008, dy * 0.008);
   });
+  canvas.addEventListener("pointermove", event => { if (!held && event.pointerType !== "touch") hover(event.offsetX, event.offsetY); });
+  for (const name of ["pointerleave", "pointerdown"]) canvas.addEventListener(name, () => { tip.hidden = true; });
   for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { held = null; });
   canvas.addEventListener("contextmenu", event => event.preventDefault());
   canvas.addEventListener("wheel", event => {
@@ -198,14 +231,14 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   canvas.addEventListener("webglcontextrestored", () => { renderer.ready(); redraw(); });
 
   function chips() {
-    legend.replaceChildren(...state.parts.map(({name, label, colour}) => {
+    legend.replaceChildren(...state.parts.filter(({again}) => !again).map(({name, label, colour}) => {
       const looks = {class: "dw-chip", "aria-pressed": String(!look.hidden.has(name)), style: `--chip: var(--${colour}, var(--steel))`};
       return pressable(looks, chip => {
         if (!look.hidden.delete(name)) look.hidden.add(name);
         chip.setAttribute("aria-pressed", String(!look.hidden.has(name)));
         redraw();
         toggled(look.hidden);
-      }, t(label || name.replaceAll("_", " ")));
+      }, named({name, label}));
     }));
   }
 
@@ -214,7 +247,7 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
     const seen = parts.filter(part => !look.hidden.has(part.name));
     state.parts = parts;
     state.whole = reachOf(parts, state.moving, extent(seen.length ? seen : parts));
-    state.pulls = pullsOf(parts, state.whole);
+    state.pulls = pullsOf(parts, state.moving, state.whole);
     if (Math.abs(state.whole.size / had - 1) > 0.5) fit();
     renderer.load(state.parts);
     if (!same(before, parts.map(part => part.name))) chips();
@@ -222,14 +255,14 @@ export function createSolid(host, {t, aside = 0, toggled = () => {}}) {
   }
 
   return {
-    load({parts, ...answer}) {
+    load(answer) {
       state.moving = unpackMotion(answer);
-      show(unpackParts(parts));
+      show(unpackParts(answer));
     },
     show,
     get moving() { return Boolean(state.moving); },
     get drawn() { return state.drawn; },
-    at(phase) { if (state.moving && phase !== state.phase) { state.phase = phase; redraw(); } },
+    at(phase) { if (state.moving && phase !== state.phase) { state.phase = phase; tip.hidden = true; redraw(); } },
     explode(part) { state.apart = part; redraw(); },
     hide(names) { look.hidden = new Set(names); return look.hidden; },
     cut(section) { look.section = section; redraw(); },

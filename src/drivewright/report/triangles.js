@@ -2,7 +2,7 @@
 
 import { EDGE, FACE, FIELD } from "./shaders.js";
 
-const AT_START = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);  // a part where it was at the start
+export const AT_START = new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);  // a part where it was at the start
 const UNCUT = [0, 0, 0, 1];  // a plane beyond which nothing lies
 
 /** Red, green, blue of "#abc" or "#aabbcc", each 0..1. */
@@ -84,14 +84,22 @@ export function createRenderer(canvas) {
     fine = smoothed(gl);
     [face, field, edge] = [FACE, FIELD, EDGE].map(each => program(gl, each));
     texture = ramp(gl, row.stops);
-    parts = parts.map(upload);
+    load(parts);
+  }
+  /** Parts with the same points share what was uploaded of the first. */
+  function load(next) {
+    const known = new Map();
+    parts = next.map(part => {
+      if (!known.has(part.points)) known.set(part.points, upload(part));
+      return {...part, ...known.get(part.points)};
+    });
   }
   function upload(part) {
     const {points, normals, levels, corners, edges} = part, order = numbers => ({data: buffer(gl, numbers, gl.ELEMENT_ARRAY_BUFFER),
       count: numbers.length, type: numbers instanceof Uint16Array ? gl.UNSIGNED_SHORT : gl.UNSIGNED_INT});
     const spots = buffer(gl, points), faces = {buffers: {position: [spots, 3], normal: [buffer(gl, normals), 3]}, count: points.length / 3};
     if (levels) faces.buffers.level = [buffer(gl, levels), 1];
-    return {...part, faces: {...faces, order: corners && order(corners)}, lines: corners
+    return {faces: {...faces, order: corners && order(corners)}, lines: corners
       ? {buffers: {position: [spots, 3]}, order: order(edges)} : {buffers: {position: [buffer(gl, edges), 3]}, count: edges.length / 3}};
   }
   function drop({faces, lines}) {
@@ -152,7 +160,7 @@ export function createRenderer(canvas) {
     move(places) { parts.forEach((part, n) => { part.own = places[n]; }); },
     load(next) {
       parts.forEach(drop);
-      parts = next.map(upload);
+      load(next);
     },
     setRamp(stops, bare) {
       row = {stops, bare};

@@ -23,11 +23,20 @@ def surface_triangles(part: Part, tolerance: float = 1e-5) -> tuple[Floats, Ints
 
 
 def viewed_triangles(part: Part, tolerance: float) -> tuple[Floats, Ints]:
-    """The same for a picture: prisms that are fused need no CAD kernel, and no more points than `tolerance` [m] needs."""
+    """The same for a picture: prisms are fused without the CAD kernel, with no more points than `tolerance` [m] needs.
+
+    Bars and turned bodies stay closed surfaces of their own, which may end inside of others: nobody sees it, also in a section.
+    """
     prisms = [solid for solid in part.solids if isinstance(solid, Prism)]
-    if not prisms or len(prisms) < len(part.solids):
+    others = [solid for solid in part.solids if not isinstance(solid, Prism)]
+    if not part.solids or any(type(solid) not in MAKERS for solid in others):
         return surface_triangles(part, tolerance)
-    points, corners = stacked_triangles(prisms, f"part {part.name!r}", tolerance)
+    name = f"part {part.name!r}"
+    made = [stacked_triangles(prisms, name, tolerance)] if prisms else []
+    made += [MAKERS[type(solid)](solid, name, tolerance) for solid in others]
+    starts = np.cumsum([0, *(len(points) for points, _ in made[:-1])])
+    points = np.concatenate([points for points, _ in made])
+    corners = np.concatenate([corners + start for (_, corners), start in zip(made, starts, strict=True)])
     return np.column_stack([place(points[:, :2], part.pose), points[:, 2]]), corners
 
 
