@@ -24,7 +24,8 @@ def tab(browser, address):
     contexts = []
 
     def open_it(spec, width, lang="en", theme="light"):
-        context = browser.new_context(viewport={"width": width, "height": SIZES[width]}, reduced_motion="reduce", has_touch=width < 900, color_scheme=theme)  # fmt: skip
+        size = {"width": width, "height": SIZES[width]}
+        context = browser.new_context(viewport=size, reduced_motion="reduce", has_touch=width < 900, color_scheme=theme)
         contexts.append(context)
         page = context.new_page()
         page.goto(address_of(address, spec))
@@ -77,8 +78,8 @@ PAIRS = [
     ("surface", "accent", 4.5),
 ]
 OUTDATED = """({drivewright: store}) => {
-  const {result} = store.state;
-  store.set({result: {...result, full: false, verdict: {...result.verdict, stale: true}, checks: result.checks.map(check => ({...check, stale: true}))}});
+  const {result} = store.state, checks = result.checks.map(check => ({...check, stale: true}));
+  store.set({result: {...result, full: false, verdict: {...result.verdict, stale: true}, checks}});
 }"""
 
 

@@ -10,8 +10,13 @@ from drivewright.studio.session import packed
 STATE = "window.drivewright.state"
 RADIUS = "follower.prime_radius"
 DISTANCE = ("|handle ground.points.O2", "coupler|handle bodies.coupler.points.C")  # in the four-bar
-SPECS = {"four_bar": ("four_bar", ()), "cam": ("disc_cam", ()), "failing_cam": ("disc_cam", (('prime_radius = "40 mm"', 'prime_radius = "24 mm"'),)),
-         "shaft": ("pressure_roller_shaft", ()), "pusher": ("seedling_pusher", ())}  # fmt: skip
+SPECS = {  # {name: (example, changes of its text)}
+    "four_bar": ("four_bar", ()),
+    "cam": ("disc_cam", ()),
+    "failing_cam": ("disc_cam", (('prime_radius = "40 mm"', 'prime_radius = "24 mm"'),)),
+    "shaft": ("pressure_roller_shaft", ()),
+    "pusher": ("seedling_pusher", ()),
+}
 
 
 class State(NamedTuple):
