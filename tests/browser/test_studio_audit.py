@@ -1,5 +1,7 @@
 """Every state of the studio's page on a phone and on a tablet: what is there can be reached, read and hit by a finger."""
 
+import re
+
 import pytest
 from browsing import until
 from places import ROOT
@@ -68,6 +70,20 @@ def test_everything_fits_in_chinese_on_a_phone(tab, spec):
     assert audited(tab(spec, 390, "zh"), spec, {"controls": [True], "panels": [], "cut": []}) == []
 
 
+# What stays as it is in Chinese: names in the spec, the name of the program, formats of files, units, and values of the spec.
+UNITS = r"[-−\d.,~/\s×⁻⁰¹²³]*(mm|MPa|GPa|mPa s|rpm|rad|deg|arcmin|min|kg|N|m|s|[\s/·^²])+"
+KEPT = re.compile(
+    rf'"(Drivewright|English|inch|(DXF|SVG|CSV|STEP|STL|GCODE|PDF)|{UNITS})" '
+    r'|^option |^title |aria-label "[^"]*: [-\d]|16MnCr5|st-group-title|group-[\w.]+$'
+)
+
+
+@pytest.mark.parametrize("spec", ["four_bar", "cam", "failing_cam", "pusher"])
+def test_no_english_word_is_left_in_chinese(tab, spec):
+    wrong = audited(tab(spec, 1440, "zh"), spec, {"english": []})
+    assert [one for one in wrong if not KEPT.search(one.partition(": ")[2])] == []
+
+
 # What is drawn and not written: lines of plots and of kept runs, handles, the bubble beside one, the mark of the focus.
 LINES = ("blue", "orange", "green", "violet", "steel", "ground", "cursor", "accent", "bad", *(f"run-{n}" for n in range(1, 5)))
 PAIRS = [
@@ -78,9 +94,8 @@ PAIRS = [
     ("surface", "accent", 4.5),
 ]
 OUTDATED = """({drivewright: store}) => {
-  const {result} = store.state;
-  store.set({result: {...result, full: false, verdict: {...result.verdict, stale: true},
-    checks: result.checks.map(check => ({...check, stale: true}))}});
+  const {result} = store.state, checks = result.checks.map(check => ({...check, stale: true}));
+  store.set({result: {...result, full: false, verdict: {...result.verdict, stale: true}, checks}});
 }"""
 
 

@@ -104,3 +104,120 @@ def test_a_finger_drags_a_border_of_the_programme_and_the_pane_stays(phone):
     touch("touchEnd")
     until(page, f"{angle} !== {before!r}")
     assert page.evaluate(PLACES) == places
+
+
+# ------------------------------------------------------------------------------------------------------------------------- keys
+
+STOPS = """() => {
+  const seen = one => one.checkVisibility();
+  const stops = field => [...field.querySelectorAll('button, input, select')].filter(one => one.tabIndex >= 0 && seen(one));
+  return [...document.querySelectorAll('.st-field')].filter(seen).map(field => [field.dataset.key, stops(field).length])
+    .filter(([, count]) => count !== 1);
+}"""
+
+
+@pytest.fixture
+def desk(browser, address):
+    """Opens a design on a wide screen."""
+    contexts = []
+
+    def open_it(spec="four_bar"):
+        context = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
+        contexts.append(context)
+        page = context.new_page()
+        page.goto(address_of(address, spec))
+        until(page, "window.drivewright !== undefined", 30)
+        analysed(page)
+        return page
+
+    yield open_it
+    for context in contexts:
+        context.close()
+
+
+@pytest.mark.parametrize("spec", ["four_bar", "cam", "shaft"])
+def test_a_field_is_one_stop(desk, spec):
+    page = desk(spec)
+    assert page.locator(".st-field").count() > 10
+    assert page.evaluate(STOPS) == []
+
+
+# A key, and two with Shift, faster than the drawing follows.
+AT_ONCE = """() => { for (const shiftKey of [false, true, true])
+  document.activeElement.dispatchEvent(new KeyboardEvent('keydown', {key: 'ArrowRight', shiftKey, bubbles: true})); }"""
+
+
+def lengths(text):
+    return [float(part.split()[0]) for part in text.split(",")]
+
+
+def test_arrow_keys_move_a_handle_and_escape_takes_them_back(desk):
+    page = desk()
+    before, handle = page.evaluate(TEXT), page.get_by_test_id(f"handle-{KEY}")
+    handle.focus()
+    page.keyboard.press("ArrowRight")
+    until(page, f"{TEXT} !== {before!r}")
+    one = lengths(page.evaluate(TEXT))[0] - lengths(before)[0]
+    assert one > 0
+    page.keyboard.press("Escape")
+    until(page, f"{TEXT} === {before!r}")
+    page.evaluate(AT_ONCE)
+    assert page.locator(".hd-layer > .hd-bubble").inner_text().startswith("coupler · C")
+    until(page, f"parseFloat({TEXT}) > {lengths(before)[0] + 20.5 * one}")
+    assert lengths(page.evaluate(TEXT))[0] - lengths(before)[0] == pytest.approx(21 * one, rel=0.06)
+    page.keyboard.press("Escape")
+    until(page, f"{TEXT} === {before!r}")
+    assert page.get_by_test_id("undo").is_disabled()
+    assert page.evaluate("document.activeElement.dataset.testid") == f"handle-{KEY}"
+
+
+def test_the_choice_of_plots_and_a_measurement_by_keys_alone(desk):
+    page = desk()
+    page.get_by_test_id("plot-picker").focus()
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.dataset.testid") == "plot-search"
+    page.keyboard.press("Escape")
+    assert page.evaluate("document.activeElement.dataset.testid") == "plot-picker" and page.locator(".st-popover").count() == 0
+    page.get_by_test_id("measure").focus()
+    page.keyboard.press("Enter")
+    for feature in ("|handle ground.points.O2", "|handle ground.points.O4"):
+        page.get_by_test_id("measure-point").focus()
+        page.get_by_test_id("measure-point").select_option(feature)
+        page.keyboard.press("Tab")
+        page.keyboard.press("Enter")
+    assert page.get_by_test_id("measure-value").inner_text() == "120.000\xa0mm"
+
+
+def test_forms_stay_as_they_are_in_another_language(desk):
+    page, radius = desk("cam"), "follower.prime_radius"
+    page.get_by_test_id("setup-optimise").click()
+    page.get_by_test_id(f"search-key-{radius}").check()
+    page.get_by_test_id(f"search-lower-{radius}").fill("31 mm")
+    page.get_by_test_id("search-value-0").select_option("profile.max_radius")
+    page.get_by_test_id("search-budget").fill("77")
+    page.get_by_test_id("setup-study").click()
+    page.get_by_test_id(f"study-key-{radius}").check()
+    page.get_by_test_id(f"study-way-{radius}").select_option("normal")
+    page.get_by_test_id(f"study-tolerance-{radius}").fill("3 %")
+    page.get_by_test_id("study-method").select_option("sobol")
+    page.get_by_test_id("language").focus()
+    page.keyboard.press("Enter")
+    until(page, "document.documentElement.lang === 'zh-CN'")
+    assert page.evaluate("document.activeElement.dataset.testid") == "language"
+    assert page.get_by_test_id(f"search-key-{radius}").is_checked() and page.get_by_test_id(f"study-key-{radius}").is_checked()
+    assert page.get_by_test_id(f"search-lower-{radius}").input_value() == "31 mm"
+    assert page.get_by_test_id("search-value-0").input_value() == "profile.max_radius"
+    assert page.get_by_test_id("search-budget").input_value() == "77"
+    assert page.get_by_test_id(f"study-way-{radius}").input_value() == "normal"
+    assert page.get_by_test_id(f"study-tolerance-{radius}").input_value() == "3 %"
+    assert page.get_by_test_id("study-method").input_value() == "sobol"
+    assert page.get_by_test_id("search-start").is_enabled() and page.get_by_test_id("study-start").is_enabled()
+
+
+def test_what_is_refused_is_told_in_the_language_of_the_page(desk):
+    page = desk("cam")
+    page.get_by_test_id("language").click()
+    box = page.get_by_test_id("field-follower.prime_radius").locator("input").first
+    box.fill("3 kg")
+    box.press("Enter")
+    page.get_by_test_id("message-follower.prime_radius").filter(has_text="应为长度").wait_for()

@@ -169,6 +169,12 @@ def test_kinds_are_introduced_before_a_design_is_open():
     assert "design a" in said and "Area of the cam profile" not in said
 
 
+def test_every_title_of_the_menu_is_chinese_whatever_is_open():
+    book = translations.texts(None)
+    titles = [title for kind in OURS for title in translations.preset_titles(kind).values()]
+    assert len(titles) > 20 and [title for title in titles if not CHINESE.search(book.get(title, ""))] == []
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_every_analysis_has_a_name_and_a_meaning(kind):
     analyses = registry.mechanism(kind).analyses

@@ -10,7 +10,7 @@ from drivewright.studio.opening import packed
 STATE = "window.drivewright.state"
 RADIUS = "follower.prime_radius"
 DISTANCE = ("|handle ground.points.O2", "coupler|handle bodies.coupler.points.C")  # in the four-bar
-SPECS = {
+SPECS = {  # {name: (example, changes of its text)}
     "four_bar": ("four_bar", ()),
     "cam": ("disc_cam", ()),
     "failing_cam": ("disc_cam", (('prime_radius = "40 mm"', 'prime_radius = "24 mm"'),)),

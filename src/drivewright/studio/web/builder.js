@@ -20,7 +20,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   const layer = element("div", {class: "bd-layer", hidden: ""}, sheet, marks, panel);
   const button = pressable({class: "dw-button bd-button", "data-testid": "build"}, () => turn(!on));
   let on = false, drive = null, tool = null, heard = null, places = [], cursor = null, handles = [], buttons = new Map();
-  marks.setAttribute("class", "bd-marks");
+  marks.setAttribute("class", "bd-marks"); marks.setAttribute("aria-hidden", "true");
 
   const refusal = () => store.state.refused?.[""] || null;
   const offered = () => (store.state.kinds || []).find(({kind}) => kind === store.state.design?.kind)?.tools || [];

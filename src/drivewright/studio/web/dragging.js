@@ -177,13 +177,13 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
       nudge(button, handleOf, step, event.shiftKey ? 10 : 1);
     }
   }
-  /** An arrow key: the numbers go a step on, from where the key before it sent them. */
+  /** An arrow key: the numbers go a step on, from where the key before it sent them.  As long as they are shown it is one gesture. */
   function nudge(button, handleOf, [x, y], times) {
     const handle = handleOf(), start = numbers(handle);
     if (!start) return;
     if (clock.playing) { clock.set(0); clock.pause(); }
     if (nudged?.button !== button) { settle(); nudges.end(); }
-    const gesture = nudges.next(), from = nudged?.gesture === gesture ? nudged.now : start.map(({value}) => value);
+    const gesture = nudges.current(), from = nudged?.gesture === gesture ? nudged.now : start.map(({value}) => value);
     const moves = handle.direction ? [x + y] : [x, y], now = start.map((number, n) => {
       const step = gridOf(number, COARSE);
       return moves[n] ? kept(onGrid(from[n] + moves[n] * times * step, step), number) : from[n];
@@ -192,7 +192,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     say({what: "drag", changes: texts(start, now), gesture});
     show();
     clearTimeout(fading);
-    fading = setTimeout(() => { nudged.seen = false; show(); }, SEEN);
+    fading = setTimeout(() => { nudges.end(); nudged.seen = false; show(); }, SEEN);
   }
   /** Esc behind arrow keys: their steps are taken back. */
   function unnudge() { say({what: "revert", gesture: nudged.gesture}); settle(); nudges.end(); }

@@ -58,7 +58,7 @@ function createControl(field, name, {t, parts, learn}) {
   const own = many.map(value => ({value: String(value), text: t(String(value))}));
   const options = () => field.list ? parts(field.list).map(([value, note]) => ({value, text: value, note})) : own;
   const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
-  if (field.optional || field.value === null) box.placeholder = field.default ?? t("not set");
+  if (field.optional || field.value === null) box.placeholder = t(String(field.default ?? "not set"));
   const counted = COUNTED.includes(field.kind), told = own.length > 0 || Boolean(field.list);
   const read = text => counted ? unitsRead(text) : named || told ? t(text) : text, value = text => options().find(one => one.text === text)?.value ?? text;
   /** The text of the spec: a title that is shown in the language of the page is still the one of the spec. */

@@ -52,7 +52,7 @@ export function createGroups(body, {say, t, chinese}, rowOf) {
   let kind = "", wanted = "", titles = [], named = new Map();
 
   // ---- words
-  const bare = group => (chinese() && group.zh) || group.title || t("General");
+  const bare = group => (chinese() && group.zh) || t(group.title || "General");
   /** An element without a name of its own is called after its list. */
   const titleOf = group => group.role === "element" && /^\d+$/.test(group.title) && named.has(group.list)
     ? `${bare(named.get(group.list))} ${group.index + 1}` : bare(group);

@@ -33,7 +33,7 @@ export function createHandles(getPlayer, tools) {
   const bubble = element("output", {class: "hd-bubble", hidden: ""});
   const names = createNames(tools);
   let packed = [], bodies = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
-  guides.setAttribute("class", "hd-guides");
+  guides.setAttribute("class", "hd-guides"); guides.setAttribute("aria-hidden", "true");
   layer.append(guides, bubble);
 
   const drag = createDrag({layer, guides, bubble, place, others, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,

@@ -18,7 +18,7 @@ const tidy = value => Number(value.toPrecision(12));
  */
 export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, hold, select, tools}) {
   const {say, t, clock} = tools, bubble = element("output", {class: "hd-bubble", hidden: ""}), nudges = createGesture("programme");
-  let buttons = new Map(), grip = null, pending = 0, swept = false;
+  let buttons = new Map(), grip = null, pending = 0, swept = false, nudged = null;  // nudged: {id, gesture} of the last arrow key
   layer.append(bubble);
 
   // ---- what each button moves: {kind, n, k}
@@ -179,12 +179,20 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
   function keys(event, {kind, n, k}) {
     const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key], times = event.shiftKey ? 10 : 1, segment = drawn().segments[n];
     if (event.key === "Escape" && grip) { const {gesture} = grip; event.preventDefault(); event.stopPropagation(); end(); hold(null); say({what: "revert", gesture}); return; }
+    if (event.key === "Escape" && nudged?.id === idOf({kind, n, k})) {  // the steps of the arrow keys before it
+      event.preventDefault(); event.stopPropagation();
+      say({what: "revert", gesture: nudged.gesture});
+      nudged = null; nudges.end();
+      return;
+    }
     if (!step || !(kind === "point" || numbersOf({kind, n}).every(Boolean))) return;
     event.preventDefault(); event.stopPropagation();
-    const [dx, dy] = step;
-    if (kind === "border") moveBorder(n, segment.start + (dx + dy) * times * DEGREE, false, nudges.next());
-    else if (kind === "lift") { const [own] = numbersOf({kind, n}); moveLift(n, segment.to + (dx + dy) * times * stepOf(own) * own.factor, false, nudges.next()); }
-    else movePoint(n, k, [segment.points[k][0] + dx * times * 0.01, segment.points[k][1] + dy * times * 0.01], nudges.next());
+    const [dx, dy] = step, id = idOf({kind, n, k});
+    if (nudged?.id !== id) nudges.end();
+    nudged = {id, gesture: nudges.next()};
+    if (kind === "border") moveBorder(n, segment.start + (dx + dy) * times * DEGREE, false, nudged.gesture);
+    else if (kind === "lift") { const [own] = numbersOf({kind, n}); moveLift(n, segment.to + (dx + dy) * times * stepOf(own) * own.factor, false, nudged.gesture); }
+    else movePoint(n, k, [segment.points[k][0] + dx * times * 0.01, segment.points[k][1] + dy * times * 0.01], nudged.gesture);
     hold(null);
   }
   /** A typed angle or rise of segment `n`: the border behind it moves, or the one before the last; the lift at its end, or at its start. */

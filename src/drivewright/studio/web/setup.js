@@ -13,7 +13,8 @@ const SHORT = 20;  // seconds of all analyses up to which they are timed once mo
  */
 export function createSetup(name, words, tools, create) {
   const {store, say} = tools, form = create(tools, close), opener = button(words, open, {testid: `setup-${name}`});
-  let shown = false, before = null, drive = null, was = null;
+  opener.setAttribute("aria-label", form.node.getAttribute("aria-label"));  // there are two of them
+  let shown = false, asked = false, before = null, drive = null, was = null;  // before: proposals that were there when others were asked for
   form.node.hidden = true;
 
   function open() {
@@ -21,6 +22,7 @@ export function createSetup(name, words, tools, create) {
     form.node.hidden = false;
     form.refused("");
     toTop();
+    asked = true; before = store.state.proposals;
     say({what: "propose"});
     if (!store.state.jobs?.timing && (secondsOf(store) ?? 0) < SHORT) say({what: "job", name: "timing", options: {}});
   }
@@ -55,7 +57,7 @@ export function createSetup(name, words, tools, create) {
     if (shown) form.result();
   }
   const stops = [store.on(["jobs"], timing),
-    store.on(["proposals"], ({proposals}) => { if (proposals && shown && proposals !== before) { before = proposals; form.load(proposals); } }),
+    store.on(["proposals"], ({proposals}) => { if (asked && proposals && proposals !== before) { asked = false; form.load(proposals); } }),
     store.on(["result"], () => { learn(store); if (shown) form.result(); }), store.on(["refused"], refused), store.on(["design"], designed),
     () => keep(shown ? form.draft() : null),
   ];
@@ -64,7 +66,6 @@ export function createSetup(name, words, tools, create) {
     keep(null);
     shown = true;
     form.node.hidden = false;
-    before = store.state.proposals;
     form.load(draft);
   }
   return {
