@@ -62,6 +62,7 @@ def test_the_energy_is_not_audited_where_a_shock_takes_it():
         ("wheel.hub_diameter=20 mm", "hub_wall"),
         ("locking.bore=50 mm", "disc_wall"),
         ("pin.journal_radius=7.5 mm", "roller_wall"),
+        ("manufacture.cutter_diameter=17 mm", "cutter"),
         ("locking.clearance=0.5 mm", "dwell_play"),
         ("wheel.slot_clearance=1 mm", "entry_angle"),
         ("limits.locking_clearance=0.1 mm", "locking_clearance"),

@@ -9,7 +9,6 @@ from drivewright.mechanisms.geneva.build import GenevaModel
 from drivewright.mechanisms.geneva.motion import FROM_CENTRES
 from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
-
 LEAST_WALL = 1e-3  # m, of a roller: a thin sleeve
 
 
@@ -94,6 +93,9 @@ def _checks(model: GenevaModel, values: dict[str, Value]) -> Iterator[Check]:
     ):
         yield Check(name, value, limit, ">=", "m", message, parts, True, label=label)
     yield from _bore_checks(model, shape)
+    message = "diameter of the end mill against the width of a slot; take a smaller end mill"
+    cutter = model.spec.manufacture.cutter_diameter
+    yield Check("cutter", cutter, shape.slot_width, "<=", "m", message, ("wheel",), label="Diameter of the end mill for a slot")
     if model.spec.pin.kind == "roller":
         message = "wall of the roller around its journal; reduce the journal or enlarge the pin"
         wall = model.spec.pin.radius - model.journal_radius
