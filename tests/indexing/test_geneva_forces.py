@@ -50,6 +50,24 @@ def test_a_crossing_goes_with_the_two_thirds_power_of_the_clearance():
     assert near.speed == pytest.approx(SPEED * rho * third * near.angle**2 / 2, rel=2e-3)
 
 
+def test_at_the_crossing_a_free_wheel_is_the_clearance_ahead_of_the_pin():
+    """A wheel that slows down evenly from where psi'' is its own second derivative; the speed is that of the gap."""
+    clearance, bend = 2e-4, -2.0
+    found = crossing(STEP, clearance, SPEED, bend)
+    fine = np.linspace(0.0, 0.3, 300_001)
+    start = fine[int(np.argmin(np.abs(STEP.pin_direction(fine).d2 - bend)))]
+    first = STEP.pin_direction(start)
+
+    def gap(theta):
+        free = first.d0 + first.d1 * (theta - start) + bend * (theta - start) ** 2 / 2
+        return STEP.pin_distance(theta) * (free - STEP.pin_direction(theta).d0)
+
+    assert gap(found.angle) == pytest.approx(clearance, rel=1e-5)
+    h = 1e-6
+    slope = (gap(found.angle + h) - gap(found.angle - h)) / (2 * h)
+    assert found.speed == pytest.approx(SPEED * slope, rel=1e-5)
+
+
 def test_friction_of_the_wheel_delays_the_crossing_and_softens_it():
     free, held = (crossing(STEP, 3e-5, SPEED, bend) for bend in (0.0, -2.0))
     assert held.angle > free.angle and held.speed < free.speed

@@ -67,6 +67,21 @@ def test_walls_are_distances_of_the_parts():
     assert made.slot_bottom == pytest.approx(slots[0].distance(shapely.Point(0, 0)), abs=1e-7)
 
 
+def test_the_pin_keeps_its_clearance_from_the_bottom_of_the_slot():
+    made = shape(5, end_clearance=2e-3)
+    deepest = C - made.step.crank_radius - made.pin_radius
+    assert deepest - made.slot_bottom == pytest.approx(2e-3, rel=1e-12)
+    assert made.slot_length == pytest.approx(made.outer_radius - made.slot_bottom, rel=1e-12)
+
+
+@pytest.mark.parametrize("slots", [3, 4, 8])
+def test_a_relief_without_allowance_leaves_the_round_part_at_right_angles(slots):
+    made = shape(slots, 0.003, relief=0.0)
+    relief = made.disc_relief
+    assert relief.center[0] ** 2 == pytest.approx(made.locking_radius**2 + relief.radius**2, rel=1e-9)
+    assert relief.center[0] - relief.radius == pytest.approx(made.relief_depth, rel=1e-9)
+
+
 def test_an_undercut_slot_is_shorter_by_what_the_arc_takes():
     """The arc of a large disc reaches over the side of the slot, which ends where the arc cuts it."""
     made, whole = shape(4, 0.008, 0.0655), shape(4, 0.008)

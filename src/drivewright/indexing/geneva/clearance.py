@@ -9,9 +9,9 @@ the wheel, which moves on freely until its other side meets the pin.
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from drivewright.indexing.geneva.step import GenevaStep
+from drivewright.numerics.roots import roots_in_brackets
 
 FREE = 1.2  # rad of the crank within which a crossing ends
 
@@ -69,8 +69,14 @@ def crossing(step: GenevaStep, clearance: float, speed: float, bend: float) -> C
     end = min(start + FREE, step.half_engagement)
     if gap(end)[0] < clearance:  # the pin leaves the slot before it has crossed it
         return Crossing(float(end), 0.0)
-    at = brentq(lambda theta: gap(theta)[0] - clearance, start, end, xtol=1e-14)
-    return Crossing(float(at), float(gap(at)[1]) * speed)
+    at = _root(lambda theta: gap(theta)[0] - clearance, start, end)
+    return Crossing(at, float(gap(at)[1]) * speed)
+
+
+def _root(f, low, high):
+    """The root of f between two ends at which it has different signs."""
+    ends = np.array([low]), np.array([high])
+    return float(roots_in_brackets(f, *ends, *(np.asarray(f(end)) for end in ends))[0])
 
 
 def _release(step, bend):
@@ -80,4 +86,4 @@ def _release(step, bend):
         return high
     if step.pin_direction(low).d2 <= bend:
         return low
-    return float(brentq(lambda theta: float(step.pin_direction(theta).d2) - bend, low, high, xtol=1e-14))
+    return _root(lambda theta: step.pin_direction(theta).d2 - bend, low, high)

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._typing import Floats
+from drivewright._typing import Bools, Floats
 from drivewright.motion.laws import MotionLaw
 from drivewright.numerics.roots import bracketed_roots
 
@@ -21,7 +21,7 @@ class CrankSamples(NamedTuple):
     speed: Floats
     acceleration: Floats
     jerk: Floats
-    engaged: Floats
+    engaged: Bools
 
 
 class Crank(NamedTuple):
@@ -40,11 +40,8 @@ class Crank(NamedTuple):
         """Angle [rad], speed, acceleration and jerk at the parts u of a turn's time, 0..1."""
         if self.law is None:
             return TURN * u - np.pi, self.mean_speed + 0 * u, 0 * u, 0 * u
-        moved = self.law(u)
-        return (
-            TURN * moved.s - np.pi,
-            *(TURN * part / self.period**order for order, part in enumerate((moved.v, moved.a, moved.j), start=1)),
-        )
+        moved, period = self.law(u), self.period
+        return (TURN * moved.s - np.pi, TURN * moved.v / period, TURN * moved.a / period**2, TURN * moved.j / period**3)
 
     def part_at(self, angle: float) -> float:
         """The part u of a turn's time at which the crank stands at an angle within (-pi, pi)."""

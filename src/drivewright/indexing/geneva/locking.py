@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._typing import Bools, Floats
+from drivewright._typing import Bools, Complexes, Floats
 from drivewright.indexing.geneva.shapes import GenevaShape
 from drivewright.scene import Arc, Line, Piece
 
@@ -54,47 +54,46 @@ def _beside_the_slot(shape: GenevaShape) -> list[Piece]:
     return [*shape.sector(-2 * shape.step.half_pitch), *shape.sector(0.0)]
 
 
-def _points(pieces) -> Floats:
+def _points(pieces) -> Complexes:
     """Points (m,) on pieces, their ends included; complex [m]."""
     u = np.linspace(0.0, 1.0, POINTS)
     return np.concatenate([_on_line(each, u) if isinstance(each, Line) else _on_arc(each, u) for each in pieces])
 
 
-def _on_line(line: Line, u: Floats) -> Floats:
+def _on_line(line: Line, u: Floats) -> Complexes:
     start, end = complex(*line.start), complex(*line.end)
-    return start + (end - start) * u
+    return np.asarray(start + (end - start) * u, np.complex128)
 
 
-def _on_arc(arc: Arc, u: Floats) -> Floats:
-    return complex(*arc.center) + arc.radius * np.exp(1j * (arc.start + arc.sweep * u))
+def _on_arc(arc: Arc, u: Floats) -> Complexes:
+    return np.asarray(complex(*arc.center) + arc.radius * np.exp(1j * (arc.start + arc.sweep * u)), np.complex128)
 
 
-def _distance(pieces, points: Floats) -> Floats:
+def _distance(pieces, points: Complexes) -> Floats:
     """Distance [m] of points from the nearest of several pieces."""
     return np.min([_from_line(each, points) if isinstance(each, Line) else _from_arc(each, points) for each in pieces], axis=0)
 
 
-def _from_line(line: Line, points: Floats) -> Floats:
+def _from_line(line: Line, points: Complexes) -> Floats:
     start, way = complex(*line.start), complex(*line.end) - complex(*line.start)
     along = np.clip(((points - start) * np.conj(way)).real / abs(way) ** 2, 0.0, 1.0)
     return np.abs(points - start - along * way)
 
 
-def _from_arc(arc: Arc, points: Floats) -> Floats:
+def _from_arc(arc: Arc, points: Complexes) -> Floats:
     centre, ends = complex(*arc.center), _on_arc(arc, np.array([0.0, 1.0]))
     turned = np.angle((points - centre) * np.exp(-1j * (arc.start + arc.sweep / 2)))
     beside = np.minimum(np.abs(points - ends[0]), np.abs(points - ends[1]))
     return np.where(np.abs(turned) <= abs(arc.sweep) / 2, np.abs(np.abs(points - centre) - arc.radius), beside)
 
 
-def _in_disc(shape: GenevaShape, points: Floats) -> Bools:
+def _in_disc(shape: GenevaShape, points: Complexes) -> Bools:
     """Whether points in the frame of the crank lie in the disc."""
-    relief = shape.disc_outline.pieces[1]
-    assert isinstance(relief, Arc)
+    relief = shape.disc_relief
     return (np.abs(points) < shape.locking_radius) & (np.abs(points - complex(*relief.center)) > relief.radius)
 
 
-def _in_wheel(shape: GenevaShape, points: Floats) -> Bools:
+def _in_wheel(shape: GenevaShape, points: Complexes) -> Bools:
     """Whether points in the frame of the wheel lie in it: within its rim, in no slot, in no locking arc."""
     pitch = 2 * shape.step.half_pitch
     slot = points * np.exp(-1j * pitch * np.round(np.angle(points) / pitch))

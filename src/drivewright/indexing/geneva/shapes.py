@@ -150,15 +150,19 @@ class GenevaShape:
 
     @cached_property
     def disc_outline(self) -> Outline:
-        """The locking disc, counter-clockwise: its round part, then the relief as an arc through both of its ends."""
-        half, radius = self.step.half_engagement, self.locking_radius
-        end = radius * np.exp(1j * half)
+        """The locking disc, counter-clockwise: its round part, then the relief."""
+        half = self.step.half_engagement
+        return Outline((Arc((0.0, 0.0), self.locking_radius, half, 2 * np.pi - 2 * half), self.disc_relief))
+
+    @cached_property
+    def disc_relief(self) -> Arc:
+        """The relief, an arc from the lower end of the round part through the place of `relief_depth` to the upper end."""
+        end = self.locking_radius * np.exp(1j * self.step.half_engagement)
         depth = float(end.real) - self.relief_depth
-        lock = Arc((0.0, 0.0), radius, half, 2 * np.pi - 2 * half)
         relief = (end.imag**2 + depth**2) / (2 * depth)
         centre = self.relief_depth + relief
         start = float(np.angle(np.conj(end) - centre))
-        return Outline((lock, Arc((float(centre), 0.0), float(relief), start, -2 * (np.pi - abs(start)))))
+        return Arc((float(centre), 0.0), float(relief), start, -2 * (np.pi - abs(start)))
 
 
 def _about_origin(start: complex, end: complex) -> Arc:

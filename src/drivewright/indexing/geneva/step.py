@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from drivewright._typing import Floats, Numbers
+from drivewright._typing import Bools, Floats, Numbers
 from drivewright.numerics.jets import Jet
 
 
@@ -78,7 +78,7 @@ class GenevaStep(NamedTuple):
         """d(rho)/d(theta) [m/rad]: how the pin moves outwards along the slot."""
         return self.crank_radius * self.centre_distance * np.sin(theta) / self.pin_distance(theta)
 
-    def wheel(self, theta: Numbers, engaged: Numbers) -> Jet:
+    def wheel(self, theta: Numbers, engaged: Bools) -> Jet:
         """Angle of the wheel [rad] from the start of its step, and its derivatives by the crank angle [rad].
 
         theta from -pi to pi; `engaged` says where the pin is in the slot: elsewhere the wheel rests at 0 or at the whole step.

@@ -110,8 +110,6 @@ def build(spec: GenevaSpec) -> GenevaModel:
         _known(materials.material, key, name)
     if spec.bearing.friction and spec.bearing.radius is None:
         raise SpecError("is missing: the friction of the bearing needs the radius at which it acts", "bearing.radius")
-    if spec.pin.kind == "roller" and spec.pin.journal_radius is not None and spec.pin.journal_radius >= spec.pin.radius:
-        raise SpecError(f"must be below pin.radius, {1e3 * spec.pin.radius:.4g} mm", "pin.journal_radius")
     law = None if spec.drive.law == "uniform" else motion.law(spec.drive.law)
     rolling = _known(bearings.bearing, "bearing.bearing", spec.bearing.bearing) if spec.bearing.bearing else None
     return GenevaModel(spec, step, _shape(spec, step), Crank(spec.drive.speed, law), rolling)

@@ -43,21 +43,17 @@ def _drive(model: GenevaModel, drawn: Scene) -> Iterator[Dimension]:
     yield Length("crank_radius", crank, pin[0], 0.0)
     yield Radius("pin.radius", *pin, np.radians(115))
     yield Radius("pin.journal_radius", *journal, np.radians(-60))
-    rim = next(piece.radius for shape in _outlines(drawn, "wheel") for piece in shape.pieces if _is_rim(piece))
-    yield Radius("wheel.outer_radius", wheel, rim, np.radians(62))
-    disc = next(piece.radius for shape in _outlines(drawn, "crank") for piece in shape.pieces if _is_rim(piece))
-    yield Radius("locking.radius", crank, disc, np.radians(200))
+    yield Radius("wheel.outer_radius", wheel, _rim(drawn, "wheel"), np.radians(62))
+    yield Radius("locking.radius", crank, _rim(drawn, "crank"), np.radians(200))
     yield Radius("wheel.bore", *circles_of(drawn, "wheel", "hole")[0], np.radians(-30), diameter=True)
     yield Radius("locking.bore", *circles_of(drawn, "crank", "hole")[0], np.radians(100), diameter=True)
 
 
-def _outlines(drawn, name):
-    return (shape.outline for body in drawn.bodies if body.name == name for shape in body.shapes if shape.layer == "profile")
-
-
-def _is_rim(piece):
-    """An arc about the body's own axis."""
-    return isinstance(piece, Arc) and np.hypot(*piece.center) < 1e-9
+def _rim(drawn: Scene, name: str) -> float:
+    """Radius of the arcs of a body's outline about its own axis."""
+    outlines = (shape.outline for body in drawn.bodies if body.name == name for shape in body.shapes if shape.layer == "profile")
+    arcs = (piece for outline in outlines for piece in outline.pieces if isinstance(piece, Arc))
+    return next(arc.radius for arc in arcs if np.hypot(*arc.center) < 1e-9)
 
 
 def _centred(model: GenevaModel) -> Scene:

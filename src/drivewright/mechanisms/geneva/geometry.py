@@ -9,6 +9,8 @@ from drivewright.mechanisms.geneva.build import GenevaModel
 from drivewright.mechanisms.geneva.motion import FROM_CENTRES
 from drivewright.result import Answer, Answers, Check, Column, Table, Value
 
+LEAST_WALL = 1e-3  # m, of a roller: a thin sleeve
+
 
 def geometry(model: GenevaModel, done: Answers) -> Answer:
     """Slot length, walls, undercut by the locking arcs, clearance of the locking disc, mass of the wheel."""
@@ -91,6 +93,13 @@ def _checks(model: GenevaModel, values: dict[str, Value]) -> Iterator[Check]:
     ):
         yield Check(name, value, limit, ">=", "m", message, parts, True, label=label)
     yield from _bore_checks(model, shape)
+    message = "diameter of the end mill against the width of a slot; take a smaller end mill"
+    cutter = model.spec.manufacture.cutter_diameter
+    yield Check("cutter", cutter, shape.slot_width, "<=", "m", message, ("wheel",), label="Diameter of the end mill for a slot")
+    if model.spec.pin.kind == "roller":
+        message = "wall of the roller around its journal; reduce the journal or enlarge the pin"
+        wall = model.spec.pin.radius - model.journal_radius
+        yield Check("roller_wall", wall, LEAST_WALL, ">=", "m", message, ("pin",), True, label="Wall of the roller")
     message = "rotation of the locked wheel either way; reduce the clearance of the locking disc"
     yield Check.of(values["dwell_play"], "dwell_play", limits.dwell_play, "<=", message, ("wheel", "crank"), label="Play in the dwell")
 

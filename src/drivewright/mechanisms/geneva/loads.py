@@ -67,7 +67,7 @@ def forces(model: GenevaModel, done: Answers) -> Answer:
 
 def _pressures(model, normal):
     """Hertz pressure of the pin on the straight side of the slot [Pa]."""
-    return line_contact(np.abs(normal), model.spec.wheel.thickness, model.spec.pin.radius, model.modulus).pressure
+    return np.asarray(line_contact(np.abs(normal), model.spec.wheel.thickness, model.spec.pin.radius, model.modulus).pressure)
 
 
 def _force_table(model, turn, pressure):

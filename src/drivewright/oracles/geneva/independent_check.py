@@ -95,7 +95,7 @@ def _differences(model: GenevaModel) -> Iterator[Row]:
     """Speed, acceleration and jerk of the wheel over time."""
     step, crank = model.step, model.crank
     ends = [crank.part_at(side * INSIDE * step.half_engagement) for side in (-1, 1)]
-    u = np.linspace(*ends, STATES)
+    u = np.linspace(ends[0], ends[1], STATES)
     h = 1e-3 * (ends[1] - ends[0])
     before, here, after = (step.pin_direction(crank.at(u + k * h)[0]).d0 for k in (-1, 0, 1))
     angle, speed, acceleration, _ = crank.at(u)
@@ -182,8 +182,7 @@ def _apart(model: GenevaModel, result: Result[Any]) -> Iterator[Row]:
     shape, step = model.shape, model.step
     wheel = _wheel(model)
     disc = _disc(0j, shape.locking_radius)
-    centre = shape.disc_outline.pieces[1]
-    relief = _disc(complex(*centre.center), centre.radius)
+    relief = _disc(complex(*shape.disc_relief.center), shape.disc_relief.radius)
     disc = disc.difference(relief)
     least = np.inf
     for theta in np.linspace(-step.half_engagement, 0.0, PLACES):
@@ -214,7 +213,7 @@ def _flight(model: GenevaModel, result: Result[Any]) -> Iterator[Row]:
         at = start + speed * t
         return float(step.pin_distance(at) * (state[0] - step.pin_direction(at).d0)) - clearance
 
-    across.terminal = True
+    across.terminal = True  # pyright: ignore[reportFunctionMemberAccess]  # as solve_ivp reads it
     horizon = (step.half_engagement - start) / speed
     flown = solve_ivp(
         lambda t, state: (state[1], braking),
