@@ -1,6 +1,6 @@
 // An assembly in motion: where each part stands at a phase of the cycle, and how far it is pulled out of the whole.
 
-import { floats } from "./player.js";
+import { floats, locate } from "./clock.js";
 
 const SPREAD = 0.9;  // of its distance from the middle that a part is pulled out at most
 const TALL = 0.5;  // of the assembly's size: parts that lie close above each other are pulled apart at least so far
@@ -8,13 +8,6 @@ const TALL = 0.5;  // of the assembly's size: parts that lie close above each ot
 /** Displacements of an answer of the job "solid": {u, motions} as arrays, null where nothing moves. */
 export function unpackMotion({motions, u}) {
   return motions?.length ? {u: floats(u), motions: motions.map(floats)} : null;
-}
-
-/** The frame at or before a phase, and how far the phase is from there to the next one. */
-function locate(u, phase) {
-  let low = 0, high = u.length - 1;
-  while (high - low > 1) { const middle = low + high >> 1; if (u[middle] <= phase) low = middle; else high = middle; }
-  return [low, u[high] > u[low] ? Math.min(Math.max((phase - u[low]) / (u[high] - u[low]), 0), 1) : 0];
 }
 
 /** [x, y, angle] of a motion (frames x 3) at a phase. */
