@@ -33,6 +33,7 @@ VARIANTS = [
             "programme.2.rise": "-8 deg",
         },
     ),
+    ("indexer", "barrel", {"centre_distance": "88 mm"}),
     ("seedling-pusher", "default", {"cams.orbit": "counter-clockwise", "arm.tip_reference": "planet"}),
     ("shaft", "default", {"segments.0.end_diameter": "18 mm", "segments.0.bore": "4 mm", "segments.0.fillet_radius": "1 mm"}),
 ]

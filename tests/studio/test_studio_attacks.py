@@ -272,7 +272,8 @@ ODD = [
     '{"what": "begin", "name": "study", "table": {"__class__": 1}}',
     '{"what": "begin", "name": "study", "table": {"vary": [{"key": "drive.speed", "as_written": 1}]}}',
     '{"what": "begin", "name": "optimise", "table": {"objectives": [{"value": "().__class__.__mro__", "goal": "minimise"}]}}',
-    '{"what": "begin", "name": "optimise", "table": {"requirements": [{"value": "x", "at_least": "__import__(\'os\')"}]}}',
+    '{"what": "begin", "name": "optimise", "table": {"unknowns": [{"key": "drive.speed", "lower": "1 rpm", "upper": "2 rpm"}], '
+    '"objectives": [{"value": "x", "goal": "minimise"}], "requirements": [{"value": "x", "at_least": "__import__(\'os\')"}]}}',
     '{"what": "begin", "name": "optimise", "table": {"method": "../../x", "population": -1, "generations": 1e300}}',
     '{"what": "begin", "name": "__class__", "table": {}}',
     '{"what": "begin", "name": "study", "table": {}, "options": {"folder": "/tmp/x"}}',

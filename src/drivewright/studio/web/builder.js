@@ -3,17 +3,17 @@
 import { pressable } from "./parts.js";
 import { element, nice } from "./player.js";
 import { onGrid } from "./snapping.js";
+import { svgPart } from "./svg_parts.js";
 import { refusedText } from "./words.js";
 
 const NEAR = 9, FINE = 10, STEP = 12;  // px: what a click falls upon, a step of the grid at least, a step of an arrow key
-const SVG = "http://www.w3.org/2000/svg";
 
 /**
  * The builder over a player's drawing: `layer` belongs upon the drawing, `button` into the bar.  `load(scene)` after each scene, `draw()` after
  * each drawing, `active()` whether clicks belong to it.
  */
 export function createBuilder(getPlayer, {store, say, t, clock}) {
-  const marks = document.createElementNS(SVG, "svg"), words = element("p", {class: "bd-words", role: "status", "data-testid": "build-words"});
+  const marks = svgPart("svg"), words = element("p", {class: "bd-words", role: "status", "data-testid": "build-words"});
   const sheet = element("div", {class: "bd-sheet", tabindex: 0, role: "application", "data-testid": "build-sheet"});
   const row = element("div", {class: "bd-tools", role: "toolbar"}), missing = element("ul", {class: "bd-missing", "data-testid": "build-missing"});
   const panel = element("div", {class: "bd-panel"}, row, words, missing);
@@ -102,8 +102,8 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   function draw() {
     if (!on) return;
     const clicked = places.map(toPixel), next = cursor && toPixel(meant(cursor)), all = next && chosen()?.most > 1 ? [...clicked, next] : clicked;
-    const line = shape("polyline", {points: all.map(at => at.map(part => part.toFixed(1)).join(",")).join(" ")});
-    const dots = [...clicked, ...(next ? [next] : [])].map(([x, y], n) => shape("circle", {cx: x.toFixed(1), cy: y.toFixed(1), r: 5, class: n < clicked.length ? "is-set" : ""}));
+    const line = svgPart("polyline", {points: all.map(at => at.map(part => part.toFixed(1)).join(",")).join(" ")});
+    const dots = [...clicked, ...(next ? [next] : [])].map(([x, y], n) => svgPart("circle", {cx: x.toFixed(1), cy: y.toFixed(1), r: 5, class: n < clicked.length ? "is-set" : ""}));
     marks.replaceChildren(line, ...dots);
   }
   function show() {
@@ -138,10 +138,4 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     })];
   return {layer, button, draw, active: () => on, load(scene) { handles = scene.handles || []; },
     destroy() { stops.forEach(stop => stop()); layer.remove(); button.remove(); }};
-}
-
-function shape(tag, attributes) {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-  return made;
 }

@@ -5,6 +5,7 @@ import { quantityOf } from "./numbers.js";
 import { put } from "./parts.js";
 import { createGesture } from "./slider.js";
 import { onGrid, snapped } from "./snapping.js";
+import { svgPart } from "./svg_parts.js";
 
 const SHAKE = 3, FINE = 1, COARSE = 6;  // px of a hand that presses without moving; px of a step of the grid, of an arrow key, at least
 const SEEN = 2500;  // ms that the numbers stay after an arrow key
@@ -155,11 +156,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
   }
   function mark({guides: lines, words}) {
     hold.words = words;
-    guides.replaceChildren(...lines.map(([[x1, y1], [x2, y2]]) => {
-      const line = document.createElementNS("http://www.w3.org/2000/svg", "line");
-      Object.entries({x1, y1, x2, y2}).forEach(([name, value]) => line.setAttribute(name, value));
-      return line;
-    }));
+    guides.replaceChildren(...lines.map(([[x1, y1], [x2, y2]]) => svgPart("line", {x1, y1, x2, y2})));
   }
   function takeBack() { const {gesture} = hold; end(); say({what: "revert", gesture}); }
 

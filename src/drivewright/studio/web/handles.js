@@ -4,6 +4,7 @@ import { createDrag } from "./dragging.js";
 import { createNames } from "./handle_names.js";
 import { icon } from "./icons.js";
 import { element } from "./player.js";
+import { svgPart } from "./svg_parts.js";
 
 const APART = 15, SAME = 6;  // px: handles that coincide are drawn so far from each other
 const NEAREST = 10, MOST = 60, OUTSIDE = 24;  // px between two that are shown; of them; px beyond the edge of the drawing
@@ -29,11 +30,10 @@ export function numbersOf(handle, fields) {
  */
 export function createHandles(getPlayer, tools) {
   const {store, t, clock} = tools;
-  const layer = element("div", {class: "hd-layer", role: "group"}), guides = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  const layer = element("div", {class: "hd-layer", role: "group"}), guides = svgPart("svg", {class: "hd-guides", "aria-hidden": "true"});
   const bubble = element("output", {class: "hd-bubble", hidden: ""});
   const names = createNames(tools);
   let packed = [], bodies = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
-  guides.setAttribute("class", "hd-guides"); guides.setAttribute("aria-hidden", "true");
   layer.append(guides, bubble);
 
   const drag = createDrag({layer, guides, bubble, place, others, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,

@@ -8,10 +8,10 @@ import { createMeasureList } from "./measure_list.js";
 import { courseOf, isComplete, nextWanted, textOf, valueOf } from "./measures.js";
 import { pressable, put } from "./parts.js";
 import { element } from "./player.js";
+import { svgPart } from "./svg_parts.js";
 
 const NEAR = 8, SHAKE = 4, MOST = 12;  // px of a pick; px of a hand that clicks; measurements in the list
 const ROLES = ["violet", "green", "orange", "blue", "steel"];
-const SVG = "http://www.w3.org/2000/svg";
 
 /**
  * Measurements upon the drawing of `getPlayer()`: {button for the player's bar, attach(player), active(), expect(afresh), load(scene),
@@ -19,7 +19,7 @@ const SVG = "http://www.w3.org/2000/svg";
  */
 export function createMeasure(getPlayer, tools) {
   const {store, t, clock} = tools, names = createNames(tools);
-  const layer = document.createElementNS(SVG, "svg"), lines = document.createElementNS(SVG, "g"), mark = document.createElementNS(SVG, "g");
+  const layer = svgPart("svg"), lines = svgPart("g"), mark = svgPart("g");
   const bubble = element("output", {class: "hd-bubble", hidden: ""}), cover = element("div", {class: "ms-layer"});
   const button = pressable({class: "dw-button ms-toggle", "data-testid": "measure", "aria-pressed": "false"}, () => toggle(!on), icon("ruler"));
   const list = createMeasureList(tools, {choose, pick, remove, close: () => toggle(false)}, names.of);
@@ -111,19 +111,15 @@ export function createMeasure(getPlayer, tools) {
     if (!player?.scene || !measures.length && !picked.length) { lines.replaceChildren(); return; }
     const how = {scale: player.view.scale, seen};
     lines.replaceChildren(...measures.filter(measure => measure.course).map(measure => {
-      const group = document.createElementNS(SVG, "g"), text = textOf(measure.kind, now(measure));
-      group.setAttribute("class", "ms-one"); group.style.setProperty("--chip", `var(--${measure.role})`);
+      const group = svgPart("g", {class: "ms-one"}), text = textOf(measure.kind, now(measure));
+      group.style.setProperty("--chip", `var(--${measure.role})`);
       group.append(...dimension(measure.kind, measure.now, measure.now.map(({body, point}) => seen(body, point)), text, how));
       return group;
     }), ...picked.map(({body, point}) => ring(seen(body, point), "ms-picked")));
     list.follow(measures.filter(({course}) => course).map(measure => [measure.id, textOf(measure.kind, now(measure))]), phase());
   }
   const now = ({kind: what, now: parts}) => valueOf(what, parts, body => getPlayer().poseOf(body, phase(), true));
-  function ring([cx, cy], look, r = 7) {
-    const made = document.createElementNS(SVG, "circle");
-    Object.entries({cx, cy, r, class: look}).forEach(([name, value]) => made.setAttribute(name, value));
-    return made;
-  }
+  const ring = ([cx, cy], look, r = 7) => svgPart("circle", {cx, cy, r, class: look});
   /** Marks the feature under the pointer, and says what it is. */
   function show(feature) {
     bubble.hidden = !feature;
@@ -136,11 +132,7 @@ export function createMeasure(getPlayer, tools) {
     const wide = bubble.offsetWidth, left = x + 14 + wide > cover.clientWidth ? x - 14 - wide : x + 14;
     bubble.style.transform = `translate(${Math.max(4, left)}px, ${Math.max(4, y - 34)}px)`;
   }
-  function edge([x1, y1], [x2, y2]) {
-    const made = document.createElementNS(SVG, "line");
-    Object.entries({x1, y1, x2, y2, class: "ms-mark"}).forEach(([name, value]) => made.setAttribute(name, value));
-    return made;
-  }
+  const edge = ([x1, y1], [x2, y2]) => svgPart("line", {x1, y1, x2, y2, class: "ms-mark"});
 
   /** Puts layer and panel above the stage of a player. */
   function attach(player) {

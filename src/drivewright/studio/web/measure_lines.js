@@ -1,13 +1,12 @@
 // Dimension lines upon the drawing, in pixels.
 
-const SVG = "http://www.w3.org/2000/svg", ARC = 34, BEYOND = 5;  // px: radius of the arc of an angle; how far a help line goes beyond
+import { svgPart } from "./svg_parts.js";
 
-function make(tag, attributes, text = "") {
-  const made = document.createElementNS(SVG, tag);
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, typeof value === "number" ? value.toFixed(1) : value);
-  if (text) made.textContent = text;
-  return made;
-}
+const ARC = 34, BEYOND = 5;  // px: radius of the arc of an angle; how far a help line goes beyond
+
+/** An element with its numbers to a tenth of a pixel. */
+const make = (tag, attributes, text) =>
+  svgPart(tag, Object.fromEntries(Object.entries(attributes).map(([name, value]) => [name, typeof value === "number" ? value.toFixed(1) : value])), text);
 const line = ([x1, y1], [x2, y2], look = "ms-line") => make("line", {x1, y1, x2, y2, class: look});
 const dot = ([cx, cy]) => make("circle", {cx, cy, r: 3.5, class: "ms-dot"});
 
