@@ -99,6 +99,13 @@ def test_a_measurement_names_its_points_tells_its_range_and_is_saved(page, tmp_p
     assert "leg · foot" in head[1] and head[1].endswith("[mm]")
     assert max(heights) - min(heights) == pytest.approx(float(number[0]), abs=2e-3)
     assert texts["svg"].startswith("<?xml") and "leg · foot" in texts["svg"]
+    page.get_by_test_id("measure-scale").click()  # the wanted lift of the foot; every place of the mechanism goes with it
+    page.get_by_test_id("measure-wanted").fill("60 mm")
+    page.keyboard.press("Enter")
+    until(page, "document.querySelector('[data-testid=measure-range]')?.textContent.includes('60.000')", 60)
+    analysed(page)
+    assert value(page, "output.travel_y") == pytest.approx(60.0, abs=0.05)
+    assert page.evaluate(f"{STATE}.result.checks.every(check => check.ok)")
 
 
 def test_the_panel_of_measurements_is_put_aside(page):
@@ -117,10 +124,13 @@ def test_the_panel_of_measurements_is_put_aside(page):
 def test_a_search_of_segment_angles_keeps_the_turn(page):
     before = value(page, "max_jerk")
     page.get_by_test_id("setup-optimise").click()
-    for number in (0, 1):
-        page.get_by_test_id(f"search-key-programme.{number}.angle").click()
+    for number, lower, upper in ((0, "90 deg", "130 deg"), (1, "140 deg", "200 deg")):
+        key = f"programme.{number}.angle"
+        page.get_by_test_id(f"search-key-{key}").click()
+        page.get_by_test_id(f"search-lower-{key}").fill(lower)
+        page.get_by_test_id(f"search-upper-{key}").fill(upper)
     page.get_by_test_id("search-value-0").select_option("max_jerk")
-    page.get_by_test_id("search-budget").fill("120")
+    page.get_by_test_id("search-budget").fill("96")
     page.get_by_test_id("search-start").click()
     until(page, f"{STATE}.jobs.optimise?.state === 'done'", 200)
     assert page.evaluate(f"{STATE}.jobs.optimise.answer.feasible")

@@ -315,3 +315,15 @@ def test_a_spec_without_the_table_says_so():
     del data["optimise"]
     with pytest.raises(SpecError, match="optimise: is missing"):
         dw.optimise(from_document(data))
+
+
+def test_a_check_that_a_computed_design_does_not_have_is_met():
+    data = tomllib.loads((EXAMPLES / "disc_cam.toml").read_text())
+    data["optimise"] = {
+        "unknowns": [{"key": "programme.0.angle", "lower": "80 deg", "upper": "130 deg"}],
+        "objectives": [{"value": "max_jerk"}],
+        "requirements": [{"value": "check.cutter"}],
+    }
+    problem = prepare(from_document(data, folder=EXAMPLES))
+    computed = {"max_jerk": np.array([1.0, 1.0, 1.0, np.nan]), "check.cutter": np.array([np.nan, 1e-3, -1e-3, np.nan])}
+    assert (problem.total_violation(computed) <= 0).tolist() == [True, True, False, False]

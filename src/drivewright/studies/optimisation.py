@@ -198,8 +198,8 @@ def _outcome(problem, table):
     if table[STATUS][int(chosen[0])].as_py() != "complete":
         raise SolverError(_nothing(problem, table, front[0]))
     best = run(problem.design(front[0]))
-    feasible = bool(problem.total_violation(front_values)[0] <= 0)
     reached = case_outputs(best.values, best.checks)
+    feasible = bool(problem.total_violation(front_values)[0] <= 0) and not _has_lost(problem, best)
     bounds = {name: _bounds(reached, name) for name, _, _ in problem.limits}
     requirements = tuple(
         Check(
@@ -214,6 +214,7 @@ def _outcome(problem, table):
             label=_label_of(name, best),
         )
         for name, sense, limit in problem.limits
+        if name in reached or not name.startswith(CHECK)
     )
     findings = [*problem.readings] + ([] if feasible else [_blame(problem, front_values, values)])
     findings += _route_differences(problem, front_values, reached)
@@ -270,6 +271,12 @@ def _why_silent(spec):
         return incomplete_reasons(run_analyses(spec, build(spec), select_analyses(wanted)))
     except InputError as error:
         return [str(error)]
+
+
+def _has_lost(problem, best):
+    """Whether the run of the best design broke off, so that a required check may be absent for that reason."""
+    known = case_outputs(best.values, best.checks)
+    return best.outcome != "complete" and any(name.startswith(CHECK) and name not in known for name, _, _ in problem.limits)
 
 
 def _blame(problem, reached, values):

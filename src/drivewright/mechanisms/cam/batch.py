@@ -103,6 +103,8 @@ def _of_one_motion(spec, columns, rows, measures):
                 trimmed = _trimmed(alone(rows[place]))
                 for name, column in profiles.items():
                     column[place] = trimmed.get(name, np.nan)
+                for column in () if trimmed else found.values():  # without a profile nothing is known of the design
+                    column[place] = np.nan
             found |= profiles
         return found
 

@@ -73,12 +73,18 @@ class Problem:
 
     def violations(self, values: Mapping[str, Floats]) -> Floats:
         """(limits + 1, designs): how far beyond each limit the worse end of the interval is, over the limit's scale, and whether an
-        objective is missing; 0 or less is met."""
+        objective is missing; 0 or less is met.
+
+        A check that a computed design does not have is met: there is nothing to check, such as a cutter in a profile without a hollow.
+        """
         rows = [
             (limit - at_worst(values, name, sense) if sense == ">=" else at_worst(values, name, sense) - limit) / scale
             for (name, sense, limit), scale in zip(self.limits, self.scales, strict=True)
         ]
         missing = ~np.all([np.isfinite(values[name]) for name, _ in self.objectives], axis=0)
+        for row, (name, _, _) in zip(rows, self.limits, strict=True):
+            if name.startswith(CHECK):
+                row[np.isnan(values[name]) & ~missing] = 0.0
         rows.append(np.where(missing, HOPELESS, 0.0))
         return np.where(np.isfinite(rows), rows, HOPELESS)
 
