@@ -16,6 +16,7 @@ import shafts
 import solids
 import studies
 import studio
+import viewers
 from timing import best
 
 ROOT = Path(__file__).parent.parent
@@ -329,6 +330,7 @@ SECTIONS = (
     *solids.SECTIONS,
     *studies.SECTIONS,
     *studio.SECTIONS,
+    *viewers.SECTIONS,
 )
 
 

@@ -1,4 +1,5 @@
-"""The studio in a real browser (headless, software raster): slider to new drawing, frames per second, memory over a thousand changes."""
+"""The studio in a real browser (headless, software raster): slider to new drawing, frames per second, a handle that is dragged and the
+CPU time of each process for it, memory over a thousand changes."""
 
 import os
 import shutil
@@ -56,6 +57,32 @@ FRAMES = """async ([key, seconds]) => {
   }
   slider?.dispatchEvent(new PointerEvent('pointerup', {bubbles: true, pointerId: 1}));
   return [gaps, +document.querySelector('[data-gen]').dataset.gen - first];
+}"""
+HANDLES = {  # what is dragged, and the drawings a second that are wanted
+    "four_bar": ("bodies.crank.points.A", 60),
+    "slider_crank_clearance": ("bodies.crank.points.A", 60),
+    "seedling_pusher": ("train.carrier_angle", 30),
+}
+DRAG = """async ([key, seconds]) => {
+  const handle = document.querySelector(`[data-testid="handle-${key}"]`), box = handle.getBoundingClientRect(), gens = new Set(), gaps = [];
+  const stage = document.querySelector('[data-gen]'), [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const send = (type, dx, dy) => handle.dispatchEvent(new PointerEvent(type, {bubbles: true, cancelable: true, button: 0, pointerId: 1,
+    clientX: x + dx, clientY: y + dy}));
+  handle.setPointerCapture = () => {};  // there is no such pointer
+  let last = performance.now(), n = 0;
+  const until = last + 1000 * seconds;
+  send('pointerdown', 0, 0);
+  while (last < until) {
+    await new Promise(done => requestAnimationFrame(done));
+    const now = performance.now();
+    gaps.push(now - last);
+    last = now;
+    send('pointermove', 12 * Math.sin(n / 20), 8 * Math.sin(n / 15));
+    n += 1;
+    gens.add(stage.dataset.gen);
+  }
+  send('pointerup', 0, 0);
+  return [gaps, gens.size - 1];
 }"""
 SETTLED = """(() => { const {design, result, work} = window.drivewright?.state || {};
   return !!(design && result && result.full && result.gen === design.gen && work.state === 'idle'); })()"""
@@ -131,6 +158,36 @@ def frames():
             yield f"{name}, {what}", (gaps.min(), np.median(gaps)), remark
 
 
+def dragging():
+    """A handle that is moved in every frame: drawings a second, and what each costs in the server, its workers, and the browser."""
+    for name, (key, wanted) in HANDLES.items():
+        with opened(name) as (page, server):
+            page.evaluate(DRAG, [key, 1.0])
+            _settled(page)
+            before = _cpu(page, server)
+            gaps, drawn = page.evaluate(DRAG, [key, SECONDS])
+            spent = {what: 1e3 * (seconds - before.get(what, 0.0)) / max(drawn, 1) for what, seconds in _cpu(page, server).items()}
+            gaps = np.array(gaps) / 1e3
+            cost = ", ".join(f"{what} {each:.1f}" for what, each in spent.items())
+            remark = f"{drawn / SECONDS:.0f} drawings a second (wanted: {wanted}), {1 / gaps.mean():.0f} frames; CPU ms a drawing: {cost}"
+            yield f"{name}, {key} dragged", (SECONDS / max(drawn, 1), SECONDS / max(drawn, 1)), remark
+
+
+def _cpu(page, server):
+    """CPU time [s] of the server, of its workers, and of the browser's processes by what they do."""
+    spent = {"server": _used(server.pid), "workers": sum(map(_used, _children(server)))}
+    session = page.context.browser.new_browser_cdp_session()
+    for process in session.send("SystemInfo.getProcessInfo")["processInfo"]:
+        spent[process["type"]] = spent.get(process["type"], 0.0) + process["cpuTime"]
+    session.detach()
+    return spent
+
+
+def _used(pid):
+    fields = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
 def memory():
     """Over a thousand changes: the page's heap after a collection, the server and its processes."""
     with opened("four_bar") as (page, server):
@@ -150,8 +207,11 @@ def _memory(page, server):
     for _ in range(3):
         session.send("HeapProfiler.collectGarbage")
     heap = session.send("Runtime.getHeapUsage")["usedSize"] / 1e6
-    children = subprocess.run(["pgrep", "-P", str(server.pid)], capture_output=True, text=True, check=False).stdout.split()
-    return {"page": heap, "server": _resident(server.pid), "workers": sum(map(_resident, map(int, children)))}
+    return {"page": heap, "server": _resident(server.pid), "workers": sum(map(_resident, _children(server)))}
+
+
+def _children(server):
+    return list(map(int, subprocess.run(["pgrep", "-P", str(server.pid)], capture_output=True, text=True, check=False).stdout.split()))
 
 
 def _resident(pid):
@@ -159,4 +219,9 @@ def _resident(pid):
     return int(text.partition("VmRSS:")[2].split()[0]) / 1e3
 
 
-SECTIONS = (("Studio: slider to new drawing", latency), ("Studio: frames", frames), ("Studio: memory", memory))
+SECTIONS = (
+    ("Studio: slider to new drawing", latency),
+    ("Studio: frames", frames),
+    ("Studio: dragging", dragging),
+    ("Studio: memory", memory),
+)

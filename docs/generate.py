@@ -24,6 +24,7 @@ STEPS = (
     "theory_gears",
     "theory_linkage",
     "theory_shaft",
+    "theory_geneva",
     "theory_indexer",
     "theory_chain",
     "dimensions",

@@ -46,7 +46,7 @@ PAGES = (
         "extending",
         "Registry and plug-ins",
         "What a kind of drive, a law, a joint or a command declares, and the tests that it has to pass.",
-        ("registry", "claims", "testing", "plugins"),
+        ("registry", "claims", "testing", "plugins", "construction", "motion_diagram"),
     ),
     Page(
         "motion-cams",

@@ -6,18 +6,9 @@ else of the kind of drive.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, NamedTuple
-
-import numpy as np
+from typing import NamedTuple
 
 from drivewright._typing import Floats
-
-if TYPE_CHECKING:
-    from drivewright.motion import Programme
-
-FINE = 96  # intervals of a segment, shared by its pieces
-LEAST = 4  # intervals of a piece
-MOST_PIECES = 400  # of a segment; one with more is sampled evenly
 
 
 class SegmentKeys(NamedTuple):
@@ -68,28 +59,3 @@ class MotionDiagram:
     law_keys: tuple[str, ...] = ()
     dwell: str = "dwell"
     keys: SegmentKeys = field(default=SegmentKeys())
-
-
-def diagram_segments(programme: "Programme", points: Sequence[Sequence[Sequence[float]]] = ()) -> tuple[DiagramSegment, ...]:
-    """The segments of a programme as it states them; `points` are those of the splines, () for a segment with another law."""
-    return tuple(
-        DiagramSegment(
-            segment.motion_law.name,
-            segment.angle,
-            segment.rise,
-            _course(segment.placed(0.0, float(level)), segment.angle),
-            segment.motion_law.span is not None,
-            points[number] if number < len(points) else (),
-        )
-        for number, (segment, level) in enumerate(zip(programme.segments, programme.levels, strict=False))
-    )
-
-
-def _course(function, angle):
-    if function.count > MOST_PIECES:
-        theta = np.linspace(0.0, angle, 2 * MOST_PIECES + 1)
-        motion = function(theta)
-    else:
-        pieces, theta = function.samples(max(LEAST, FINE // function.count))
-        motion = function.on_piece(pieces, theta)
-    return np.stack([np.ravel(np.broadcast_to(part, np.shape(theta))) for part in (theta, *motion)])

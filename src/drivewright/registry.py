@@ -9,7 +9,7 @@ A third-party package declares the same groups in its own pyproject.
 """
 
 import tomllib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fnmatch import fnmatchcase
 from importlib import import_module
@@ -73,6 +73,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     `supplied(spec)` gives {key: value in SI} of keys that the spec leaves out and that come from a catalogue, a card or a default of
     the drive, list elements by name, so that a study can vary about them.
     `adjustable` are the dimensions that advice on a failed check may change, with the greatest factor of each: not what states the task.
+    `before_varying(tables, keys)` gives the raw tables of a design whose keys are to vary, with what they need besides.
     `folder` holds `presets/*.toml`, `theory.md` and, for screens in other languages, `zh.toml`.
     """
 
@@ -84,6 +85,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     folder: Path
     scene: "Callable[[ModelT], Scene] | None" = None
     programme: "Callable[[ModelT], MotionDiagram] | None" = None  # its motion, where the spec has a list of segments
+    before_varying: Callable[[Mapping[str, Any], Collection[str]], dict[str, Any]] | None = None
     quick_scene: "Callable[[ModelT], Scene | None] | None" = None
     plots: "tuple[Plot, ...] | Callable[[Result[Any]], tuple[Plot, ...]]" = ()
     drawings: "Callable[[ModelT], tuple[Drawing, ...]] | None" = None
@@ -100,6 +102,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     dimensions: "tuple[DimensionSheet, ...]" = ()  # drawings that show what its keys measure
     claims: Callable[[SpecT], Claims] | None = None  # what its results obey exactly, for `drivewright.testing`
     construction: "Construction | None" = None  # how it is built by clicks on its drawing
+    moving_presets: bool = False  # its presets are offered as starts, with pictures that move
     commands: "tuple[Command, ...]" = ()  # what it brings to the command line, each a `Command`
 
     def presets(self) -> dict[str, Path]:

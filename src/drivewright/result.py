@@ -416,10 +416,10 @@ class Result(Generic[SpecT]):
     warnings: tuple[str, ...] = ()  # those of the findings that a reader must not miss; the verdict counts them
     fields: Mapping[str, SurfaceFields] = field(default_factory=dict)
     advice: tuple[Advice, ...] = ()  # what to change for the checks that fail, where `studies.advise` was asked
-    check_analyses: Mapping[str, str] = field(default_factory=dict)  # {check: the analysis that makes it}
     timings: Mapping[str, float] = field(default_factory=dict)  # {analysis: seconds that it took}
     advice_stopped: bool = False  # the time for advice was over before all failed checks were looked at
     value_sources: Mapping[str, str] = field(default_factory=dict)  # {value: the analysis that computed it}, by which reports group them
+    check_sources: Mapping[str, str] = field(default_factory=dict)  # {check: the analysis that made it}
 
     def __getitem__(self, name: str) -> float:
         """A value by its dotted name, as an SI float."""

@@ -273,7 +273,7 @@ def _result(spec: SpecT, mechanism: Mechanism[Any, Any], answers: Answers, findi
         tables={t.name: t for a in answers.values() for t in a.tables},
         fields={each.name: each for a in answers.values() for each in a.fields},
         checks=tuple(c for a in answers.values() for c in a.checks),
-        check_analyses={c.name: name for name, a in answers.items() for c in a.checks},
+        check_sources={c.name: name for name, a in answers.items() for c in a.checks},
         findings=tuple(findings),
         outcome="partial" if any(a.outcome == "partial" for a in answers.values()) else "complete",
         failures=_failures(answers),

@@ -307,11 +307,21 @@ class Grooved(NamedTuple):
     grooves: tuple[Floats, ...]
 
 
+class Turning(NamedTuple):
+    """How a part turns about a line in space: by `angles` (frames,) [rad] from its start position, right-handed about `direction` through
+    `point` (x, y, z) [m], at the frames of the scene."""
+
+    point: tuple[float, float, float]
+    direction: tuple[float, float, float]
+    angles: Floats
+
+
 @dataclass(frozen=True)
 class Part:
     """A named solid of an assembly: prisms, bars, turned and grooved bodies fused together, placed at `pose` (x, y, angle).
 
-    It moves with the `body` of the scene, of its own name unless given; what is none of its bodies stands still.
+    It moves with the `body` of the scene, of its own name unless given; what is none of its bodies stands still.  A scene that shows a
+    drive from another side, or unrolled, does not move its solids: those have a `turning` of their own.
     """
 
     name: str
@@ -319,3 +329,4 @@ class Part:
     pose: Pose = (0.0, 0.0, 0.0)
     colour: str = "steel"
     body: str = ""
+    turning: Turning | None = None

@@ -29,6 +29,7 @@ __all__ = [
     "DIMENSIONS",
     "Acceleration",
     "Angle",
+    "AngularAcceleration",
     "Damping",
     "Density",
     "Dimension",
@@ -531,6 +532,7 @@ Angle: TypeAlias = Annotated[float, BY_NAME["angle"]]
 Speed: TypeAlias = Annotated[float, BY_NAME["angular speed"]]
 Velocity: TypeAlias = Annotated[float, BY_NAME["velocity"]]
 Acceleration: TypeAlias = Annotated[float, BY_NAME["acceleration"]]
+AngularAcceleration: TypeAlias = Annotated[float, BY_NAME["angular acceleration"]]
 Time: TypeAlias = Annotated[float, BY_NAME["time"]]
 Frequency: TypeAlias = Annotated[float, BY_NAME["frequency"]]
 Mass: TypeAlias = Annotated[float, BY_NAME["mass"]]

@@ -100,3 +100,69 @@ def test_the_other_views(tab, view):
     page.locator(SHOWN[view]).first.wait_for(state="visible", timeout=20_000)
     page.wait_for_timeout(1500)
     page.screenshot(path=FOLDER / f"studio-view-{view}.png")
+
+
+# -- what hands do: the pictures of docs/studio.md, which are copied from here into docs/img ---------------------------------------
+
+
+def test_measured(tab):
+    page = tab("four_bar")
+    page.get_by_test_id("measure").click()
+    for kind, *features in (
+        ("distance", "|handle ground.points.O2", "coupler|handle bodies.coupler.points.C"),
+        ("angle", "|handle ground.points.O4", "crank|handle bodies.crank.points.A", "rocker|handle bodies.rocker.points.B"),
+    ):
+        page.get_by_test_id(f"measure-{kind}").click()
+        for feature in features:
+            page.get_by_test_id("measure-point").select_option(feature)
+            page.get_by_test_id("measure-pick").click()
+    assert page.get_by_test_id("measure-list").inner_text().startswith("Distance: frame · O2 – coupler · C")
+    keep(page, "studio-measured")
+
+
+def test_the_programme_of_a_cam(tab):
+    page = tab("disc_cam")
+    page.get_by_test_id("view-programme").click()
+    page.get_by_test_id("programme-border-1").wait_for(state="visible")
+    page.wait_for_timeout(500)
+    page.screenshot(path=FOLDER / "studio-programme.png")
+
+
+def test_built_by_clicks(tab):
+    page = tab("four_bar")
+    page.get_by_test_id("build").click()
+    until(page, "Array.isArray(window.drivewright.state.scene?.missing)", 60)
+    page.get_by_test_id("tool-body").click()
+    box = page.get_by_test_id("build-sheet").bounding_box()
+    for x, y in ((0.62, 0.2), (0.8, 0.3)):
+        page.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"])
+    page.keyboard.press("Enter")
+    until(page, "JSON.stringify(window.drivewright.state.scene?.missing).includes('held by no joint')", 60)
+    drawn(page)
+    keep(page, "studio-building")
+
+
+def test_a_change_that_makes_a_check_pass(tab):
+    page = tab("disc_cam", theme="dark")
+    enter(page, "follower.prime_radius", "24 mm")
+    until(page, "window.drivewright.state.design.toml.includes('24 mm')")
+    analysed(page)
+    page.get_by_test_id("fix-pressure_angle").click()
+    page.get_by_test_id("fix-answer").filter(has_text="instead of").wait_for(timeout=120_000)
+    keep(page, "studio-fix")
+
+
+def test_plots_are_chosen(tab):
+    page = tab("gearbox_shaft")
+    page.get_by_test_id("plot-picker").click()
+    page.wait_for_timeout(400)
+    keep(page, "studio-plots")
+
+
+@pytest.mark.parametrize("pane", ["mechanism", "form"])
+def test_a_telephone(tab, pane):
+    page = tab("four_bar", size=(390, 844))
+    page.get_by_test_id(f"pane-{pane}").click()
+    page.wait_for_timeout(400)
+    page.screenshot(path=FOLDER / f"studio-telephone-{pane}.png")
+    assert page.evaluate("document.documentElement.scrollWidth <= 390")

@@ -4,7 +4,7 @@ import pytest
 from browsing import until
 from studio_running import EXAMPLES, analysed, drawn, own_port, running
 
-from drivewright.studio.session import packed
+from drivewright.studio.opening import packed
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 

@@ -14,11 +14,11 @@ HIDDEN = """() => {
   const name = node => node.dataset?.testid || node.className || node.tagName;
   const rendered = node => node.checkVisibility({visibilityProperty: true}) && node.getClientRects().length > 0;
   for (const node of document.querySelectorAll(wanted)) {
-    if (!rendered(node) || node.disabled || node.matches('.hd, .sd-scroll, [type=file]')) continue;
+    if (!rendered(node) || node.disabled || node.matches('.hd, .dw-canvas, .sd-scroll, [type=file]')) continue;
     node.scrollIntoView({block: 'center', inline: 'center', behavior: 'instant'});
     const box = node.getBoundingClientRect(), x = box.x + box.width / 2, y = box.y + box.height / 2;
     const hit = document.elementFromPoint(x, y);
-    if (!hit || !(node === hit || node.contains(hit)))
+    if (!hit || !(node === hit || node.contains(hit) || (node.matches('.dw-canvas') && hit.matches('.hd'))))
       missed.push(`${name(node)} under ${hit && name(hit)} at ${x | 0},${y | 0}`);
   }
   return missed;

@@ -82,6 +82,12 @@ PINNED = {
         "dwell.stiffness.minimum": 1944474.558,
         "pressure_angle.maximum": 0.73594471,
     },
+    "geneva": {
+        "max_acceleration": 90.75410124457152,
+        "max_pressure.drive": 496917909.4,
+        "crank.peak_torque": 129.783692,
+        "crossing.speed": 0.00953721171,
+    },
     "torsion_test": {"stiffness.per_branch": 359156.472, "hysteresis_energy": 0.0741732},
     # Contacts of a running chain chatter: only what stands still is pinned.
     "hyvo_chain": {"pitch_deviation.driven": 2.46695172e-06, "centre_distance.mean": 0.219057426, "over_pins.drive": 0.1064210048},

@@ -6,6 +6,7 @@ import pytest
 from drivewright import registry, runner
 from drivewright.errors import DrivewrightError
 from drivewright.scene import place
+from drivewright.spec.keys import remove_key
 from drivewright.studio.design import Design
 from drivewright.studio.form import form, values
 from drivewright.studio.input_parsing import form_key
@@ -19,6 +20,19 @@ VARIANTS = [
     ("cam", "default", {"follower.face": "knife", "follower.offset": "-5 mm"}),
     ("cam", "flat", {"follower.face_angle": "8 deg", "follower.offset": "4 mm", "manufacture.bore": "12 mm"}),
     ("cam", "oscillating", {"rotation": "clockwise"}),
+    (
+        "cam",
+        "oscillating",
+        {
+            "follower.face": "flat",
+            "follower.base_radius": "30 mm",
+            "follower.face_offset": "3 mm",
+            "follower.prime_radius": None,
+            "follower.roller_radius": None,
+            "programme.0.rise": "8 deg",
+            "programme.2.rise": "-8 deg",
+        },
+    ),
     ("seedling-pusher", "default", {"cams.orbit": "counter-clockwise", "arm.tip_reference": "planet"}),
     ("shaft", "default", {"segments.0.end_diameter": "18 mm", "segments.0.bore": "4 mm", "segments.0.fillet_radius": "1 mm"}),
 ]
@@ -26,8 +40,12 @@ PRESETS = [(kind, name, {}) for kind in registry.kinds() for name in registry.me
 
 
 def designed(kind, name, changes):
+    """A preset with other values; a key with None is left out."""
     design = preset(kind, name)
-    return design.changed(changes) if changes else design
+    design = design.changed({key: value for key, value in changes.items() if value is not None})
+    for key in (key for key, value in changes.items() if value is None):
+        remove_key(design.tables, key)
+    return design
 
 
 def drawn(design: Design):

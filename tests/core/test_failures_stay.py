@@ -15,7 +15,7 @@ from drivewright.report import content, export
 from drivewright.result import Answer, Check
 from drivewright.studies import verification as verify
 from drivewright.studio import preview
-from drivewright.studio.session import opened
+from drivewright.studio.opening import opened
 
 pytestmark = [pytest.mark.interface, pytest.mark.faults]
 

@@ -14,7 +14,7 @@ ROWS = [
     "indexing chains cams gears multibody shafts bearings solids fatigue",
     "motion curves contact materials",
     "numerics",
-    "testing runner spec registry claims result advice frames surface_fields dimensions scene cases",
+    "testing runner spec registry claims result advice frames surface_fields dimensions construction motion_diagram scene cases",
     "units digits labels plugins _jit _typing errors stops steps atomic _garbage",
 ]
 PLACE = {name: (row, column) for row, names in enumerate(ROWS) for column, name in enumerate(names.split())}

@@ -15,14 +15,14 @@ from drivewright.errors import InputError, UnknownName
 
 pytestmark = pytest.mark.interface
 
-PENDULUM, GENEVA = (Path(__file__).parent / name for name in ("plugin", "geneva"))
+PENDULUM, YOKE = (Path(__file__).parent / name for name in ("plugin", "scotch_yoke"))
 
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
     """Environment of a Python that has the packages as well."""
     target = tmp_path_factory.mktemp("site")
-    for package in (PENDULUM, GENEVA):
+    for package in (PENDULUM, YOKE):
         _install(package, target)
     return {**os.environ, "PYTHONPATH": os.pathsep.join([str(target), os.environ.get("PYTHONPATH", "")]), "PYTHONDONTWRITEBYTECODE": "1"}
 
@@ -80,21 +80,20 @@ def test_it_is_refused_strictly_and_by_key_like_ours(installed, tmp_path):
 
 def test_a_drive_in_four_files_conforms_and_is_run_like_ours(installed, tmp_path):
     code = (
-        "from drivewright.testing import cases; told = {str(case): case.check() for case in cases('geneva')}; "
+        "from drivewright.testing import cases; told = {str(case): case.check() for case in cases('scotch-yoke')}; "
         "import json; print(json.dumps(told))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=installed, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    reasons = {name.removeprefix("geneva-default-"): reason for name, reason in json.loads(done.stdout).items()}
+    reasons = {name.removeprefix("scotch-yoke-default-"): reason for name, reason in json.loads(done.stdout).items()}
     assert [name for name, reason in reasons.items() if not reason] == ["units", "record", "derivatives", "speed"]
-    assert drivewright(installed, tmp_path, "new", "geneva").returncode == 0
-    run = drivewright(installed, tmp_path, "run", "geneva.toml", "--json", "--set", "slots=4")
+    assert drivewright(installed, tmp_path, "new", "scotch-yoke").returncode == 0
+    run = drivewright(installed, tmp_path, "run", "scotch-yoke.toml", "--json", "--set", "slot_tilt=60 deg")
     values = json.loads(run.stdout)["values"]
-    assert values["max_speed"]["value"] == pytest.approx(2 * math.pi / (math.sqrt(2) - 1), rel=1e-12)
-    assert values["max_speed"]["label"] == "Peak wheel speed" and values["max_acceleration"]["value"] == pytest.approx(
-        5.4066 * (2 * math.pi) ** 2, rel=1e-3
-    )
-    assert len([path for path in (GENEVA / "src").rglob("*") if path.is_file() and "__pycache__" not in path.parts]) == 4
+    assert values["max_speed"]["value"] == pytest.approx(2 * math.pi * 0.08, rel=1e-12)
+    assert values["max_speed"]["label"] == "Peak slide speed"
+    assert values["max_acceleration"]["value"] == pytest.approx(0.08 * (2 * math.pi) ** 2, rel=1e-12)
+    assert len([path for path in (YOKE / "src").rglob("*") if path.is_file() and "__pycache__" not in path.parts]) == 4
 
 
 def test_the_house_lists_it_and_finds_its_law(installed, tmp_path):
@@ -104,7 +103,7 @@ def test_the_house_lists_it_and_finds_its_law(installed, tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env=installed, cwd=tmp_path)
     kinds, law = done.stdout.splitlines()
-    named = "cam geneva indexer linkage pendulum seedling-pusher shaft silent-chain"
+    named = "cam geneva indexer linkage pendulum scotch-yoke seedling-pusher shaft silent-chain"
     assert kinds == str(named.split()) and law.endswith(" True")
     assert float(law.split()[0]) == pytest.approx(math.pi**2 / 2, rel=1e-12)
 
@@ -125,7 +124,7 @@ def points(monkeypatch):
 
 
 def test_an_unknown_kind_is_refused_with_the_nearest_known():
-    known = "known: cam, indexer, linkage, seedling-pusher, shaft, silent-chain"
+    known = "known: cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain"
     with pytest.raises(UnknownName, match=f"no mechanism is called 'seedling_pusher' .did you mean 'seedling-pusher'.*; {known}"):
         registry.mechanism("seedling_pusher")
 

@@ -111,7 +111,7 @@ def test_a_result_knows_the_analysis_of_each_check_and_how_long_each_took(kind):
         Analysis("last", lambda spec, done: Answer(), "c"),
     )
     result = runner.run(SPEC)
-    assert result.check_analyses == {"early": "fast", "late": "slow"}
+    assert result.check_sources == {"early": "fast", "late": "slow"}
     assert list(result.timings) == ["fast", "slow", "last"]
     assert max(result.timings, key=result.timings.get) == "slow" and result.timings["slow"] >= 0.05
     assert sum(result.timings.values()) <= result.provenance["seconds"] + 1e-3

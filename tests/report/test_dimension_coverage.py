@@ -22,6 +22,11 @@ NOT_SHOWN = {
         "of a table's points, not of the part": ("programme.*.band",),
         **CUT,
     },
+    "geneva": {
+        "beyond a depth that the drawing does not show": ("locking.relief",),
+        "where friction acts, no size of a part": ("bearing.radius",),
+        **CUT,
+    },
     "indexer": {
         SMALL: ("gear.backlash", "contact.interference", "crank_bearings.radial_clearance", "support_bearings.radial_clearance"),
         "the standard meaning": ("gear.pressure_angle",),

@@ -136,20 +136,25 @@ def test_a_table_built_in_python_complains_like_a_file():
 @pytest.mark.parametrize(
     ("content", "wanted"),
     [
-        (b"", "mechanism: is missing; one of cam, indexer, linkage, seedling-pusher, shaft, silent-chain, toy"),
-        (b"# nothing\n", "mechanism: is missing; one of cam, indexer, linkage, seedling-pusher, shaft, silent-chain, toy"),
+        (b"", "mechanism: is missing; one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy"),
+        (b"# nothing\n", "mechanism: is missing; one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy"),
         (
             b'mechansim = "toy"',
-            "mechanism: is missing (did you mean 'mechansim'?); one of cam, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",
+            "mechanism: is missing (did you mean 'mechansim'?); "
+            "one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",
         ),
         (
             b'mechanism = "seeding-pusher"',
-            "mechanism: no mechanism is called 'seeding-pusher' (did you mean 'seedling-pusher'?); known: cam, indexer, linkage, seedling-",
+            "mechanism: no mechanism is called 'seeding-pusher' (did you mean 'seedling-pusher'?); "
+            "known: cam, geneva, indexer, linkage, seed",
         ),
-        (b"mechanism = 3", "mechanism: must be a text, got 3; one of cam, indexer, linkage, seedling-pusher, shaft, silent-chain, toy"),
+        (
+            b"mechanism = 3",
+            "mechanism: must be a text, got 3; one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",
+        ),
         (
             b'mechanism = ["toy"]',
-            "mechanism: must be a text, got ['toy']; one of cam, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",
+            "mechanism: must be a text, got ['toy']; one of cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain, toy",
         ),
         (b'title = "\xe9"', "is not text in UTF-8 (byte 9 is 0xe9); save it as UTF-8"),
         (FULL.encode("utf-16"), "is not text in UTF-8 (byte 0 is 0xff); save it as UTF-8"),
@@ -176,7 +181,7 @@ def test_a_missing_file_says_how_to_make_one(tmp_path):
     with pytest.raises(
         SpecError,
         match=r"nope.toml: there is no such file; .*`drivewright new KIND nope.toml` writes a spec "
-        r".kinds: cam, indexer, linkage, seedling-pusher, shaft, silent-chain.$",
+        r".kinds: cam, geneva, indexer, linkage, seedling-pusher, shaft, silent-chain.$",
     ):
         load(tmp_path / "nope.toml")
 

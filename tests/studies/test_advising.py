@@ -207,7 +207,7 @@ def test_a_bearing_gets_the_static_rating_that_its_load_needs():
     assert needed <= change.after <= needed + 0.25 * (needed - change.before)
 
 
-KINDS = ("cam", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain")
+KINDS = ("cam", "geneva", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain")
 
 
 @pytest.mark.conformance

@@ -38,8 +38,8 @@ def test_validate_knows_its_sources(capsys):
     code, out, err = run(capsys, "validate", "nobody")
     assert (code, out) == (2, "")
     known = (
-        "clearance-joints, elliptic-gears, folding-linkage, hyvo-paper, indexer-paper, modified-sine-help, motion-laws, nelson-mcvaugh, "
-        "pusher-paper, shaft-paper, two-disc-rotor"
+        "clearance-joints, elliptic-gears, folding-linkage, geneva-tables, hyvo-paper, indexer-paper, modified-sine-help, motion-laws, "
+        "nelson-mcvaugh, pusher-paper, shaft-paper, two-disc-rotor"
     )
     assert f"no validation source is called 'nobody'; known: {known}" in err
 

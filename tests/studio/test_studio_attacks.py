@@ -17,7 +17,7 @@ from places import EXAMPLES
 from studio_client import fetched, health, page
 from studio_server import below, started
 
-from drivewright.studio.session import packed
+from drivewright.studio.opening import packed
 
 pytestmark = [pytest.mark.interface, pytest.mark.needs_studio]
 
@@ -113,6 +113,14 @@ LARGE = {
     "lists": {"what": "load", "changes": [[]] * 250_000},
     "elements": {"what": "arrange", "list": "joints", "elements": [{"of": 0, "changes": {}}] * 30_000},
     "an element again and again": {"what": "arrange", "list": "joints", "elements": [{"of": 0, "changes": {}}] * 1_200},
+    "what a handle moves": {"what": "drag", "changes": {f"a{n}": "1 mm" for n in range(60_000)}, "gesture": "g"},
+    "a long text of a handle": {"what": "drag", "changes": {"drive.speed": "1" * 900_000}, "gesture": "g" * 90_000},
+    "places": {"what": "construct", "tool": "body", "places": [[0, 0]] * 30_000, "near": 0.001},
+    "a place of many parts": {"what": "construct", "tool": "pin", "places": [[0.0] * 60_000], "near": 0.001},
+    "options": {"what": "job", "name": "fix", "options": {"check": "x" * 900_000}},
+    "a list of analyses": {"what": "job", "name": "figures", "options": {"analyses": ["x" * 200] * 4_000}},
+    "a table's name": {"what": "put", "table": "a." * 400_000},
+    "deep parts": {"what": "arrange", "list": "joints", "elements": json.loads("[" * 900 + "]" * 900)},
     "a new element": {"what": "arrange", "list": "joints", "elements": [{"of": None, "changes": {".".join("a" * 200): "1" * 9_000}}] * 90},
 }
 
@@ -239,6 +247,48 @@ ODD = [
     '{"what": "arrange", "list": {"a": 1}, "elements": []}',
     '{"what": "drag", "changes": {"a.b": "1"}, "gesture": {"a": 1}}',
     '{"what": "revert", "gesture": [1]}',
+    '{"what": "revert", "gesture": "of nobody"}',
+    '{"what": "drag", "changes": {"drive.speed": "NaN rpm"}, "gesture": "g"}',
+    '{"what": "drag", "changes": {"drive.speed": "1e999 rpm"}, "gesture": "g"}',
+    '{"what": "drag", "changes": {"drive.speed": NaN}, "gesture": "g"}',
+    '{"what": "drag", "changes": {"__class__": "1 mm"}, "gesture": "g"}',
+    '{"what": "drag", "changes": {"../../x": "1"}, "gesture": "g"}',
+    '{"what": "drag", "changes": {"": "1 mm"}, "gesture": ""}',
+    '{"what": "drag", "changes": {"SURROGATE": "1 mm"}, "gesture": "SURROGATE"}',
+    '{"what": "put", "table": "__class__"}',
+    '{"what": "put", "table": "mechanism"}',
+    '{"what": "put", "table": "bodies.<img src=x onerror=alert(1)>"}',
+    '{"what": "put", "table": ["bodies"]}',
+    '{"what": "take", "table": "mechanism"}',
+    '{"what": "take", "table": "bodies"}',
+    '{"what": "take", "table": {"a": 1}}',
+    '{"what": "add", "list": "__class__"}',
+    '{"what": "propose", "options": {}}',
+    '{"what": "begin", "name": "study", "table": {"method": "__import__(\'os\').system(\'id\')"}}',
+    '{"what": "begin", "name": "study", "table": {"vary": [{"key": "drive.speed", "values": ["/etc/passwd", "../../x"]}]}}',
+    '{"what": "begin", "name": "study", "table": {"vary": [{"key": "drive.speed", "lower": "NaN rpm", "upper": "9 rpm", "steps": 2}]}}',
+    '{"what": "begin", "name": "study", "table": {"vary": [{"key": "drive.speed", "lower": "1 rpm", "upper": "2 rpm", "steps": 2000000}]}}',
+    '{"what": "begin", "name": "study", "table": {"samples": 9007199254740992, "method": "random"}}',
+    '{"what": "begin", "name": "study", "table": {"__class__": 1}}',
+    '{"what": "begin", "name": "study", "table": {"vary": [{"key": "drive.speed", "as_written": 1}]}}',
+    '{"what": "begin", "name": "optimise", "table": {"objectives": [{"value": "().__class__.__mro__", "goal": "minimise"}]}}',
+    '{"what": "begin", "name": "optimise", "table": {"requirements": [{"value": "x", "at_least": "__import__(\'os\')"}]}}',
+    '{"what": "begin", "name": "optimise", "table": {"method": "../../x", "population": -1, "generations": 1e300}}',
+    '{"what": "begin", "name": "__class__", "table": {}}',
+    '{"what": "begin", "name": "study", "table": {}, "options": {"folder": "/tmp/x"}}',
+    '{"what": "job", "name": "fix"}',
+    '{"what": "job", "name": "fix", "options": {"check": "__class__"}}',
+    '{"what": "job", "name": "fix", "options": {"check": "SURROGATE"}}',
+    '{"what": "job", "name": "fix", "options": {"check": {}, "longer": []}}',
+    '{"what": "job", "name": "timing", "options": {"check": "x"}}',
+    '{"what": "job", "name": "figures", "options": {"analyses": [{}]}}',
+    '{"what": "job", "name": "figures", "options": {"analyses": ["../../x"]}}',
+    '{"what": "job", "name": "figures", "options": {"theme": "<script>"}}',
+    '{"what": "construct", "tool": "body", "places": [[NaN, 0], [0, 1]], "near": 0.001}',
+    '{"what": "construct", "tool": "body", "places": [[1e300, 0], [0, 1]], "near": 0.001}',
+    '{"what": "construct", "tool": "body", "places": [["0", true], [[], {}]], "near": 0.001}',
+    '{"what": "construct", "tool": "slide", "places": [[0, 0], [0, 0]], "near": 1e5}',
+    '{"what": "construct", "tool": "pin", "places": [[0, 0]], "near": 5e-324}',
     '{"what": "names"}',
     '{"what": "names", "list": "__class__"}',
     '{"what": "names", "list": "SURROGATE"}',
@@ -383,6 +433,85 @@ def test_a_flood_of_messages_is_answered_with_the_newest(server):
             return len(answers)
 
     assert loops.run(attack()) < 400
+
+
+def test_a_thousand_messages_at_once_are_answered_and_the_tab_goes_on(server):
+    """Of all kinds, together; those that do not fit into the queue are refused, one line each."""
+    kinds = [
+        {"what": "drag", "changes": {"bodies.crank.points.A.0": "45 mm"}, "gesture": "g"},
+        {"what": "undo"},
+        {"what": "revert", "gesture": "g"},
+        {"what": "redo"},
+        {"what": "construct", "tool": "body", "places": [[0, 0], [0.1, 0.1]], "near": 0.001},
+        {"what": "sketch", "on": True},
+        {"what": "propose"},
+        {"what": "source"},
+        {"what": "job", "name": "fix", "options": {"check": "none"}},
+        {"what": "cancel", "name": "fix"},
+        {"what": "sketch", "on": False},
+    ]
+
+    async def attack():
+        async with page(server.port) as tab, page(server.port) as other:
+            await tab.until(lambda message: message["what"] == "scene")
+            tab.heard.clear()
+            for number in range(1000):
+                await tab.argue(json.dumps(kinds[number % len(kinds)]))
+            await _answered(other)
+            await tab.until(lambda message: message["what"] == "refused", 120)
+            while True:  # until there is room again
+                tab.heard.clear()
+                await tab.say("again")
+                answer = await tab.until(lambda message: message["what"] in ("design", "refused"), 120)
+                if answer["what"] == "design":
+                    return
+                await asyncio.sleep(0.2)
+
+    assert longest_pause(server, attack) < PAUSE
+    assert "Traceback" not in server.said()
+
+
+def test_a_drag_that_is_undone_on_the_way_leaves_the_first_design(server):
+    async def attack():
+        async with page(server.port) as tab:
+            first = await tab.until(lambda message: message["what"] == "design")
+            for number in range(30):
+                await tab.say("drag", changes={"bodies.crank.points.A.0": f"{41 + number / 10} mm"}, gesture="g")
+                if number % 5 == 4:
+                    await tab.say("undo")
+            await tab.say("revert", gesture="g")
+            await tab.say("revert", gesture="of nobody")
+            for _ in range(30):
+                await tab.say("undo")
+            tab.heard.clear()
+            await tab.say("again")
+            last = await tab.until(lambda message: message["what"] == "design" and not message["undo"])
+            assert last["toml"] == first["toml"] and not last["changed"]
+
+    loops.run(attack())
+
+
+def test_a_search_for_a_change_gives_way_to_the_next_and_ends_with_its_tab(server):
+    async def running(tab):
+        return await tab.until(lambda message: message["what"] == "job" and message["name"] == "fix" and message["state"] == "running")
+
+    async def attack():
+        async with page(server.port) as tab:
+            await tab.until(lambda message: message["what"] == "scene")
+            for check in ("of none", "none either"):
+                await tab.say("job", name="fix", options={"check": check})
+            ended = await tab.until(lambda message: message["what"] == "job" and message["state"] == "failed")
+            assert "none either" in ended["text"] and "\n" not in ended["text"]
+            states = [message["state"] for _, message in tab.heard if message["what"] == "job"]
+            assert states.count("failed") == 1
+            await tab.say("job", name="fix", options={"check": "of none"})
+            await tab.say("job", name="figures", options={})
+            await running(tab)
+        async with page(server.port) as other:  # the one before has gone in the middle
+            await _answered(other)
+
+    loops.run(attack())
+    assert "Traceback" not in server.said()
 
 
 # -- connections ---------------------------------------------------------------------------------------------------------------

@@ -92,7 +92,7 @@ async def settled():
         await asyncio.sleep(0)
 
 
-def found(*names, value=1.0, unit="deg"):
+def found(*names, value=1.0, unit="deg", timings=None):
     """A result of the page with one check, value and plot of each name."""
     return {
         "checks": [{"name": name, "value": value} for name in names],
@@ -101,6 +101,7 @@ def found(*names, value=1.0, unit="deg"):
         "verdict": {"state": "good", "text": "all pass"},
         "fractions": dict.fromkeys(names, value),
         "plots": {"cycle": {"unit": unit, "value": value}, "plots": [{"name": name, "value": value} for name in names]},
+        "timings": timings or {},
     }
 
 
@@ -253,7 +254,7 @@ async def test_what_is_shown_is_outdated_by_a_newer_design_once(bench):
     await bench.look(1)
     assert bench.told("outdated") == []
     await bench.calls[0].answer(None)
-    await bench.calls[1].answer((found("motion"), {}))
+    await bench.calls[1].answer(found("motion"))
     await bench.look(2)
     await bench.look(3)
     assert bench.told("outdated") == [{"what": "outdated"}]
@@ -272,9 +273,9 @@ async def test_analyses_tell_how_far_they_are_and_what_they_took(bench):
         bench.calls[1].send((1, 2, "forces", compiling))
     assert bench.said == [place | {"compiling": ""}, place | {"compiling": "compiling kernels"}, place | {"compiling": ""}]
     del bench.said[1:]
-    await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001, "forces": 3.0}))
+    await bench.calls[1].answer(found("motion", "forces", timings={"motion": 0.001, "forces": 3.0}))
     assert bench.said[1:] == [
-        {"what": "result", "gen": 1, "full": True, "result": found("motion", "forces")},
+        {"what": "result", "gen": 1, "full": True, "result": found("motion", "forces", timings={"motion": 0.001, "forces": 3.0})},
         {"what": "work", "state": "idle", "text": ""},
     ]
 
@@ -293,9 +294,9 @@ async def test_an_analysis_that_takes_too_long_is_named_and_the_others_keep_thei
     assert bench.calls[1].limit == computations.ANALYSIS
     await too_slow(bench, "motion", "forces")
     assert bench.calls[2].arguments[1] == ["motion"] and bench.calls[2].limit == computations.ANALYSIS
-    await bench.calls[2].answer((found("motion"), {"motion": 0.1}))
+    await bench.calls[2].answer(found("motion", timings={"motion": 0.1}))
     assert bench.said[-2:] == [
-        {"what": "result", "gen": 1, "full": False, "result": found("motion")},
+        {"what": "result", "gen": 1, "full": False, "result": found("motion", timings={"motion": 0.1})},
         {"what": "work", "state": "over", "text": "forces", "seconds": computations.ANALYSIS},
     ]
 
@@ -328,7 +329,7 @@ async def test_what_is_too_slow_even_without_its_last_is_told_once(bench):
 async def test_while_others_wait_a_drawing_comes_alone(bench):
     await bench.look(1)
     await bench.calls[0].answer(None)
-    await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001, "forces": 0.002}))
+    await bench.calls[1].answer(found("motion", "forces", timings={"motion": 0.001, "forces": 0.002}))
     bench.quick.crowded = True
     await bench.look(2)
     assert bench.calls[-1].function == "draw" and list(bench.calls[-1].arguments[1]) == []
@@ -407,7 +408,7 @@ async def test_older_analyses_that_end_late_say_nothing(bench):
     bench.calls[1].clearing = asyncio.Event()  # it compiles, and hears nothing
     await bench.look(2)
     await bench.calls[2].answer(None)
-    await bench.calls[3].answer((found("motion"), {}))
+    await bench.calls[3].answer(found("motion"))
     bench.calls[1].clearing.set()
     await settled()
     assert bench.said[-1] == {"what": "work", "state": "idle", "text": ""}
@@ -456,11 +457,11 @@ async def test_analyses_asked_for_while_it_is_drawn_wait_for_the_drawing(bench):
 async def test_no_result_of_an_older_design_after_a_newer_one(bench):
     await bench.look(1)
     await bench.calls[0].answer(None)
-    bench.calls[1].end.set_result((found("motion"), {"motion": 0.001}))  # just arrived, and not yet seen
+    bench.calls[1].end.set_result(found("motion", timings={"motion": 0.001}))  # just arrived, and not yet seen
     await bench.look(2)
     assert bench.told("result") == []
     await bench.calls[2].answer(None)
-    await bench.calls[3].answer((found("motion", value=2.0), {"motion": 0.001}))
+    await bench.calls[3].answer(found("motion", value=2.0, timings={"motion": 0.001}))
     assert [(message["gen"], message["result"]["checks"][0]["value"]) for message in bench.told("result")] == [(2, 2.0)]
 
 
@@ -499,7 +500,7 @@ async def test_quick_analyses_go_with_the_drawing_and_renew_what_is_shown(bench)
     assert bench.calls[0].arguments[1] == []  # nobody knows yet what they take
     await bench.calls[0].answer(None)
     whole = found("motion", "forces")
-    await bench.calls[1].answer((whole, {"motion": 0.001, "forces": 3.0}))
+    await bench.calls[1].answer({**whole, "timings": {"motion": 0.001, "forces": 3.0}})
     await bench.look(2)
     assert bench.calls[2].arguments[1] == ["motion"]
     await bench.calls[2].answer(found("motion", value=2.0))
@@ -509,8 +510,9 @@ async def test_quick_analyses_go_with_the_drawing_and_renew_what_is_shown(bench)
     await bench.look(3)
     await bench.calls[-1].answer(found("motion", value=3.0))
     assert [check["value"] for check in bench.told("result")[-1]["result"]["checks"]] == [3.0, 1.0]
-    await bench.calls[-1].answer((found("motion", "forces", value=3.0), {"motion": 0.001, "forces": 3.0}))
-    assert bench.told("result")[-1] == {"what": "result", "gen": 3, "full": True, "result": found("motion", "forces", value=3.0)}
+    renewed = found("motion", "forces", value=3.0, timings={"motion": 0.001, "forces": 3.0})
+    await bench.calls[-1].answer(renewed)
+    assert bench.told("result")[-1] == {"what": "result", "gen": 3, "full": True, "result": renewed}
     assert whole == found("motion", "forces")  # nobody wrote into what was shown
 
 
@@ -528,7 +530,7 @@ async def test_another_design_has_nothing_of_the_one_before(bench):
     bench.computing._seconds = {"motion": 0.001}
     await bench.look(1)
     await bench.calls[0].answer(found("motion"))
-    await bench.calls[1].answer((found("motion", "forces"), {"motion": 0.001}))
+    await bench.calls[1].answer(found("motion", "forces", timings={"motion": 0.001}))
     bench.computing.reset(2)
     await bench.look(2)
     await bench.calls[-1].answer(found("motion", value=2.0))
@@ -557,8 +559,10 @@ async def test_a_reference_is_drawn_and_analysed(bench):
     bench.calls[0].send('{"scene": 1}')
     await bench.calls[0].answer(None)
     assert bench.asked[1:] == [("heavy", "analyse", "other")] and bench.said == []
-    await bench.calls[1].answer((found("motion"), {"motion": 9.0}))
-    assert bench.said == [{"what": "reference", "title": "quick-return", "json": '{"scene": 1}', "result": found("motion")}]
+    await bench.calls[1].answer(found("motion", timings={"motion": 9.0}))
+    assert bench.said == [
+        {"what": "reference", "title": "quick-return", "json": '{"scene": 1}', "result": found("motion", timings={"motion": 9.0})}
+    ]
 
 
 @pytest.mark.parametrize(
@@ -588,7 +592,7 @@ async def analysed(bench, gen, value):
     await bench.look(gen)
     await bench.calls[-1].answer(None)
     await asyncio.sleep(0.01)
-    await bench.calls[-1].answer((numbered(value), {}))
+    await bench.calls[-1].answer(numbered(value))
 
 
 @story
@@ -613,7 +617,7 @@ async def test_what_is_shown_is_told_apart_from_a_preset_at_once(bench):
     await settled()
     bench.calls[-1].send("{}")
     await bench.calls[-1].answer(None)
-    await bench.calls[-1].answer((numbered(10e-3), {}))
+    await bench.calls[-1].answer(numbered(10e-3))
     assert bench.told("differences")[-1]["differences"]["values"] == {"lift": "+10\u00a0mm (+100\u00a0%)"}
     bench.computing.reset(2)
     await analysed(bench, 2, 20e-3)

@@ -15,11 +15,13 @@ from drivewright import registry
 from drivewright.errors import SpecError
 from drivewright.spec import read_document
 from drivewright.studio.design import Design
-from drivewright.studio.document import STEPS, Document, without_folder
+from drivewright.studio.document import Document
+from drivewright.studio.error_text import without_folder
 from drivewright.studio.field_info import ABSENT, field_infos
 from drivewright.studio.form import form, values
 from drivewright.studio.input_parsing import keys_overlap, value_in
 from drivewright.studio.sample_values import unused_name, with_unused_name
+from drivewright.studio.undo_history import STEPS
 
 pytestmark = pytest.mark.interface
 
@@ -548,9 +550,21 @@ def test_a_copy_for_another_process_does_not_grow_with_the_past():
 
 def test_the_past_of_a_large_design_is_shorter(monkeypatch):
     document = example("four_bar")
-    monkeypatch.setattr("drivewright.studio.document.HISTORY", 5 * len(document.design.toml()) + 100)
+    monkeypatch.setattr("drivewright.studio.undo_history.HISTORY", 5 * len(document.design.toml()) + 100)
     for speed in range(100, 120):
         document.set("drive.speed", f"{speed} rpm")
     assert len(document._past) == 5
     document.undo()
     assert at(document, "drive.speed") == "118 rpm"
+
+
+def test_steps_of_designs_too_large_for_a_past_are_remembered_one_at_a_time(monkeypatch):
+    """Also where another process makes the changes, whose copy forgets the step before."""
+    document = example("four_bar")
+    monkeypatch.setattr("drivewright.studio.undo_history.HISTORY", 10)
+    for speed in range(100, 104):
+        copy = pickle.loads(pickle.dumps(document.present()))
+        copy.set("drive.speed", f"{speed} rpm")
+        document.follow("set", copy)
+    document.undo()
+    assert at(document, "drive.speed") == "102 rpm" and not document.can_undo

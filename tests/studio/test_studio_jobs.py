@@ -1,6 +1,5 @@
 """The studio's jobs: small designs through each, beside what the command line makes of them."""
 
-import base64
 import io
 import json
 import math
@@ -10,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from packed_solids import solid_corners, vectors
 from places import EXAMPLES
 
 import drivewright as dw
@@ -18,6 +18,7 @@ from drivewright.errors import GeometryCheckFailed, SpecError, UnknownName
 from drivewright.report.content import pictures, views
 from drivewright.report.export import export as exported
 from drivewright.report.pack import pack_plots
+from drivewright.report.solids import shaded
 from drivewright.spec import load
 from drivewright.studies.store import Memory
 from drivewright.studio.design import Design
@@ -25,7 +26,6 @@ from drivewright.studio.jobs import JOBS, search
 from drivewright.studio.jobs.design_keys import is_locked, label, leaves, numbered
 from drivewright.studio.jobs.figures import themed
 from drivewright.studio.jobs.sensitivity import _effect
-from drivewright.studio.jobs.solid import shaded
 from drivewright.studio.jobs.study import Live, evenly_spaced_rows
 
 pytestmark = pytest.mark.interface
@@ -77,7 +77,7 @@ def test_keys_go_by_number_whatever_they_are_called():
     assert [key for key, _ in leaves(tables)] == ["joints.0.name", "joints.0.at.0", "joints.0.at.1", "joints.1.name", "drive.speed"]
     assert numbered(tables, "joints.B.gap") == numbered(tables, "joints.1.gap") == "joints.1.gap"
     assert is_locked(tables, "joints.0.at.1", ["joints.A.at"]) and not is_locked(tables, "joints.0.atom", ["joints.A.at"])
-    assert label(tables, "joints.0.at.1") == "joints · A · at · 1"
+    assert label(tables, "joints.0.at.1") == "joints · A · at · 2"
 
 
 # -- sensitivity ---------------------------------------------------------------------------------------------------------------
@@ -324,14 +324,10 @@ def test_a_search_without_anything_to_change_says_so():
 # -- solids --------------------------------------------------------------------------------------------------------------------
 
 
-def vectors(text):
-    return np.frombuffer(base64.b64decode(text), "<f4").reshape(-1, 3).astype(float)
-
-
 def test_a_shaft_is_a_smooth_cylinder_with_two_sharp_rims():
     answer, told = asked("solid", design("pressure_roller_shaft"))
     (part,), unit = answer["parts"], answer["unit"]
-    points, normals, rims = vectors(part["positions"]), vectors(part["normals"]), vectors(part["edges"]).reshape(-1, 2, 3)
+    points, normals, rims = solid_corners(part)
     length, radius = 0.34, 0.01
     a, b, c = np.moveaxis(points.reshape(-1, 3, 3), 1, 0)
     volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
@@ -349,12 +345,10 @@ def test_a_cube_keeps_its_twelve_edges_and_its_flat_faces():
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
     corners = np.array([corner for a, b, c, d in quads for corner in ((a, b, c), (a, c, d))])
     packed = shaded(points[corners].reshape(-1, 3), np.arange(36).reshape(-1, 3))  # every triangle with points of its own
-    edges = vectors(packed["edges"]).reshape(-1, 2, 3)
+    points, normals, edges = solid_corners(packed)
     assert len(edges) == 12 and np.allclose(np.linalg.norm(edges[:, 1] - edges[:, 0], axis=1), 1)
-    normals = vectors(packed["normals"])
     assert np.allclose(np.abs(normals).max(axis=1), 1) and np.allclose(normals.sum(axis=0), 0)
-    middle = vectors(packed["positions"]) - 0.5
-    assert np.all(np.einsum("ij,ij->i", normals, middle) > 0)
+    assert np.all(np.einsum("ij,ij->i", normals, points - 0.5) > 0) and len(vectors(packed["positions"])) == 24
 
 
 # -- figures -------------------------------------------------------------------------------------------------------------------

@@ -1,6 +1,5 @@
 """The formulas behind the studio's jobs, each on its own: how values are written, how a search goes on, which rows are told."""
 
-import base64
 import io
 import math
 import tomllib
@@ -9,6 +8,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from packed_solids import solid_corners
 from places import EXAMPLES
 
 from drivewright import runner
@@ -16,6 +16,8 @@ from drivewright.errors import SpecError
 from drivewright.execution.case_table import CASE, STATUS
 from drivewright.execution.keys import KeyKind, key_kind
 from drivewright.execution.outputs import CHECK, MARGIN_OF, OutputInfo
+from drivewright.report import solids
+from drivewright.report.solids import shaded
 from drivewright.studies.plan import Block, Plan
 from drivewright.studies.variables import Variable
 from drivewright.studio.design import Design
@@ -79,10 +81,10 @@ def test_a_label_has_the_names_of_elements_and_no_underscores():
     tables = {"wear_marks": [{"name": "B"}, {"name": ""}, {}], "speeds": ["1 rpm"]}
     assert [label(tables, key) for key in ("wear_marks.0.end_gap", "wear_marks.1.a", "wear_marks.2", "wear_marks.7.a", "speeds.0")] == [
         "wear marks · B · end gap",
-        "wear marks · 1 · a",
-        "wear marks · 2",
-        "wear marks · 7 · a",
-        "speeds · 0",
+        "wear marks · 2 · a",
+        "wear marks · 3",
+        "wear marks · 8 · a",
+        "speeds · 1",
     ]
 
 
@@ -275,15 +277,12 @@ def test_saving_leaves_the_design_as_it_is():
 # -- solids --------------------------------------------------------------------------------------------------------------------
 
 
-def vectors(text):
-    return np.frombuffer(base64.b64decode(text), "<f4").reshape(-1, 3).astype(float)
-
-
 def test_a_lone_triangle_is_all_edge_and_one_without_area_is_nothing():
     points = np.array([[0, 0, 0], [2, 0, 0], [0, 3, 0], [1, 0, 0]], float)
-    packed = solid.shaded(points, np.array([[0, 1, 2], [0, 1, 3]]))
-    assert len(vectors(packed["positions"])) == 3 and np.allclose(vectors(packed["normals"]), [0, 0, 1])
-    lengths = np.linalg.norm(np.diff(vectors(packed["edges"]).reshape(-1, 2, 3), axis=1)[:, 0], axis=1)
+    packed = shaded(points, np.array([[0, 1, 2], [0, 1, 3]]))
+    corners, normals, edges = solid_corners(packed)
+    assert len(corners) == 3 and np.allclose(normals, [0, 0, 1])
+    lengths = np.linalg.norm(np.diff(edges, axis=1)[:, 0], axis=1)
     assert sorted(lengths) == pytest.approx([2, 3, math.sqrt(13)])
 
 
@@ -293,11 +292,11 @@ def test_faces_that_turn_by_more_than_thirty_degrees_meet_in_an_edge(turn, sharp
     angle = math.radians(turn)
     down = [math.cos(angle), 0.0, -math.sin(angle)]
     points = np.array([[-1, 0, 0], [-1, 1, 0], [0, 0, 0], [0, 1, 0], down, [down[0], 1, down[2]]], float)
-    packed = solid.shaded(points, np.array([[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]]))
-    ends = vectors(packed["edges"]).reshape(-1, 2, 3)
+    packed = shaded(points, np.array([[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]]))
+    corners, normals, ends = solid_corners(packed)
     shared = np.all(np.abs(ends[:, :, 0]) < 1e-6, axis=1)
     assert shared.sum() == sharp and len(ends) == 6 + shared.sum()
-    middle = vectors(packed["normals"])[np.abs(vectors(packed["positions"])[:, 0]) < 1e-6]
+    middle = normals[np.abs(corners[:, 0]) < 1e-6]
     between = [math.sin(angle / 2), 0, math.cos(angle / 2)]
     assert np.allclose(middle, between, atol=1e-6) != sharp
 
@@ -306,22 +305,22 @@ def test_each_face_counts_by_its_angle_at_the_corner():
     """A flat right angle beside half a right angle, 20 degrees on: the normal leans to the wider one, by their angles."""
     a = math.radians(20)
     points = np.array([[0, 0, 0], [0, 1, 0], [-1, 0, 0], [math.cos(a), 1, -math.sin(a)]], float)
-    packed = solid.shaded(points, np.array([[0, 1, 2], [0, 3, 1]]))
+    packed = shaded(points, np.array([[0, 1, 2], [0, 3, 1]]))
     flat, tilted = np.array([0, 0, 1.0]), np.array([math.sin(a), 0, math.cos(a)])
     wanted = 90 * flat + 45 * tilted
-    found = vectors(packed["normals"])[np.all(vectors(packed["positions"]) == 0, axis=1)]
+    corners, normals, _ = solid_corners(packed)
+    found = normals[np.all(corners == 0, axis=1)]
     assert np.allclose(found, wanted / np.linalg.norm(wanted), atol=1e-6)
 
 
 def test_the_size_of_an_assembly_is_that_of_the_box_around_its_parts(monkeypatch):
-    parts = [
-        SimpleNamespace(name=name, colour=colour, body="", at=at) for name, colour, at in (("left", "blue", -2.0), ("right", "steel", 1.0))
-    ]
+    places = (("left", "blue", -2.0), ("right", "steel", 1.0))
+    parts = [SimpleNamespace(name=name, colour=colour, body="", turning=None, at=at) for name, colour, at in places]
     tetrahedron = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 2]], float), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     kind = SimpleNamespace(kind="cam", analyses=(), parts=lambda model: parts, scene=None)
     monkeypatch.setattr(solid, "registry", SimpleNamespace(mechanism=lambda name: kind))
     monkeypatch.setattr(solid.runner, "build", lambda spec: None)
-    monkeypatch.setattr(solid.facets, "surface_triangles", lambda part, tolerance: (tetrahedron[0] + [part.at, 0, 0], tetrahedron[1]))
+    monkeypatch.setattr(solids.facets, "viewed_triangles", lambda part, tolerance: (tetrahedron[0] + [part.at, 0, 0], tetrahedron[1]))
     told = []
     answer = solid.solid(design("disc_cam"), lambda *words: told.append(words))
     assert answer["low"] == [-2, 0, 0] and answer["high"] == [2, 2, 2] and answer["size"] == pytest.approx(math.sqrt(24))

@@ -12,8 +12,8 @@ from drivewright.errors import DoesNotAssemble, SpecError
 from drivewright.registry import Analysis
 from drivewright.result import Check
 from drivewright.studio import preview
+from drivewright.studio.opening import opened
 from drivewright.studio.preview import affordable_analyses, merge_results, page_result
-from drivewright.studio.session import opened
 
 pytestmark = pytest.mark.interface
 
@@ -156,7 +156,8 @@ def analysed(four_bar):
 
 
 def test_all_default_analyses_are_told_and_timed(four_bar, analysed):
-    told, (found, seconds) = analysed
+    told, found = analysed
+    seconds = found["timings"]
     names = [each.name for each in registry.mechanism(four_bar.kind).analyses if each.default]
     places = list(dict.fromkeys((done, total, name) for done, total, name, compiling in told if total))
     assert [name for _, _, name in places] == list(seconds) == found["analyses"] == names
@@ -181,27 +182,11 @@ def test_what_is_compiled_is_told_with_the_analysis_that_waits_for_it(four_bar, 
 
 
 def test_the_result_is_plain_and_whole(analysed):
-    found = analysed[1][0]
+    found = analysed[1]
     assert json.loads(json.dumps(found, allow_nan=False)) == found
     assert set(found["fractions"]) == {each["name"] for each in found["checks"]}
     assert found["verdict"]["state"] == "good" and found["outcome"] == "complete"
     assert {"motion.rocker", "forces"} <= {plot["name"] for plot in found["plots"]["plots"]}
-
-
-def test_every_analysis_has_its_own_seconds(four_bar, monkeypatch):
-    now = iter(range(1000))
-    monkeypatch.setattr(preview, "time", SimpleNamespace(perf_counter=lambda: next(now)))
-
-    def run(spec, only, progress, model):
-        for n, name in enumerate(("a", "b", "c")):
-            progress(n, 3, name)
-            for _ in range(10 * n):
-                next(now)
-        return "result"
-
-    monkeypatch.setattr(preview.runner, "run", run)
-    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses, quick=False: (result, analyses))
-    assert preview.analyse(lambda what: None, four_bar) == (("result", ["a", "b", "c"]), {"a": 1, "b": 11, "c": 21})
 
 
 def test_a_drawing_is_told_before_the_answers(four_bar):
@@ -260,11 +245,11 @@ def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a
 
 
 def test_a_whole_result_without_a_scene_has_no_plots(four_bar, without_a_scene, monkeypatch):
-    monkeypatch.setattr(preview.runner, "run", lambda spec, only, progress, model: "result")
-    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: scene)
-    assert preview.analyse(lambda told: None, four_bar) == (None, {})
+    monkeypatch.setattr(preview.runner, "run", lambda spec, only, progress, model: SimpleNamespace(timings={"a": 1.0}))
+    monkeypatch.setattr(preview, "page_result", lambda result, scene, analyses: (scene, analyses))
+    assert preview.analyse(lambda told: None, four_bar) == (None, ["a"])
     without_a_scene.scene = None
-    assert preview.analyse(lambda told: None, four_bar) == (None, {})
+    assert preview.analyse(lambda told: None, four_bar) == (None, ["a"])
 
 
 def test_findings_and_the_outcome_come_along(monkeypatch):
@@ -272,7 +257,7 @@ def test_findings_and_the_outcome_come_along(monkeypatch):
     checks = (check("near", 3.0, 4.0), check("zero", 1.0, 0.0, ">="))
     made = SimpleNamespace(checks=checks, findings=("beware",), warnings=("beware",), outcome="partial", provenance={"seconds": 2.5})
     made.mechanism, made.timings, made.tables = "indexer", {"stress": 0.2}, {}
-    made.value_sources, made.check_analyses = {"lift": "profile"}, {"near": "stress"}
+    made.value_sources, made.check_sources = {"lift": "profile"}, {"near": "stress"}
     assert page_result(made, None, ["a"]) == {
         "verdict": "good",
         "plots": None,

@@ -178,6 +178,20 @@ def test_what_is_locked_is_not_changed():
     assert fix.fix(design, quiet, check="pressure_angle", locks=keys)["reason"] == "no dimension that may change is free; unlock one"
 
 
+def test_a_correction_goes_beyond_the_unknowns_of_a_search():
+    search = {"optimise__unknowns": [{"key": "spring.preload", "lower": "20 N", "upper": "60 N"}], "optimise__objectives": OBJECTIVES}
+    found = fix.fix(cam(follower__prime_radius="24 mm", **search), quiet, check="pressure_angle")
+    assert [change["key"] for change in found["changes"]] == ["follower.prime_radius"] and not found["reason"]
+
+
+def test_a_search_of_segment_angles_frees_the_last_dwell():
+    document = Document(cam())
+    unknowns = [{"key": f"programme.{n}.angle", "lower": "60 deg", "upper": "160 deg"} for n in (0, 1)]
+    document.write("optimise", {"unknowns": unknowns, "objectives": OBJECTIVES})
+    assert ["angle" in segment for segment in document.design.tables["programme"]] == [True, True, False]
+    assert document.design.spec().programme[2].angle is None
+
+
 def test_time_that_ran_out_is_said(monkeypatch):
     monkeypatch.setattr(fix, "PATIENCE", -1.0)
     found = fix.fix(cam(follower__prime_radius="24 mm"), quiet, check="pressure_angle")

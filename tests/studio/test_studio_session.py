@@ -1,80 +1,20 @@
 """One tab of the studio without a browser: what it is told, and what it lets nobody do."""
 
-import asyncio
 import json
-import pickle
 import shutil
-from contextlib import asynccontextmanager
-from types import SimpleNamespace
 
-import loops
 import pytest
 from places import EXAMPLES
+from studio_tab import Here, Tab
 
 from drivewright.errors import InputError, SpecError
 from drivewright.studio.app import _files as served_files
 from drivewright.studio.jobs import JOBS
+from drivewright.studio.opening import LARGEST, first_design, opened, packed, unpacked
 from drivewright.studio.resources import KEPT, MOST_OFFERS, ServerResources
-from drivewright.studio.session import LARGEST, MOST_FILES, Session, first_design, opened, packed, unpacked
+from drivewright.studio.session import MOST_FILES
 
 pytestmark = pytest.mark.interface
-
-
-class Quiet:
-    """Stands for the computations: notes what is asked of them."""
-
-    def __init__(self):
-        self.asked = []
-
-    def __getattr__(self, name):
-        return lambda *arguments: self.asked.append((name, *arguments))
-
-
-class Here:
-    """Stands for the processes that read what a page sends: everything goes there and back pickled."""
-
-    @asynccontextmanager
-    async def worker(self, owner):
-        async def call(function, *arguments, limit):
-            answer = function(None, *pickle.loads(pickle.dumps(arguments)))
-            await asyncio.sleep(0)
-            return pickle.loads(pickle.dumps(answer))
-
-        yield SimpleNamespace(call=call)
-
-    def close(self):
-        pass
-
-
-class Tab:
-    """A session and all that it has said."""
-
-    def __init__(self, start, resources):
-        self.heard = []
-        self.session = Session(self.heard.append, resources, start)
-        self.session.computations = self.quiet = Quiet()
-
-    def say(self, what, **more):
-        """What the session answers to one message."""
-        return self.send({"what": what, **more})
-
-    def send(self, *messages):
-        """What the session answers to messages, whatever they are, that come together."""
-
-        async def sending():
-            for message in messages:
-                self.session.receive(message)
-            if work := self.session._inbox.work:
-                await work
-
-        self.heard.clear()
-        loops.run(sending())
-        json.dumps(self.heard, allow_nan=False).encode()  # everything can be sent
-        return list(self.heard)
-
-    @property
-    def toml(self):
-        return self.session.document.design.text()
 
 
 @pytest.fixture
@@ -430,6 +370,20 @@ def test_what_is_no_request_is_nothing(tab, message):
         {"what": "begin", "name": "optimise", "table": {"settings": [{"key": "torques.load.file", "value": "/etc/passwd"}]}},
         {"what": "begin", "name": "optimise", "table": {"unknowns": 3, "objectives": None}},
         {"what": "job", "name": "fix", "options": {"seconds": 1e9}},
+        {"what": "job", "name": "fix", "options": {"check": {}}},
+        {"what": "job", "name": "fix", "options": {"check": "x", "longer": 1e9}},
+        {"what": "job", "name": "fix", "options": {"check": "x", "locks": []}},
+        {"what": "job", "name": "fix", "options": {"check": "x", "held": ["a"], "tried": 1}},
+        {"what": "job", "name": "optimise", "options": {"locks": []}},
+        {"what": "job", "name": "figures", "options": {"analyses": "statics"}},
+        {"what": "job", "name": "figures", "options": {"analyses": [["statics"]]}},
+        {"what": "job", "name": "figures", "options": {"everything": True}},
+        {"what": "job", "name": "figures", "options": {"kept": "/tmp"}},
+        {"what": "job", "name": "figures", "options": ["theme"]},
+        {"what": "job", "name": "fields", "options": {"analysis": 3}},
+        {"what": "job", "name": "fields", "options": {"analysis": "x", "run": "yes"}},
+        {"what": "job", "name": "report", "options": {"whole": []}},
+        {"what": "job", "name": {"fix": 1}},
         {"what": "job", "name": "timing", "options": {"analyses": "x"}},
     ],
 )
@@ -478,6 +432,14 @@ def test_a_search_is_written_and_begun_in_one_message_and_one_step(tab):
     assert tab.quiet.asked[-1] == ("job", "optimise", 2, tab.session.document.design, {"theme": "dark", "locks": []})
     tab.say("undo")
     assert tab.toml == before and not tab.session.document.can_undo
+
+
+def test_a_job_that_is_refused_writes_no_table(tab):
+    before, table = tab.toml, {"vary": [{"key": "drive.speed", "lower": "90 rpm", "upper": "99 rpm", "steps": 2}]}
+    for options in ({"folder": "/tmp/x"}, {"theme": 3}, [1], {"workers": 99}):
+        (refused,) = tab.say("begin", name="study", table=table, options=options)
+        assert refused["what"] == "refused" and tab.toml == before
+    assert not tab.session.document.can_undo
 
 
 def test_a_table_that_is_refused_begins_nothing(tab):

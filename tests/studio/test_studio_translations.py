@@ -27,8 +27,8 @@ KINDS = [kind for kind in registry.kinds() if (registry.mechanism(kind).folder /
 CHINESE = re.compile(r"[\u4e00-\u9fff]")
 SAME = {"* · *", "*（*）", "*／*", "LuGre", "Ambrósio", "Kelvin-Voigt"}  # texts that are the same in both languages
 # units, symbols and names inside Chinese texts; r/min, L10rh, Lnmh, C0/Fr
-LATIN = {"mm", "kN", "Hz", "arcmin", "min", "rh", "Lnmh", "Fr", "von", "Mises", "Hy", "Vo", "max", "ds", "cos"}
-OURS = {"cam", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"}
+LATIN = {"mm", "kN", "MPa", "Hz", "arcmin", "min", "rh", "Lnmh", "Fr", "von", "Mises", "Hy", "Vo", "max", "ds", "cos"}
+OURS = {"cam", "geneva", "indexer", "linkage", "seedling-pusher", "shaft", "silent-chain"}
 
 
 def keys(model, path=""):
@@ -167,6 +167,12 @@ def test_kinds_are_introduced_before_a_design_is_open():
     for kind in KINDS:
         assert CHINESE.search(said[registry.mechanism(kind).summary]) and CHINESE.search(said[kind.replace("-", " ")])
     assert "design a" in said and "Area of the cam profile" not in said
+
+
+def test_every_title_of_the_menu_is_chinese_whatever_is_open():
+    book = translations.texts(None)
+    titles = [title for kind in OURS for title in translations.preset_titles(kind).values()]
+    assert len(titles) > 20 and [title for title in titles if not CHINESE.search(book.get(title, ""))] == []
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -13,6 +13,7 @@ pytestmark = pytest.mark.interface
 OWN = Path(app.__file__).parent / "web"
 REPORT = Path(html.__file__).parent
 IMPORTS = re.compile(r'^(?:import|export) \{(.*)\} from "\./(.*)";$', re.MULTILINE)
+ALL = (*html.MODULES, *html.SOLID_MODULES)
 DEFINED = re.compile(r"^export (?:const|function\*?|class) (\w+)", re.MULTILINE)
 
 
@@ -45,10 +46,22 @@ def test_imports_are_written_as_these_tests_and_the_report_read_them():
 
 def test_no_module_of_the_studio_takes_the_name_of_one_of_the_report():
     assert not {path.name for path in OWN.iterdir()} & {path.name for path in REPORT.iterdir()}
-    assert {path.name for path in REPORT.glob("*.js")} == set(html.MODULES)
+    assert {path.name for path in REPORT.glob("*.js")} == set(ALL)
 
 
-@pytest.mark.parametrize("place", range(len(html.MODULES)))
+@pytest.mark.parametrize("place", range(len(ALL)))
 def test_a_module_of_the_report_comes_behind_those_it_imports(place):
-    text = (REPORT / html.MODULES[place]).read_text(encoding="utf-8")
-    assert {source for _, source in IMPORTS.findall(text)} <= set(html.MODULES[:place])
+    text = (REPORT / ALL[place]).read_text(encoding="utf-8")
+    assert {source for _, source in IMPORTS.findall(text)} <= set(ALL[:place])
+
+
+def test_no_two_modules_of_the_report_use_the_same_name_at_their_top():
+    """They become one script there."""
+    named = re.compile(r"^(?:export )?(?:const|let|function\*?|class) (\w+)((?: = [\w.-]+, \w+)*)", re.MULTILINE)
+    found = [
+        name
+        for each in ALL
+        for name, more in named.findall((REPORT / each).read_text(encoding="utf-8"))
+        for name in [name, *re.findall(r", (\w+)", more)]
+    ]
+    assert len(found) > 100 and sorted(name for name in set(found) if found.count(name) > 1) == []

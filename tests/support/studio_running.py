@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from browsing import until
 from places import ROOT
 
-from drivewright.studio.session import packed
+from drivewright.studio.opening import packed
 
 EXAMPLES = ROOT / "examples"
 

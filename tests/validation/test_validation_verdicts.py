@@ -226,6 +226,8 @@ def test_the_paper_has_its_errata(sources):
 def test_recalled_works_say_so(sources):
     assert "recalled, neither opened" in sources["motion-laws"].citation
     assert {row.where for row in sources["motion-laws"].rows()} == {"recalled", "derived"}
+    assert "recalled, neither opened" in sources["geneva-tables"].citation
+    assert {row.where for row in sources["geneva-tables"].rows()} == {"recalled", "derived"}
 
 
 def test_the_help_page_cuts_a_digit_off(rows):

@@ -124,6 +124,7 @@ def run(
     report: ReportOption = "normal",
     lang: LanguageOption = "en",
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="draw the figures")] = True,
+    solids: Annotated[bool, typer.Option("--solids", help="show the parts as solids in motion in the report, about 0.5 MB more")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="print the result as JSON to stdout")] = False,
     strict: StrictOption = False,
     verbose: Annotated[bool, typer.Option("-v", "--verbose", help="print all values, checks and findings")] = False,
@@ -152,7 +153,7 @@ def run(
                 model = runner.build(spec)
                 result = runner.run(spec, _names(only), all_, step, model)
             result = _advised(result, advice, step)
-            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model), compute, form)
+            folder = write_run_folder(result, _folder(path, out, len(specs) > 1), figures, views(result, model, solids), compute, form)
         results.append(result)
         if not as_json:
             show.result(result, verbose)
@@ -424,7 +425,7 @@ def studio(
 ) -> None:
     """The web studio: a design as a form, moving, with its checks and plots."""
     from drivewright.studio.app import serve
-    from drivewright.studio.session import first_design, opened
+    from drivewright.studio.opening import first_design, opened
 
     with show.located(spec or Path("studio")):
         start = opened(spec) if spec else first_design()

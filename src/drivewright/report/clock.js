@@ -37,12 +37,15 @@ export function createClock({duration = 4, speed = 1} = {}) {
   return clock;
 }
 
-/** Float32Array of base64 text. */
-export function floats(text) {
+/** The bytes of base64 text. */
+export function bytesOf(text) {
   const letters = atob(text), bytes = new Uint8Array(letters.length);
   for (let i = 0; i < letters.length; i++) bytes[i] = letters.charCodeAt(i);
-  return new Float32Array(bytes.buffer);
+  return bytes.buffer;
 }
+
+/** Float32Array of base64 text. */
+export const floats = text => new Float32Array(bytesOf(text));
 
 /** Index of the interval of the rising array `u` that holds `value`, and the part 0..1 of the way through it. */
 export function locate(u, value) {
@@ -117,3 +120,13 @@ export function element(tag, attributes = {}, ...children) {
 
 /** A number with fixed decimals and a true minus. */
 export const fixed = (value, decimals) => Number.isFinite(value) ? value.toFixed(decimals).replace(/^-(?=.*[1-9])/, "−").replace(/^-/, "") : "–";
+
+/** A button with what is in it; `act(button)` when it is pressed. */
+export function pressable(attributes, act, ...inside) {
+  const made = element("button", {type: "button", ...attributes}, ...inside);
+  made.addEventListener("click", () => act(made));
+  return made;
+}
+
+/** Whether two lists have the same entries. */
+export const same = (a, b) => a === b || (a && b && a.length === b.length && a.every((x, n) => x === b[n]));

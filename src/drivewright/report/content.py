@@ -11,6 +11,7 @@ import numpy as np
 
 from drivewright import registry
 from drivewright._typing import ArrayLike, Floats
+from drivewright.errors import InputError
 from drivewright.execution.helper import Map
 from drivewright.labels import label_of
 from drivewright.report.advice import advice_texts, failed_texts
@@ -19,13 +20,14 @@ from drivewright.report.form import ReportForm
 from drivewright.report.letterhead import read_letterhead
 from drivewright.report.localised import localised
 from drivewright.report.paper_figures import paper_svg
+from drivewright.report.solids import MOST_TRIANGLES, SolidSurface, solid_surfaces, with_repeats
 from drivewright.report.value_groups import grouped_values
 from drivewright.report.words import Words, translated, words_of
 from drivewright.result import UNDECIDED, Array, Check, Column, Plot, Result, SpecLike, Table, Value
 from drivewright.runner import failure_reason, versions
 from drivewright.scene import Drawing, Scene
 from drivewright.units import Scale, System
-from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_thumbnail, svg
+from drivewright.view import draw_drawing, draw_panels, draw_scene, draw_solids, draw_thumbnail, svg
 from drivewright.view.motion import fractions
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.style import new_figure
@@ -58,18 +60,19 @@ class Picture(NamedTuple):
 
 
 class Views(NamedTuple):
-    """What there is to see of a run besides its numbers; `remarks` say what could not be drawn."""
+    """What there is to see of a run besides its numbers; `remarks` say what could not be drawn, `solids` are there where wanted."""
 
     scene: Scene | None = None
     plots: tuple[Plot, ...] = ()
     drawings: tuple[Drawing, ...] = ()
     remarks: tuple[str, ...] = ()
+    solids: tuple[SolidSurface, ...] = ()
 
 
-def views(result: Result[Any], model: object = None) -> Views:
+def views(result: Result[Any], model: object = None, solids: bool = False) -> Views:
     """What the result's mechanism shows of its spec; a design that cannot be drawn still gets its report, with a remark.
 
-    `model` is the spec's own, where it has been built already.
+    `model` is the spec's own, where it has been built already; `solids` asks for the parts as solids too.
     """
     if not registry.is_known(result.mechanism):
         return Views(remarks=(f"mechanism {result.mechanism!r} is not installed here: neither motion nor drawings",))
@@ -77,13 +80,22 @@ def views(result: Result[Any], model: object = None) -> Views:
     model = model or mechanism.build(result.spec)
     scene, no_scene = _shown("motion", mechanism.scene, model, None, result.spec)
     drawings, no_drawings = _shown("drawings", mechanism.drawings, model, (), result.spec)
-    return Views(scene, tuple(known_plots(result).values()), tuple(drawings), no_scene + no_drawings)
+    surfaces, no_solids = _shown("solids", _surfaces, mechanism, (), result.spec, model) if solids else ((), ())
+    return Views(scene, tuple(known_plots(result).values()), tuple(drawings), no_scene + no_drawings + no_solids, surfaces)
 
 
-def _shown(what, make, model, nothing, spec):
+def _surfaces(mechanism, model):
+    """The surfaces of the parts of a drive; InputError where it has none, or too many triangles."""
+    parts = tuple(mechanism.parts(model)) if mechanism.parts else ()
+    if not parts:
+        raise InputError(f"{mechanism.kind} has no solids to show")
+    return solid_surfaces(parts, most=MOST_TRIANGLES)
+
+
+def _shown(what, make, model, nothing, spec, *more):
     """(what was made, remarks)."""
     try:
-        return (make(model) if make else nothing), ()
+        return (make(model, *more) if make else nothing), ()
     except Exception as error:  # a picture that fails must not cost the numbers
         return nothing, (f"no {what} to show: {failure_reason(spec, error)}",)
 
@@ -114,6 +126,8 @@ def _sketches(result, seen):
             yield Sketch(f"plot-{plot.name}", plot.title, draw_panels, (panels(result, plot), _marks(result, plot, scene)), caption(plot))
         except Exception as error:
             yield failing_sketch(f"plot-{plot.name}", plot.title, error)
+    if seen.solids:
+        yield Sketch("solids", "Solids of the assembly", draw_solids, (with_repeats(seen.solids, scene),))
     for drawing in seen.drawings:
         yield Sketch(f"drawing-{drawing.name}", sentence(drawing.title), draw_drawing, (drawing, system))
 

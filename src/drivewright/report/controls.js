@@ -6,7 +6,7 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 export const MOST = 3;  // largest exaggeration over the drawn one
 export const TEXT = {play: "Play (space)", pause: "Pause (space)", ghosts: "Ghost poses (g)", traces: "Paths of points (t)", fit: "Fit (f)", speed: "Speed",
   real: "real time", slower: "slow motion", faster: "fast motion", scrub: "Position in the cycle", frame: "Seen from",
-  exaggeration: "Exaggeration", drawn: "Play and deflection, enlarged; double click: as designed for the drawing",
+  exaggeration: "Exaggeration", shown: "Bodies that are shown", drawn: "Play and deflection, enlarged; double click: as designed for the drawing",
   canvas: "Moving mechanism: space plays, arrow keys step, drag moves, wheel zooms"};
 const ICONS = {play: "M7 4.5v15l12-7.5z", pause: "M6 5h4v14H6zM14 5h4v14h-4z", traces: "M4 17c2-14 7-14 8-5s6 7 8-6M4 17h.01",
   fit: "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5", ghosts: "M5 20V10a7 7 0 0 1 14 0v10l-3-2.5-2 2.5-2-2.5-2 2.5-2-2.5z"};

@@ -16,7 +16,8 @@ from drivewright.report.letterhead import Letterhead, read_letterhead
 from drivewright.report.names import file_name
 from drivewright.report.numbering import in_order, numbered_figures, seen_in, with_figures
 from drivewright.report.pack import pack_plot_groups, pack_scene
-from drivewright.report.words import translated, words_of
+from drivewright.report.solids import pack_solids
+from drivewright.report.words import Words, translated, words_of
 from drivewright.result import Result
 from drivewright.scene import Scene
 from drivewright.view.palette import style_sheet
@@ -38,6 +39,16 @@ MODULES = (
     "panel.js",
     "plots.js",
 )  # each behind those that it imports
+SOLID_MODULES = (
+    "assembly.js",
+    "cube.js",
+    "pacing.js",
+    "picking.js",
+    "shaders.js",
+    "triangles.js",
+    "solid.js",
+    "assembly_bar.js",
+)  # behind those, where solids are shown
 
 
 def write_report(
@@ -54,6 +65,7 @@ def write_report(
         with_figures(content(result, seen.remarks, form=form), result, chosen),
         read_letterhead(result.spec).templates,
         player=packed and data_text(packed),
+        solids=packed is not None and "solids" in packed,
         pictures=[{**embedded(each), "number": number, "moving": _is_moving(each.name, moving, packed)} for number, each in drawn],
     )
     path = Path(folder) / "report.html"
@@ -63,7 +75,7 @@ def write_report(
 
 def _is_moving(name: str, plots: Collection[str], packed: object) -> bool:
     """Whether a picture stands for something that moves on the page."""
-    return name in {file_name(plot) for plot in plots} or (packed is not None and name.startswith("scene-"))
+    return name in {file_name(plot) for plot in plots} or (packed is not None and (name.startswith("scene-") or name in packed))
 
 
 def packed_views(result: Result[Any], seen: Views, language: str = "en", scene: Scene | None = None) -> dict[str, Any] | None:
@@ -81,8 +93,15 @@ def packed_views(result: Result[Any], seen: Views, language: str = "en", scene: 
         for number, panel in enumerate(plot["panels"]):
             panel["meaning"] = "" if number else captions[plot["name"]]
             panel["figure"] = numbers[f"plot-{plot['name']}"]
-    spoken = {} if language == "en" else {english: words(english) for english in player_texts()}
-    return {**translated({"scene": pack_scene(scene, result.units), "plots": plots}, words), **({"words": spoken} if spoken else {})}
+    solids = {"solids": _named_solids(pack_solids(seen.solids, scene), words)} if seen.solids else {}
+    texts = (*player_texts(), *(solid_texts() if solids else ()))
+    spoken = {} if language == "en" else {"words": {english: words(english) for english in texts}}
+    return {**translated({"scene": pack_scene(scene, result.units), "plots": plots}, words), **solids, **spoken}
+
+
+def _named_solids(packed: dict[str, Any], words: Words) -> dict[str, Any]:
+    """Packed solids, each part with its name in words as `label`."""
+    return {**packed, "parts": [{**part, "label": words(part["name"].replace("_", " "))} for part in packed["parts"]]}
 
 
 def player_data(result: Result[Any], seen: Views, language: str = "en") -> str | None:
@@ -108,13 +127,22 @@ def player_texts() -> tuple[str, ...]:
     return tuple(re.findall(r'"([^"]+)"', table[1])) if table else ()
 
 
+@cache
+def solid_texts() -> tuple[str, ...]:
+    """The English texts of the viewer of solids."""
+    found = [text for name in SOLID_MODULES for text in re.findall(r'\bt\("([^"]+)"', _text(name))]
+    return (*dict.fromkeys(found), "Play (space)", "Pause (space)")
+
+
 def page(template: str, values: Mapping[str, Any], templates: Mapping[str, str] | None = None, **more: object) -> str:
     """A template filled in; every value is escaped unless the template marks it safe.  `templates` of a user replace ours by name."""
     own = {name: text for name, text in (templates or {}).items() if name.endswith(".css")}
-    look = own.pop("report.css", _text("templates/report.css")) + _text("player.css") + "".join(own.values())
+    solids = bool(more.get("solids"))
+    look = own.pop("report.css", _text("templates/report.css")) + _text("player.css") + (_text("solid.css") if solids else "")
     language = values.get("language", "en")
-    style = look + _page_numbers(language)
-    filled = {"letterhead": NO_LETTERHEAD, **values, **more, "colours": style_sheet(), "style": style, "script": scripts()}
+    style = look + "".join(own.values()) + _page_numbers(language)
+    script = scripts((*MODULES, *SOLID_MODULES) if solids else MODULES)
+    filled = {"letterhead": NO_LETTERHEAD, **values, **more, "colours": style_sheet(), "style": style, "script": script}
     if not templates:
         return environment(language).get_template(template).render(**filled)
     try:
@@ -174,9 +202,9 @@ def _breakable(name: str) -> "Markup":
 
 
 @cache
-def scripts() -> str:
+def scripts(modules: Sequence[str] = MODULES) -> str:
     """The modules of the player and the plots as one: the lines that import from one another go, the rest stays as it is."""
-    return "\n".join(re.sub(r"^(import|export) \{.*\} from .*$", "", _text(name), flags=re.MULTILINE) for name in MODULES)
+    return "\n".join(re.sub(r"^(import|export) \{.*\} from .*$", "", _text(name), flags=re.MULTILINE) for name in modules)
 
 
 def template_text(name: str) -> str:

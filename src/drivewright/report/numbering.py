@@ -47,7 +47,7 @@ def numbered_figures(result: Result[Any], seen: Views) -> tuple[NumberedFigure, 
     """All figures of a report in their order, numbered from 1."""
     scenes = [f"scene-{frame.name}" for frame in (seen.scene.frames if seen.scene else ())]
     plots = [f"plot-{plot.name}" for plot in drawable(result, seen.plots)]
-    names = [*scenes, *plots, *(f"drawing-{drawing.name}" for drawing in seen.drawings)]
+    names = [*scenes, *plots, *(["solids"] if seen.solids else []), *(f"drawing-{drawing.name}" for drawing in seen.drawings)]
     return tuple(NumberedFigure(number, name) for number, name in enumerate(names, 1))
 
 

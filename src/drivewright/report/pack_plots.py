@@ -110,7 +110,7 @@ def _apart(panel: Panel, phase: Floats | None, count: int, factor: float) -> Pac
     alone = all(each.x is None for each in panel.series)
     return {
         "name": panel.series[0].name,
-        "title": panel.title if count == 1 or len(panel.series) > 1 else panel.series[0].label,
+        "title": panel.series[0].label if count > 1 and len(panel.series) == 1 else panel.title,
         "label": panel.label,
         "low": panel.low,
         "high": panel.high,

@@ -10,7 +10,7 @@ import { MOST, TEXT, button, exaggerator, icon, magnifiedBy, pace, press, scrubb
 import { createPainter, createView, steer } from "./drawing.js";
 import { STILL, boxOf, poseAt, poseOf, seenFrom, unpack } from "./scene.js";
 
-export { createClock, element, fitCanvas, fixed, floats, nice, watchTheme } from "./clock.js";
+export { createClock, element, fitCanvas, fixed, floats, locate, nice, pressable, same, watchTheme } from "./clock.js";
 
 /**
  * A player inside `host`.  Options: clock (shared with plots; it outlives the player), autoplay, duration [s per cycle at speed 1],
@@ -24,7 +24,7 @@ export { createClock, element, fitCanvas, fixed, floats, nice, watchTheme } from
 export function createPlayer(host, packed, options = {}) {
   const clock = options.clock || createClock({duration: options.duration || 4}), text = options.text || (english => english);
   const canvas = element("canvas", {class: "dw-canvas", tabindex: 0, role: "img"});
-  const legend = element("div", {class: "dw-legend"}), top = element("div", {class: "dw-top"}), bar = element("div", {class: "dw-bar"});
+  const legend = element("div", {class: "dw-legend", role: "group"}), top = element("div", {class: "dw-top"}), bar = element("div", {class: "dw-bar"});
   const stage = element("div", {class: "dw-stage", "data-testid": "player"}, canvas, top);
   const view = createView(), switches = {ghosts: false, traces: true, hidden: new Set(), lit: new Set(), scale: 1};
   const state = {scene: null, painter: null, observer: null, reference: null, fitted: true, pending: 0, visible: true, controls: {}};
@@ -33,7 +33,7 @@ export function createPlayer(host, packed, options = {}) {
 
   const surface = fitCanvas(canvas, () => {
     Object.assign(view, {width: surface.width, height: surface.height, ratio: surface.ratio});
-    if (state.fitted) fit(); else draw();
+    if (state.fitted && !options.held?.()) fit(); else draw();
   });
   const theme = watchTheme(host, () => redraw());
   const unwatch = watchVisible(canvas, visible => { state.visible = visible; clock.see(player, visible); redraw(); });
@@ -127,12 +127,14 @@ export function createPlayer(host, packed, options = {}) {
     const scrub = scrubber(clock, cycle, text), speed = speedBox(clock, text), exaggeration = exaggerator(most, text, setExaggeration);
     const frames = segments(text(TEXT.frame), observers.map(o => [o.name, text(o.label)]), setFrame), chips = names();
     const value = element("span", {class: "dw-value", title: text(cycle.label)}), phase = element("span", {class: "dw-phase"}), rate = element("span", {class: "dw-rate"});
-    canvas.setAttribute("aria-label", text(TEXT.canvas));
+    canvas.setAttribute("aria-label", text(TEXT.canvas)); legend.setAttribute("aria-label", text(TEXT.shown));
     press(ghosts, switches.ghosts); press(traces, switches.traces);
     legend.replaceChildren(...chips.values());
     top.replaceChildren(legend, ...(observers.length > 1 ? [frames.node] : []));
+    const focused = bar.contains(document.activeElement) ? document.activeElement : null;
     bar.replaceChildren(play, scrub.node, element("div", {class: "dw-readout"}, value, phase), element("div", {class: "dw-pace"}, speed.node, rate),
       ...(most ? [exaggeration.node] : []), ghosts, ...(paths.length ? [traces] : []), button(text(TEXT.fit), fit, "fit"), ...(options.tools?.() || []));
+    if (focused?.isConnected) focused.focus();
     return {play, ghosts, traces, scrub, speed, exaggeration, frames, chips, value, phase, rate};
   }
 

@@ -16,7 +16,7 @@ const structure = packed => JSON.stringify([!packed.plots, grouped(packed).map((
   [panel.title, !panel.axis, panel.series.map(({label, unit, role}) => [label, unit, role])])])]);
 
 /**
- * Plots inside `host` that follow `options.clock`; `extra(state, plot)` gives what stands beside the title of each panel.
+ * Plots inside `host` that follow `options.clock`; `extra(state, panel)` gives what stands beside the title of each panel.
  * Returns {update(packed), compare(other), destroy()}: the next values of the same plots or others; what is drawn behind those of the same
  * name: the plots of another design, null, or runs [{name, colour, dash, packed}].
  */
@@ -30,7 +30,7 @@ export function createPlots(host, packed, {clock, extra}) {
     panels.forEach(panel => panel.stop());
     panels = []; names = [];
     const boxes = grouped(next).map(plot => {
-      const {name, title, panels: own} = plot, made = own.map(panel => createPanel(panel, next.cycle, shared, extra && (state => extra(state, plot))));
+      const {name, title, panels: own} = plot, made = own.map(panel => createPanel(panel, next.cycle, shared, extra && (state => extra(state, panel))));
       panels.push(...made); names.push(...made.map(() => name));
       return next.plots ? element("section", {class: "dw-group", "data-testid": `plot-${name}`, "aria-label": title, style: `--count: ${own.length}`},
         ...made.map(panel => panel.node)) : made[0].node;

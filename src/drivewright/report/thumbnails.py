@@ -33,7 +33,6 @@ if TYPE_CHECKING:
 SIZE = (480, 300)
 SECONDS = 2.4  # a round of the moving picture
 IMAGES = 24  # of a round
-FILMS = ("linkage",)  # kinds whose presets have moving pictures
 STILL_BUDGET, MOVING_BUDGET = 40_000, 150_000  # bytes
 QUALITY, MOVING_QUALITY = 75, 62
 
@@ -99,7 +98,7 @@ def remake(names: Sequence[str] | None = None, progress: Callable[[str], None] =
 
 
 def remake_presets(kind: str, progress: Callable[[str], None] = print) -> list[str]:
-    """Make the pictures of the presets of a kind that are outdated, and their moving ones in FILMS; names of what was made."""
+    """Make the pictures of the presets of a kind that are outdated, moving ones where the kind says so; names of what was made."""
     mechanism, chosen = registry.mechanism(kind), outdated_presets(kind)
     place = mechanism.folder / "presets" / PICTURES
     place.mkdir(exist_ok=True)
@@ -108,7 +107,7 @@ def remake_presets(kind: str, progress: Callable[[str], None] = print) -> list[s
         spec = load(mechanism.presets()[name])
         assert mechanism.scene is not None
         scene = mechanism.scene(mechanism.build(spec))
-        if kind in FILMS:
+        if mechanism.moving_presets:
             still, moving = thumbnail_of(scene)
             (place / f"{name}.moving.webp").write_bytes(moving)
         else:

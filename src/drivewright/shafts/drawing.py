@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.scene import Drawing, Outline, Part, Point, Shape, Turned, polygon, rectangle
+from drivewright.scene import Drawing, Outline, Part, Point, Shape, Turned, Turning, polygon, rectangle
 from drivewright.shafts.model import Shaft
 
 ARROW = 0.09  # length of an arrow over the shaft's
@@ -112,7 +112,8 @@ def _bores(shaft: Shaft) -> list[tuple[float, float, float]]:
     return bores
 
 
-def turned_part(shaft: Shaft) -> Part:
-    """The shaft as a solid of revolution about x."""
+def turned_part(shaft: Shaft, angles: Floats | None = None) -> Part:
+    """The shaft as a solid of revolution about x; it turns by `angles` (frames,) [rad]."""
     rings = tuple((float(s.length), float(s.start), float(s.end), float(s.bore)) for s in shaft.sections)
-    return Part("shaft", (Turned((0.0, 0.0), 0.0, rings),))
+    turning = None if angles is None else Turning((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), angles)
+    return Part("shaft", (Turned((0.0, 0.0), 0.0, rings),), turning=turning)

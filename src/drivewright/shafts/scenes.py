@@ -48,6 +48,11 @@ class DrawnGear(NamedTuple):
     width: float | None = None
 
 
+def load_phases() -> Floats:
+    """Phases (frames,) [rad] of the load that grows and fades."""
+    return np.linspace(0.0, 2 * np.pi, FRAMES)
+
+
 def shaft_scene(
     shaft: Shaft,
     shape: BentShape | None,
@@ -61,7 +66,7 @@ def shaft_scene(
 
     rolling: the rolling bearings among its supports, by name; stations: places [m] on it, by name.
     """
-    phase = np.linspace(0.0, 2 * np.pi, FRAMES)
+    phase = load_phases()
     part, still = 0.5 * (1 - np.cos(phase)), np.zeros((FRAMES, 3))
     z = drawing.slice_places(shaft, SLICES)
     middles = 0.5 * (z[1:] + z[:-1])

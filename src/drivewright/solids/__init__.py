@@ -28,7 +28,7 @@ _WHERE = {
     "coupling": ("CoupledSolution", "InterfaceSpring", "solve_coupled"),
     "deformation": ("DisplacedSurface", "displaced_table"),
     "elastic": ("FreeBody", "Plane", "Response", "SpringSupported", "spring_supported", "superposed_field"),
-    "facets": ("surface_triangles",),
+    "facets": ("surface_triangles", "viewed_triangles"),
     "meshing": ("boundary_measure", "check_boundary_measures", "solid_mesh"),
     "nonlinear_coupling": ("NonlinearSolution", "NonlinearSpring", "solve_nonlinear"),
     "plane": ("PlaneBody", "Rim", "StressSurface", "field_table", "order_error", "plane_von_mises"),

@@ -7,6 +7,7 @@ import numpy as np
 from drivewright._typing import Floats, Ints
 from drivewright.scene import Bar, Part, Prism, Turned, circle, place
 from drivewright.solids import cad, outlines, turning
+from drivewright.solids.stacked import stacked_triangles
 
 if TYPE_CHECKING:
     import shapely
@@ -18,6 +19,24 @@ def surface_triangles(part: Part, tolerance: float = 1e-5) -> tuple[Floats, Ints
         return cad.cad_triangles(part, tolerance)
     (solid,) = part.solids
     points, corners = MAKERS[type(solid)](solid, f"part {part.name!r}", tolerance)
+    return np.column_stack([place(points[:, :2], part.pose), points[:, 2]]), corners
+
+
+def viewed_triangles(part: Part, tolerance: float) -> tuple[Floats, Ints]:
+    """The same for a picture: prisms are fused without the CAD kernel, with no more points than `tolerance` [m] needs.
+
+    Bars and turned bodies stay closed surfaces of their own, which may end inside of others: nobody sees it, also in a section.
+    """
+    prisms = [solid for solid in part.solids if isinstance(solid, Prism)]
+    others = [solid for solid in part.solids if not isinstance(solid, Prism)]
+    if not part.solids or any(type(solid) not in MAKERS for solid in others):
+        return surface_triangles(part, tolerance)
+    name = f"part {part.name!r}"
+    made = [stacked_triangles(prisms, name, tolerance)] if prisms else []
+    made += [MAKERS[type(solid)](solid, name, tolerance) for solid in others]
+    starts = np.cumsum([0, *(len(points) for points, _ in made[:-1])])
+    points = np.concatenate([points for points, _ in made])
+    corners = np.concatenate([corners + start for (_, corners), start in zip(made, starts, strict=True)])
     return np.column_stack([place(points[:, :2], part.pose), points[:, 2]]), corners
 
 

@@ -90,7 +90,7 @@ class _Designs:
         self.keys = tuple(each.key for each in self.dimensions)
         self.nominal = np.array([each.value for each in self.dimensions])
         self.analyses = tuple(result.provenance["analyses"])
-        self._owner, self._seconds = result.check_analyses, result.timings
+        self._owner, self._seconds = result.check_sources, result.timings
         self._evaluations: dict[tuple[str, ...], Callable[[Floats], Mapping[str, float]]] = {}
         self._run_all = self._by_runs(self.analyses)
 

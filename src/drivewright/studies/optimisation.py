@@ -256,6 +256,7 @@ def _nothing(problem, table, x):
     reason = incomplete_reasons.most_common(1)[0][0]
     if reason == SILENT:
         reason = next(iter(_why_silent(problem.design(x))), reason)
+    reason = reason.rstrip(".")
     return (
         f"no feasible design after {table.num_rows} evaluations: none of them could be computed; the commonest reason: {reason}. Move "
         "the bounds of the unknowns to where the drive works"

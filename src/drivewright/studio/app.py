@@ -18,14 +18,15 @@ from urllib.parse import quote
 from drivewright import registry
 from drivewright.errors import InputError, MissingExtra
 from drivewright.report.dimension_drawings import drawing_files
-from drivewright.report.html import MODULES
+from drivewright.report.html import MODULES, SOLID_MODULES
 from drivewright.report.worked_examples import cards, preset_films, preset_pictures
 from drivewright.studio import preview, translations
 from drivewright.studio.access import LEAST_TOKEN, LOOPBACK, AccessControl
 from drivewright.studio.design import Design
+from drivewright.studio.offers import offered
 from drivewright.studio.page_policy import PagePolicy
 from drivewright.studio.resources import ServerResources
-from drivewright.studio.session import Session, offered
+from drivewright.studio.session import Session
 from drivewright.studio.tabs import Tabs
 from drivewright.view.palette import style_sheet
 
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).parent
 PLAYER = HERE.parent / "report"
-SHARED = (*MODULES, "player.css")  # with the report
+SHARED = (*MODULES, *SOLID_MODULES, "player.css", "solid.css")  # with the report
 TYPES = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".webp": "image/webp"}
 SAFE = {"X-Content-Type-Options": "nosniff", "Cache-Control": "no-cache"}
 PORT = 8123

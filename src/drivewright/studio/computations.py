@@ -207,8 +207,8 @@ class TabComputations:
             if gen == self._moving and registry.mechanism(design.kind).quick_scene:
                 self._moving = -1
                 await self._drawn(gen, design)
-            result, seconds = await self._analysed(design, begun)
-            self._seconds = seconds if gen >= self._since else {}
+            result = await self._analysed(design, begun)
+            self._seconds = result["timings"] if gen >= self._since else {}
             self._show(gen, result)
             self.send({"what": "work", "state": "idle", "text": ""})
         except asyncio.CancelledError as cancelled:
@@ -228,8 +228,7 @@ class TabComputations:
         over = {"what": "work", "state": "over", "text": begun[-1] if begun else "", "seconds": self._limit}
         if len(begun) > 1:
             with suppress(CallTimedOut, WorkerDied, WorkerFault, DrivewrightError):
-                result, _ = await self._analysed(design, [], begun[:-1])
-                self._show(gen, result, full=False)
+                self._show(gen, await self._analysed(design, [], begun[:-1]), full=False)
         self.send(over)
 
     async def _analysed(self, design, begun, only=()):
@@ -247,7 +246,7 @@ class TabComputations:
         try:
             async with self.resources.heavy.worker(self) as worker:
                 await worker.call(preview.draw, design, (), on_message=scenes.append, limit=ANALYSIS)
-                result, _ = await worker.call(preview.analyse, design, limit=ANALYSIS)
+                result = await worker.call(preview.analyse, design, limit=ANALYSIS)
             self._pinned = result
             self.send({"what": "reference", "title": title, "json": scenes[-1], "result": result})
             if self._shown:

@@ -1,13 +1,11 @@
-"""The design of one browser tab with its past and future, its locks, and every way to change it.
+"""The design of one browser tab with its locks, and every way to change it.
 
 A change that is refused raises SpecError in the words of the command line and leaves everything as it was.
 """
 
-import re
 from collections.abc import Mapping, Sequence
-from copy import copy, deepcopy
-from pathlib import Path
-from typing import Any
+from copy import deepcopy
+from typing import Any, Self
 
 from drivewright import registry
 from drivewright.errors import InputError, SpecError, brief
@@ -29,112 +27,37 @@ from drivewright.studio.input_parsing import (
     value_in,
 )
 from drivewright.studio.opening import LARGEST
-from drivewright.studio.proposals import search_table
+from drivewright.studio.proposals import search_table, varied_keys
 from drivewright.studio.sample_values import first_valid_design, sample_values_for, unused_name, with_unused_name
 from drivewright.studio.sliders import tidied
+from drivewright.studio.undo_history import UndoHistory
 
 FARTHEST = 1e6  # m: what is clicked lies nearer
-STEPS = 200  # that can be undone
-HISTORY = 4_000_000  # characters of all designs that can be gone back to
-# Absolute paths in a message, but neither units (N m/rad, 1/mm) nor addresses (https://...).
-FOLDERS = re.compile(r"""(?<![\w.)\]/])(?:[A-Za-z]:[\\/]+|\\\\|/)(?:[^\s/\\'":,;<>|]+[/\\]+)+(?=[^\s/\\])""")
-QUOTED = re.compile(r"""(['"])(?:[A-Za-z]:[\\/]|\\\\|/)[^'"\n]*[\\/]([^'"\\/\n]+)\1""")
 
 
-class Document:
-    """A design that changes step by step.  `design` is the present one; it is always valid, and never changed in place."""
+class Document(UndoHistory):
+    """The design of a tab, which is always valid, with the keys that are locked."""
 
     def __init__(self, design: Design, name: str = "") -> None:
-        self.design, self.name = normalised(design), name
+        super().__init__(normalised(design))
+        self.name = name
         self.locks: frozenset[str] = frozenset()
-        self._past: list[Design] = []
-        self._future: list[Design] = []
-        self._gesture: tuple[str, str] | None = None
-        self._saved = self.design
-
-    # -- past and future -------------------------------------------------------------------------------------------------------
-
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is a step back."""
-        return bool(self._past)
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether there is a step forward."""
-        return bool(self._future)
-
-    @property
-    def changed(self) -> bool:
-        """Whether the design is another one than the file has."""
-        return not self.design.same_as(self._saved)
-
-    def saved(self) -> None:
-        """The present design is in a file now."""
-        self._saved = self.design
-
-    def undo(self) -> None:
-        """One step back, where there is one."""
-        self._step(self._past, self._future)
-
-    def redo(self) -> None:
-        """One step forward, where there is one."""
-        self._step(self._future, self._past)
 
     def _step(self, source: list[Design], target: list[Design]) -> None:
-        if source:
-            target.append(self.design)
-            self.design, self._gesture = source.pop(), None
-            self.locks &= values(form(self.design)).keys()  # of what is no longer there
+        super()._step(source, target)
+        self.locks &= values(form(self.design)).keys()  # of what is no longer there
+
+    def follow(self, change: str, after: Self) -> None:
+        """Take over what a change has made of `present()` in another process; `change` is the name of the method."""
+        super().follow(change, after)
+        self.locks = after.locks
 
     def _accept(self, design: Design, gesture: tuple[str, str] | None = None) -> None:
         """The next design, unless it is refused; a step of the same gesture as the one before goes into the same undo step."""
         if self.locks and design.kind == self.design.kind:
             self._refuse_locked(design)
         validated_spec(design)
-        if design.same_as(self.design) and design.folder == self.design.folder:
-            return
-        if gesture is None or gesture != self._gesture:
-            self._remember()
-        self._future.clear()
-        self.design, self._gesture = design, gesture
-
-    def _remember(self) -> None:
-        """The design as it is becomes a step to go back to; the oldest ones go where there are too many, or too large ones."""
-        self._past = [*self._past[1 - STEPS :], self.design]
-        while len(self._past) > 1 and sum(len(design.toml()) + len(design.source) for design in self._past) > HISTORY:
-            del self._past[0]
-
-    def continue_from(self, before: "Document") -> None:
-        """The design that was open until now is a step to go back to: opening another one loses nothing."""
-        self._past = [*before._past, *self._past]
-        opened, self.design = self.design, before.design
-        self._remember()
-        self.design = opened
-
-    # -- in two processes ------------------------------------------------------------------------------------------------------
-
-    def present(self) -> "Document":
-        """The document with one step of its past and its future: enough for a change that another process makes of it."""
-        document = copy(self)
-        document._past, document._future = self._past[-1:], self._future[-1:]
-        return document
-
-    def follow(self, change: str, after: "Document") -> None:
-        """Take over what a change has made of `present()` in another process; `change` is the name of the method."""
-        if change == "undo" and self._past:
-            self._future.append(self.design)
-            self._past.pop()
-        elif self._past and not after._past:  # a drag was taken back
-            self._past.pop()
-        elif change == "redo" and self._future:
-            self._past.append(self.design)
-            self._future.pop()
-        elif len(after._past) > min(len(self._past), 1):
-            self._remember()
-        if self._future and not after._future and change not in ("undo", "redo"):
-            self._future.clear()
-        self.design, self.locks, self._gesture = after.design, after.locks, after._gesture
+        self._take(design, gesture)
 
     # -- locks -----------------------------------------------------------------------------------------------------------------
 
@@ -196,11 +119,6 @@ class Document:
             enter_text(tables, model, key, tidied(text))
         self._accept(self.design.with_tables(tables), (" ".join(keys), gesture))
 
-    def revert(self, gesture: str) -> None:
-        """Take back all steps of the drag that is under way, as if it had not begun."""
-        if self._past and self._gesture is not None and self._gesture[1] == gesture:
-            self.design, self._gesture = self._past.pop(), None
-
     def load(self, changes: Mapping[str, str]) -> None:
         """Several keys, {key: typed text}, as one step; locked ones stay."""
         tables, model = deepcopy(self.design.tables), spec_class(self.design)
@@ -251,6 +169,8 @@ class Document:
         """The table "optimise" or "study" as its form has it; what the form does not show stays."""
         tables = deepcopy(self.design.tables)
         tables[name] = search_table(self.design, name, content)
+        if prepare := registry.mechanism(self.design.kind).before_varying:
+            tables = prepare(tables, varied_keys(tables, name))
         self._accept(self.design.with_tables(tables))
 
     def construct(self, tool: str, places: Sequence[tuple[float, float]], near: float) -> None:
@@ -349,10 +269,3 @@ def _arranged(model, given, key, of, changes):
         elif value_in(table, name) is not ABSENT:
             remove_key(table, name)
     return table
-
-
-def without_folder(message: str, *folders: Path) -> str:
-    """A message without the folders of this machine: "/home/x/y/lift.csv" -> "lift.csv"."""
-    for folder in sorted({text for each in folders for text in (str(each), str(each.resolve()))}, key=len, reverse=True):
-        message = re.sub(re.escape(folder.rstrip("/\\")) + r"[/\\]+", "", message) if len(folder) > 1 else message
-    return FOLDERS.sub("", QUOTED.sub(r"\1\2\1", message))

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from copy import deepcopy
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path, PureWindowsPath
 from typing import Any, TypeAlias, get_args, get_origin
 
@@ -154,7 +154,7 @@ def _suggestions(field: PydanticField | None) -> tuple[str, ...]:
 
 
 def _of_a_part(field: PydanticField | None) -> tuple[str, tuple[str, ...]]:
-    """(name of the list that a bought part is chosen from, keys that override it): `json_schema_extra={"x-list": ..., "x-overrides": [...]}`."""
+    """(name of the list that a bought part comes from, keys that override it): `json_schema_extra={"x-list": ..., "x-overrides": [...]}`."""
     extra = field.json_schema_extra if field is not None else None
     if not isinstance(extra, dict):
         return "", ()
@@ -263,12 +263,21 @@ def display_text(info: FieldInfo, value: Any, shown: str = "") -> str:
     if info.kind == "file":  # a folder of the user's disk is nothing for the page
         return PureWindowsPath(value).name if Path(value).is_absolute() or PureWindowsPath(value).is_absolute() else value
     if info.kind == "list" and isinstance(value, list) and all(not isinstance(entry, (list, dict)) for entry in value):
-        text = (
-            ", ".join(display_text(info.items[min(n, len(info.items) - 1)], entry) for n, entry in enumerate(value)) if info.items else ""
-        )
-    else:
-        text = plain_text(value)
-    return text if _same(parse_text(info, text, shown or text), value) and text else toml_value(value)
+        return _list_text(info, tuple((type(entry), entry) for entry in value), shown)
+    return _read_back(info, plain_text(value), value, shown)
+
+
+# Most lists of a form are those of the form before.  The types tell 1, 1.0 and true apart.
+@lru_cache(maxsize=4096)
+def _list_text(info, entries, shown):
+    value = [entry for _, entry in entries]
+    texts = (display_text(info.items[min(n, len(info.items) - 1)], entry) for n, entry in enumerate(value)) if info.items else ()
+    return _read_back(info, ", ".join(texts), value, shown)
+
+
+def _read_back(info, text, value, shown):
+    """The text where it gives the value back, else the value as TOML."""
+    return text if text and _same(parse_text(info, text, shown or text), value) else toml_value(value)
 
 
 def plain_text(value: Any) -> str:

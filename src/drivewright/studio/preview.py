@@ -2,7 +2,6 @@
 
 import json
 import math
-import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeAlias
 
@@ -40,7 +39,8 @@ def draw(
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
     building: the mechanism stands still at its start, assembled or not, where its kind has tools to build it.
-    moving: while a hand moves the design, its quick scene is enough where its kind has one; no analysis goes with that.
+    moving: while a hand moves the design, its quick scene is enough where its kind has one; no analysis goes with that, and nothing of
+    what is missing.
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
@@ -54,10 +54,12 @@ def draw(
         if construction:  # what is not assembled is drawn as the spec states it; the error says the rest
             _send_scene(send, design, spec, construction.sketch(spec), [], construction.unfinished(spec))
         raise
-    connected = not construction or construction.connected(spec)
-    quick = _quick_scene(spec, model) if moving and connected else None
-    scene, remarks = (quick, []) if quick else _scene(spec, model) if connected else (construction.sketch(spec), [])
-    missing = construction.unfinished(spec) if construction else None
+    quick = _quick_scene(spec, model) if moving else None
+    if construction and not construction.connected(spec):
+        scene, remarks = construction.sketch(spec), []
+    else:
+        scene, remarks = (quick, []) if quick else _scene(spec, model)
+    missing = construction.unfinished(spec) if construction and not moving else None
     _send_scene(send, design, spec, scene, remarks, missing, _programme(spec, model))
     if quick or not affordable:
         return None
@@ -90,31 +92,22 @@ def _number(spec: MechanismSpec, key: str) -> float:
     return float(value)
 
 
-def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> tuple[dict[str, Any], dict[str, float]]:
-    """Send (done, total, analysis, what is compiled for it) on the way; answer (the page's result of all default analyses, or of those
-    named; seconds of each)."""
-    began, seconds, place = [], {}, [(0, 0, "")]
+def analyse(send: Callable[[Any], object], design: Design, only: Sequence[str] = ()) -> dict[str, Any]:
+    """Send (done, total, analysis, what is compiled for it) on the way; answer the page's result of all default analyses, or of those
+    named."""
+    place = [(0, 0, "")]
 
     def step(done, total, name):
-        _end_of(began, seconds)
         place[0] = done, total, name
         send((*place[0], ""))
-        began.append((name, time.perf_counter()))
 
     spec = design.spec_on_screen()
     compilation = Compilation(spec.mechanism, lambda: send((*place[0], compilation.words)))
     with watched_by(compilation):
         model = runner.build(spec)
         result = runner.run(spec, only=tuple(only), progress=step, model=model)
-    _end_of(began, seconds)
     scene, _ = _scene(spec, model)
-    return page_result(result, scene, list(seconds)), seconds
-
-
-def _end_of(began, seconds):
-    if began:
-        name, since = began.pop()
-        seconds[name] = time.perf_counter() - since
+    return page_result(result, scene, list(result.timings))
 
 
 def _quick_scene(spec, model):
@@ -163,7 +156,7 @@ def page_result(result: Result[Any], scene: Scene | None, analyses: Sequence[str
         "analyses": analyses,
         "timings": dict(result.timings),
         "needs": _needs(result),
-        "sources": {**result.value_sources, **{f"{CHECK}{name}": analysis for name, analysis in result.check_analyses.items()}},
+        "sources": {**result.value_sources, **{f"{CHECK}{name}": analysis for name, analysis in result.check_sources.items()}},
         "fractions": {check.name: _fraction(check) for check in result.checks},
         "numbers": _numbers(result, [item["name"] for item in told.get("headline", ())]),
     }

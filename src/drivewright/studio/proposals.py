@@ -119,6 +119,12 @@ def search_table(design: Design, name: str, content: Mapping[str, Any]) -> Table
     return {part: value for part, value in table.items() if value not in (None, [], "")}
 
 
+def varied_keys(tables: Tables, name: str) -> list[str]:
+    """The keys, lists by number, that the table "optimise" or "study" of raw tables varies."""
+    entries = tables[name].get({"optimise": "unknowns", "study": "vary"}[name], [])
+    return [form_key(tables, str(entry["key"])) for entry in entries if isinstance(entry, dict) and "key" in entry]
+
+
 def _part(design: Design, table: Tables, name: str, part: str, given: Any) -> Any:
     if part in WHOLE:
         return None if given is None else _whole(given, f"{name}.{part}")

@@ -6,64 +6,35 @@ after another, and whatever reads or changes a design does so in a worker proces
 
 import asyncio
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-from drivewright import registry
-from drivewright.errors import DrivewrightError, InputError, SpecError, brief
-from drivewright.execution.workers import WorkerDied, WorkerFault
-from drivewright.report.dimension_drawings import drawing_files, fitting_drawings
+from drivewright.errors import DrivewrightError, InputError, brief
+from drivewright.execution.workers import WorkerFault
 from drivewright.report.folder import file_name
-from drivewright.report.worked_examples import cards, preset_films, preset_pictures
 from drivewright.studio import editing, part_lists, proposals, translations
-from drivewright.studio.computations import REST, Message, TabComputations
+from drivewright.studio.computations import REST, Message
 from drivewright.studio.design import Design
-from drivewright.studio.document import Document, without_folder
+from drivewright.studio.edited_design import ALL, LONGEST_KEY, SHORT, EditedDesign
 from drivewright.studio.editing import Edited
 from drivewright.studio.inbox import Inbox
-from drivewright.studio.jobs import JOBS, OPTIONS
-from drivewright.studio.opening import LARGEST as LARGEST
-from drivewright.studio.opening import first_design as first_design
+from drivewright.studio.jobs import checked_options
+from drivewright.studio.offers import offered
 from drivewright.studio.opening import limited
-from drivewright.studio.opening import opened as opened
-from drivewright.studio.opening import packed as packed
-from drivewright.studio.opening import unpacked as unpacked
 from drivewright.studio.resources import ServerResources
 
 MOST_FILES = 20
 MOST_PLACES = 50  # of one use of a tool
-SHORT = 20_000  # characters of a message that the loop itself reads
-LONGEST_KEY = 500  # characters
 MOST_DRAGGED = 16  # keys that a handle moves
-PATIENCE = 60.0  # seconds that a change of a design may take, the start of its process included
-ALL = "*"  # every complaint is settled
 
 
-class Session:
-    """The design of one tab.  `start` is the design that the studio was opened with."""
+class Session(EditedDesign):
+    """What a page may ask of its design: each message is a method of its name."""
 
     def __init__(self, send: Callable[[Message], object], resources: ServerResources, start: Design, name: str = "") -> None:
-        self.send, self.resources, self.start, self.start_name = send, resources, start, name
-        self._document: Document | None = None
-        self.gen = 0
-        self._kept, self._kind = b"", ""
+        super().__init__(send, resources, start, name)
         self._waiting: asyncio.TimerHandle | None = None  # for the end of a drag, to show the text of the spec
         self._inbox = Inbox(self._act, self._refuse)
-        self.computations = TabComputations(send, self._describe, resources)
-
-    @property
-    def document(self) -> Document:
-        """The design with its past; there is one as soon as the page has said hello."""
-        assert self._document is not None
-        return self._document
-
-    @property
-    def files(self) -> str:
-        """Token of the folder that the page has sent the data files of the design into, "" where it has none."""
-        folder = self._document.design.folder if self._document else None
-        return folder.name if folder and self.resources.folder(folder.name) == folder else ""
 
     # -- messages --------------------------------------------------------------------------------------------------------------
 
@@ -106,16 +77,6 @@ class Session:
             return
         with editing.in_words():
             await action(self, **arguments)
-
-    def _refuse(self, error: Exception, key: str = "", text: str = "") -> None:
-        self.send({"what": "refused", "key": key[:LONGEST_KEY], "text": text[:SHORT], "message": self._describe(error, key)})
-
-    async def _call(self, function: Callable[..., Any], *arguments: Any) -> Any:
-        """What a worker process makes of it; another one where the first died, as one may for the memory that others take."""
-        async with self.resources.reading.worker(self) as worker:
-            with suppress(WorkerDied):
-                return await worker.call(function, *arguments, limit=PATIENCE)
-            return await worker.call(function, *arguments, limit=PATIENCE)
 
     def close(self) -> None:
         """The tab has gone."""
@@ -293,11 +254,7 @@ class Session:
 
     async def job(self, name: str, options: Mapping[str, Any] | None = None) -> None:
         """Begin a job of jobs.JOBS."""
-        if name not in JOBS:
-            raise InputError(f"there is no job {brief(name)}")
-        options = {str(option): value for option, value in dict(options or {}).items()}
-        if other := sorted(set(options) - set(OPTIONS.get(name, ()))):
-            raise InputError(f"{name} takes no {brief(other[0])}")
+        options = checked_options(name, options)
         locks = {"locks": sorted(self.document.locks)} if name in TAKE_LOCKS else {}
         kept = {"kept": str(self.resources.results_folder())} if name in TAKE_RESULTS else {}
         self.computations.job(name, self.gen, self.document.design, {**options, **locks, **kept})
@@ -313,6 +270,7 @@ class Session:
             raise InputError(f"{brief(name)} has no table that a form could write")
         if not isinstance(table, Mapping):
             raise InputError("the page sent an unexpected request: a table of a search is missing")
+        checked_options(name, options)
         await self._edit("write", ALL, name=name, content=dict(table))
         await self.job(name, options)
 
@@ -332,13 +290,6 @@ class Session:
 
     # -- telling ---------------------------------------------------------------------------------------------------------------
 
-    async def _edited(self, change: str, **arguments: Any) -> Edited:
-        """A change of the document in a worker process, taken over."""
-        edited = await self._call(editing.edit, self.document.present(), self._kept, change, arguments)
-        self.document.follow(change, edited.document)
-        self._kept = edited.kept
-        return edited
-
     async def _edit(self, change: str, *settled: str, **arguments: Any) -> None:
         edited = await self._edited(change, **arguments)
         self._stop_waiting()
@@ -350,60 +301,6 @@ class Session:
         if self._waiting:
             self._waiting.cancel()
             self._waiting = None
-
-    def _open(self, edited: Edited) -> None:
-        """A design that has nothing to do with the one before, which a step back brings again."""
-        if self._document is not None:
-            edited.document.continue_from(self._document)
-        self._document, self._kept = edited.document, edited.kept
-        self._changed(edited, ALL, opened=True)
-
-    def _changed(self, edited: Edited, *settled: str, opened: bool = False, moving: bool = False) -> None:
-        """Draw it, and show its form; `moving`: a hand moves it, and the next change follows."""
-        self.gen += 1
-        opened = opened or self.document.design.kind != self._kind
-        if opened:
-            self._kind = self.document.design.kind
-            self.computations.reset(self.gen)
-        self.computations.update(self.gen, self.document.design, moving)
-        self._show(edited, settled, opened, moving)
-
-    def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False, moving: bool = False) -> None:
-        """The form; only the fields that differ, where nothing else does; with the text of the spec unless a hand moves it."""
-        document, design = self.document, self.document.design
-        common = {
-            "gen": self.gen,
-            "undo": document.can_undo,
-            "redo": document.can_redo,
-            "locks": sorted(document.locks),
-            "changed": document.changed,
-            **({} if moving else {"toml": design.text()}),
-            "files": self.files,
-            "settled": list(settled),
-            "drawings": fitting_drawings(design.kind, design.tables),
-        }
-        if edited.fields is not None:
-            self.send({"what": "values", "fields": edited.fields, **common})
-            return
-        self.send(
-            {
-                "what": "design",
-                "kind": design.kind,
-                "title": str(design.tables.get("title", "")),
-                "name": document.name,
-                "presets": _presets(design.kind),
-                "form": edited.form,
-                "words": translations.texts(design.kind),
-                "opened": opened,
-                **common,
-            }
-        )
-
-    def _describe(self, error: Exception, key: str | None = None) -> str:
-        """An error in words, without folders of this machine, and without the key where it stands beside its field."""
-        beside = key and getattr(error, "key", None) == key
-        folder = (self._document.design if self._document else self.start).folder
-        return without_folder(error.message if isinstance(error, SpecError) and beside else str(error), folder)
 
 
 TAKE_LOCKS = ("sensitivity", "optimise", "fix")
@@ -420,41 +317,3 @@ def _key(key):
     if len(str(key)) > LONGEST_KEY:
         raise InputError(f"a key has at most {LONGEST_KEY} characters")
     return str(key)
-
-
-def _presets(kind):
-    """Names of the presets, the one to start with first."""
-    return sorted(registry.mechanism(kind).presets(), key=lambda name: (name != "default", name))
-
-
-def offered() -> list[dict[str, Any]]:
-    """What the page offers to start with: kinds with their presets and worked examples, and which of these have pictures."""
-    return _offered(tuple(registry.kinds()))
-
-
-@cache
-def _offered(kinds):
-    return [
-        {
-            "kind": kind,
-            "summary": registry.mechanism(kind).summary,
-            "presets": _presets(kind),
-            "titles": translations.preset_titles(kind),
-            "programme": registry.mechanism(kind).programme is not None,
-            "pictures": sorted(preset_pictures(kind)),
-            "tools": [tool._asdict() for tool in _tools(kind)],
-            "films": sorted(preset_films(kind)),
-            "drawings": [{"name": sheet.name, "title": sheet.title} for sheet in _drawn_sheets(kind)],
-            "examples": [{"name": c.name, "title": c.title, "moving": c.moving is not None} for c in cards() if c.kind == kind],
-        }
-        for kind in kinds
-    ]
-
-
-def _tools(kind):
-    construction = registry.mechanism(kind).construction
-    return construction.tools if construction else ()
-
-
-def _drawn_sheets(kind):
-    return [sheet for sheet in registry.mechanism(kind).dimensions if sheet.name in drawing_files(kind)]

@@ -4,6 +4,7 @@ They stand in `zh.toml`, here for what all kinds share and in the folder of each
 `fields` and `tables` (dotted key, * for a name or a number -> label), `texts` (English, * for a part that varies -> text), `presets`.
 """
 
+import re
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -38,7 +39,24 @@ def _introduction(kind):
     known = registry.mechanism(kind)
     texts = _brought(kind).get("texts", {})
     titles = (*preset_titles(kind).values(), *(card.title for card in cards() if card.kind == kind))
-    return _presets(kind) | {english: texts[english] for english in (_words_of_name(kind), known.summary, *titles) if english in texts}
+    told = {english: _translated(english, texts) for english in (_words_of_name(kind), known.summary, *titles)}
+    return _presets(kind) | {english: text for english, text in told.items() if text}
+
+
+def _translated(english, texts):
+    """The translation of a text, itself or by the longest entry with * that it fits; None where there is none."""
+    if english in texts:
+        return texts[english]
+    for pattern in sorted((each for each in texts if "*" in each and each.strip("* ")), key=len, reverse=True):
+        if parts := re.fullmatch("(.+?)".join(map(re.escape, pattern.split("*"))), english):
+            return _filled(texts[pattern], parts.groups())
+    return None
+
+
+def _filled(text, parts):
+    """Each * of a text replaced by the next of the parts."""
+    given = iter(parts)
+    return re.sub(r"\*", lambda star: next(given, star[0]), text)
 
 
 @cache

@@ -6,6 +6,7 @@ clearance_joints    joints with play against other computations
 elliptic_gears      elliptic gears pivoted at a focus, and the planetary train made of them
 folding_contact     impact loads of the knife-folding four-bar with dry or lubricated contact in its pins
 folding_linkage     the knife-folding four-bar with play of Yuan, Liu and Wang 2011
+geneva_tables       peaks of external Geneva drives as handbooks tabulate them, and in closed form
 hyvo_model          the Hy-Vo chain as printed: data, Table 2, and its drives at rest, rigid and elastic
 hyvo_paper          the Hy-Vo chain with a small rolling radius of An, Cheng, Li and Xu
 hyvo_running        the Hy-Vo paper's running chains, stress and life of their plates, computed in studies
@@ -32,6 +33,7 @@ from drivewright.validation import (
     clearance_joints,
     elliptic_gears,
     folding_linkage,
+    geneva_tables,
     hyvo_paper,
     indexer_paper,
     modified_sine_help,
@@ -67,6 +69,7 @@ from drivewright.validation.source import (
 OURS = (
     pusher_paper.source,
     motion_factors.source,
+    geneva_tables.source,
     modified_sine_help.source,
     elliptic_gears.source,
     folding_linkage.source,

@@ -19,6 +19,7 @@ panels         a plot as plain data: which columns share a panel, in which unit,
 powers         powers of ten along a logarithmic axis
 ranked         what matters most: lying bars, the longest on top
 rounds         a quantity round a circle: what each place around a bearing carries
+solid_picture  solids in an oblique view, hidden surfaces removed
 sketches       scenes and drawings as figures, to scale
 style          the look of every figure: fonts, lines, spacing
 text           numbers and units as people read them: '48.183°', '26.469 mm', '2.4670×10⁻⁶ m'
@@ -26,6 +27,7 @@ text           numbers and units as people read them: '48.183°', '26.469 mm', '
 
 from drivewright.view.figures import draw_panels, plot_table
 from drivewright.view.sketches import draw_drawing, draw_overlaid, draw_scene, draw_thumbnail
+from drivewright.view.solid_picture import draw_solids
 from drivewright.view.style import svg
 
-__all__ = ["draw_drawing", "draw_overlaid", "draw_panels", "draw_scene", "draw_thumbnail", "plot_table", "svg"]
+__all__ = ["draw_drawing", "draw_overlaid", "draw_panels", "draw_scene", "draw_solids", "draw_thumbnail", "plot_table", "svg"]

@@ -13,7 +13,7 @@ from drivewright.spec import from_document, load, read_document
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document
 
-KINDS_WITHOUT = ("indexer", "linkage", "shaft", "silent-chain")
+KINDS_WITHOUT = ("geneva", "indexer", "linkage", "shaft", "silent-chain")
 
 
 def model_of(name):

@@ -1,8 +1,11 @@
 """What a cam spec may not say, and what the message tells."""
 
+import math
+
 import pytest
 
 import drivewright as dw
+from drivewright import runner
 from drivewright.errors import InputError
 from drivewright.mechanisms.cam.spec import CamSpec
 from drivewright.spec import from_document
@@ -166,3 +169,23 @@ def test_left_out_keys_and_analyses_are_findings():
         "no [vibration]",
     ):
         assert words in findings
+
+
+def open_segments(*angles):
+    """A programme whose segments have these angles; None for one that states none."""
+    return [
+        segment | {"angle": f"{angle} deg"} if angle else {k: v for k, v in segment.items() if k != "angle"}
+        for segment, angle in zip(segments(), angles, strict=True)
+    ]
+
+
+def test_one_segment_may_leave_its_angle_out():
+    data = {"mechanism": "cam", "follower": ROLLER, "programme": open_segments(100, 170, None)}
+    programme = runner.build(from_document(data, CamSpec)).programme
+    assert [round(math.degrees(segment.angle), 9) for segment in programme.segments] == [100, 170, 90]
+
+
+def test_what_leaves_nothing_of_the_turn_is_refused():
+    assert "one segment may leave its angle out" in message(programme=open_segments(100, None, None))
+    assert "leave nothing of the turn: they take 360°" in message(programme=open_segments(100, 260, None))
+    assert "sum to 350°, 10° less than the cycle" in message(programme=open_segments(100, 160, 90))

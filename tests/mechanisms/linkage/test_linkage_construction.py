@@ -2,11 +2,12 @@
 
 import pytest
 
+from drivewright import registry
 from drivewright.errors import DoesNotAssemble, InputError
 from drivewright.mechanisms.linkage.build import build
-from drivewright.mechanisms.linkage.construction import TOOLS
+from drivewright.mechanisms.linkage.construction import CONSTRUCTION, TOOLS
 from drivewright.mechanisms.linkage.sketch import connected, sketch, stated_poses, unfinished
-from drivewright.spec import from_document
+from drivewright.spec import from_document, read_document
 from drivewright.studio.document import Document
 from drivewright.studio.opening import preset
 
@@ -89,13 +90,33 @@ def test_the_drive_goes_with_its_pin_and_comes_back(hand):
 
 
 def test_loads_and_springs(hand):
-    hand.use("force", (40, 0))
+    hand.use("force", (40, 0))  # on the coupler, which lies upon the crank
     hand.use("load", (20, 0))
     hand.use("spring", (40, 0), (40, -50))
-    assert hand.tables["forces"][0]["point"] == "A" and hand.tables["torques"][0]["body"] == "crank"
+    assert hand.tables["forces"][0]["body"] == "coupler" and hand.tables["torques"][0]["body"] == "crank"
     assert hand.tables["springs"][0]["free_length"] == "50 mm" and hand.tables["springs"][0]["connects"][1].startswith("ground.")
     hand.use("delete", (20, 0))  # the bar of the crank
-    assert "crank" not in hand.tables["bodies"] and not {"forces", "torques", "springs"} & set(hand.tables)
+    assert "crank" not in hand.tables["bodies"] and not {"torques", "springs"} & set(hand.tables) and hand.tables["forces"]
+
+
+def test_an_output_belongs_to_the_uppermost_body_at_its_place(hand):
+    hand.use("body", (300, 0), (340, 60))
+    hand.use("body", (340, 60), (380, 0))
+    hand.use("output", (340, 60))
+    assert hand.tables["outputs"][-1] == {"name": "output_2", "body": "link_2", "point": "A"}
+
+
+def test_a_body_that_goes_takes_its_supports_along(hand):
+    hand.use("body", (300, 0), (340, 60), (380, 0))
+    hand.use("pin", (300, 0))
+    kept = set(hand.tables["ground"]["points"])
+    hand.use("delete", (340, 20))  # inside the plate, far from its sides
+    assert "link" not in hand.tables["bodies"] and set(hand.tables["ground"]["points"]) == kept - {"A"} == {"O2", "O4"}
+
+
+def test_a_preset_to_begin_with_moves_and_has_nothing_but_a_crank():
+    spec = from_document(read_document(registry.mechanism("linkage").presets()[CONSTRUCTION.start]))
+    assert list(spec.bodies) == ["crank"] and unfinished(spec) == () and build(spec).assembly.freedom == 0
 
 
 def test_what_does_not_close_is_drawn_as_it_is_stated(hand):
@@ -132,4 +153,4 @@ def test_places_that_do_not_suit_a_tool_change_nothing(hand, tool, places, words
 def test_other_kinds_have_no_tools():
     with pytest.raises(InputError, match="is not built with"):
         Document(preset("cam")).construct("pin", [(0.0, 0.0)], 0.001)
-    assert len({tool.name for tool in TOOLS}) == len(TOOLS) == 8
+    assert len({tool.name for tool in TOOLS}) == len(TOOLS) == 9

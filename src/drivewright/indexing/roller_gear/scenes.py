@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from drivewright._typing import Floats
 from drivewright.indexing.motion import TURN
 from drivewright.indexing.plate_views import FRAMES, motion_marks
 from drivewright.indexing.roller_gear.design import RollerGear
@@ -9,9 +10,14 @@ from drivewright.indexing.roller_gear.views import develop_surface, developed_ro
 from drivewright.scene import Body, Frame, Scene, Shape, circle, polygon
 
 
+def frame_angles() -> Floats:
+    """Angles (frames,) [rad] of the input that are drawn."""
+    return np.linspace(0, TURN, FRAMES)
+
+
 def roller_gear_scene(cam: RollerGear, period: float) -> Scene:
     """One turn of the input in `period` [s]: ribs pass the rollers as the cam turns; the rollers move along the wheel's circle."""
-    angle = np.linspace(0, TURN, FRAMES)
+    angle = frame_angles()
     unrolled = develop_surface(cam)
     moving = np.stack([-unrolled.pitch_radius * angle, 0 * angle, 0 * angle], axis=1)
     still = np.zeros((FRAMES, 3))

@@ -8,9 +8,10 @@ from drivewright.indexing.motion import TURN
 from drivewright.indexing.roller_gear.design import RollerGear
 from drivewright.indexing.roller_gear.envelope import flank_contact
 from drivewright.indexing.roller_gear.flanks import FLANKS, compute_flanks
+from drivewright.indexing.roller_gear.scenes import frame_angles
 from drivewright.indexing.roller_gear.trimming import FRONT
 from drivewright.indexing.roller_gear.views import groove_floor, groove_mouth, groove_travel_range
-from drivewright.scene import Arc, Bar, Grooved, Line, Outline, Part, Prism, circle, polygon
+from drivewright.scene import Arc, Bar, Grooved, Line, Outline, Part, Prism, Turning, circle, polygon
 
 STEP = np.radians(4.0)  # of the cam, between rows of points of a wall
 DEPTHS = 7
@@ -35,7 +36,17 @@ def cam_part(cam: RollerGear, bore: float = 0.0, name: str = "cam") -> Part:
     grooves = [groove_walls(cam, start) for start in range(cam.starts)]
     local = tuple(np.stack([walls[..., 1], -walls[..., 0], walls[..., 2]], axis=-1) for walls in grooves)  # a turned part's axis is along x
     body = Grooved((0.0, 0.0), cam.height, _section(cam, bore), local)
-    return Part(name, (body,), (cam.centre_distance, 0.0, np.pi / 2))
+    return Part(name, (body,), (cam.centre_distance, 0.0, np.pi / 2), turning=cam_turning(cam))
+
+
+def cam_turning(cam: RollerGear) -> Turning:
+    """How the cam turns over the frames of `roller_gear_scene`: by hand_sign theta about its axis."""
+    return Turning((cam.centre_distance, 0.0, cam.height), (0.0, 1.0, 0.0), cam.hand_sign * frame_angles())
+
+
+def turret_turning(cam: RollerGear) -> Turning:
+    """How the turret turns over the same frames: by phi about z."""
+    return Turning((0.0, 0.0, 0.0), (0.0, 0.0, 1.0), np.asarray(cam.motion(frame_angles()).d0, float))
 
 
 def groove_walls(cam: RollerGear, start: int = 0) -> Floats:
@@ -60,12 +71,12 @@ def turret_part(cam: RollerGear, name: str = "turret") -> Part:
         rim = radius - half - cam.roller_radius / 10
         disc = Prism(circle((0.0, 0.0), rim), (), -1.2 * cam.roller_radius, 2.4 * cam.roller_radius)
         rollers = tuple(Bar(_polar(0.9 * rim, a), _polar(radius + half, a), 0.0, 2 * cam.roller_radius) for a in psi)
-        return Part(name, (disc, *rollers), colour="blue")
+        return Part(name, (disc, *rollers), colour="blue", turning=turret_turning(cam))
     gap, thick = cam.roller_radius / 10, cam.roller_radius
     disc = Prism(circle((0.0, 0.0), radius + 1.5 * cam.roller_radius), (), -half - gap - thick, thick)
     spots = [_polar(radius, a) for a in psi]
     rollers = tuple(Prism(circle(spot, cam.roller_radius), (), -half - gap - thick / 2, 2 * half + gap + thick / 2) for spot in spots)
-    return Part(name, (disc, *rollers), colour="blue")
+    return Part(name, (disc, *rollers), colour="blue", turning=turret_turning(cam))
 
 
 def _polar(radius: float, angle: float) -> tuple[float, float]:

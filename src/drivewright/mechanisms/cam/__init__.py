@@ -11,6 +11,7 @@ from drivewright.mechanisms.cam.dimensions import SHEETS
 from drivewright.mechanisms.cam.energy import energy
 from drivewright.mechanisms.cam.scene import PLOTS, drawings, parts, scene
 from drivewright.mechanisms.cam.spec import CamSpec
+from drivewright.mechanisms.cam.varying import free_rest
 from drivewright.registry import Analysis, Mechanism, oracle
 
 ANALYSES = (
@@ -37,6 +38,7 @@ mechanism = Mechanism(
     folder=Path(__file__).parent,
     scene=scene,
     programme=diagram,
+    before_varying=free_rest,
     dimensions=SHEETS,
     plots=PLOTS,
     drawings=drawings,

@@ -1,5 +1,6 @@
 """Spec -> model: the programme over one turn and the surfaces that touch: cam and follower, conjugate cam, outer wall, second face."""
 
+import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache, partial
 from typing import Any
@@ -10,7 +11,7 @@ from drivewright import cams, materials, motion
 from drivewright._typing import Bools, Floats
 from drivewright.cams import CamTrack, FollowerShapes
 from drivewright.errors import DoesNotAssemble, InputError, SpecError
-from drivewright.mechanisms.cam.spec import CamSpec, Groove
+from drivewright.mechanisms.cam.spec import TURN, CamSpec, Groove
 from drivewright.numerics.jets import Jet
 from drivewright.spec.length_or_angle import AngleGiven
 
@@ -227,9 +228,27 @@ def _segment(spec, number, law, lengths):
     segment, key = spec.programme[number], f"programme.{number}"
     _refuse_rise(spec, segment, law, lengths, key)
     try:
-        return motion.Segment(segment.angle, law, 0.0 if segment.rise is None else float(segment.rise))
+        return motion.Segment(_angle(spec, number), law, 0.0 if segment.rise is None else float(segment.rise))
     except InputError as error:
         raise SpecError(str(error), key=f"{key}.law") from None
+
+
+def _angle(spec, number):
+    """The angle of a segment; that which states none has the rest of the turn."""
+    angles = [segment.angle for segment in spec.programme]
+    if angles[number] is not None:
+        return angles[number]
+    if angles.count(None) > 1:
+        raise SpecError(
+            "is missing: one segment may leave its angle out, which is then the rest of the turn", key=f"programme.{number}.angle"
+        )
+    given = math.fsum(angle for angle in angles if angle is not None)
+    if given >= TURN:
+        raise SpecError(
+            f"is left out, and the other segments leave nothing of the turn: they take {math.degrees(given):.9g}°; shorten one",
+            key=f"programme.{number}.angle",
+        )
+    return TURN - given
 
 
 def _refuse_rise(spec, segment, law, lengths, key):

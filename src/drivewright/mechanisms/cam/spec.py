@@ -84,7 +84,9 @@ class Valve(Spec):
 class Segment(Spec):
     """One segment of the motion programme over the turn of the cam."""
 
-    angle: Angle = Field(gt=0, description="cam angle of the segment", examples=["90 deg"])
+    angle: Angle | None = Field(
+        None, gt=0, description="cam angle of the segment; left out in one segment: the rest of the turn", examples=["90 deg"]
+    )
     law: Text = Field(title="Motion law", description=f"motion law, or dwell: {', '.join(motion.names())}", examples=["cycloidal"])
     rise: LengthOrAngle | None = Field(
         None, description="rise, negative for a return; oscillating follower: an angle, or a length (lift_at)", examples=["20 mm"]

@@ -17,6 +17,8 @@ from drivewright.result import Plot, Result
 
 HEADLINE = (
     "output.max_acceleration",
+    "output.travel_x",
+    "output.travel_y",
     "efficiency",
     "drives.*.peak_torque",
     "drives.*.peak_force",
@@ -34,6 +36,8 @@ HEADLINE = (
     "modes.*.frequency",
     "*.swing",
     "output.swing",
+    "*.travel_x",
+    "*.travel_y",
 )
 
 SOURCES = (
@@ -70,6 +74,7 @@ mechanism = Mechanism(
     headline=HEADLINE,
     sources=SOURCES,
     scene=scene,
+    moving_presets=True,
     quick_scene=quick_scene,
     dimensions=SHEETS,
     plots=plots,

@@ -69,6 +69,8 @@ class Clicked(NamedTuple):
 
     def _distance(self, body: str, place: Place) -> float:
         corners = list(self.seen(body).values())
+        if len(corners) > 2 and _is_inside(place, corners):
+            return 0.0
         sides = [(a, b) for number, a in enumerate(corners) for b in corners[number:]]
         return min((_from_segment(place, a, b) for a, b in sides), default=math.inf)
 
@@ -162,6 +164,12 @@ def _load(clicked: Clicked, places: Sequence[Place]) -> None:
     clicked.append("torques", "load", body=_of_body(clicked, places[0]), torque="-1 N m")
 
 
+def _output(clicked: Clicked, places: Sequence[Place]) -> None:
+    """An output: its path is drawn, its motion becomes plots and values."""
+    body = _of_body(clicked, places[0])
+    clicked.append("outputs", "output", body=body, point=_name(clicked.point(body, places[0])))
+
+
 def _delete(clicked: Clicked, places: Sequence[Place]) -> None:
     """What is at a place: its joints, else the body."""
     tables = clicked.tables
@@ -172,23 +180,37 @@ def _delete(clicked: Clicked, places: Sequence[Place]) -> None:
         if len(tables["bodies"]) == 1:
             raise InputError("a linkage has at least one body; this is the last one")
         del tables["bodies"][body]
+        before = _ground_points(tables)
         for kind in LISTS:
             kept = [item for item in tables.get(kind, []) if body not in _bodies_of(item)]
             tables[kind] = kept
+        for point in before - _ground_points(tables):
+            tables["ground"]["points"].pop(point, None)
     for kind in [kind for kind in LISTS if tables.get(kind) == []]:
         del tables[kind]
 
 
-ACTS = {"body": _body, "pin": _pin, "slide": _slide, "drive": _drive, "force": _force, "spring": _spring, "load": _load, "delete": _delete}
+ACTS = {
+    "body": _body,
+    "pin": _pin,
+    "slide": _slide,
+    "drive": _drive,
+    "force": _force,
+    "spring": _spring,
+    "load": _load,
+    "output": _output,
+    "delete": _delete,
+}
 TOOLS = (
     Tool("body", "Body", "Click the points of the body; Enter or a double click ends it", 2, 12),
     Tool("pin", "Pin", "Click a place that two bodies share, or a body to pin it to the frame"),
     Tool("slide", "Slide", "Click a point, then a second place in the direction of the slide", 2, 2),
-    Tool("drive", "Drive", "Click the pin that the drive turns"),
+    Tool("drive", "Drive", "Click the pin that the drive turns", picks=True),
     Tool("force", "Force", "Click the point of a body where the force acts"),
     Tool("spring", "Spring", "Click both ends of the spring", 2, 2),
-    Tool("load", "Load torque", "Click the body that the torque acts on"),
-    Tool("delete", "Delete", "Click a joint or a body"),
+    Tool("load", "Load torque", "Click the body that the torque acts on", picks=True),
+    Tool("output", "Output", "Click the point whose path, travel and swing are to be shown"),
+    Tool("delete", "Delete", "Click a joint or a body", picks=True),
 )
 
 
@@ -230,7 +252,7 @@ def _of_body(clicked: Clicked, place: Place) -> str:
     bodies = _bodies_at(clicked, place)
     if not bodies:
         raise InputError("there is no body here; click a point or a bar of one")
-    return bodies[-1]
+    return max(bodies, key=list(clicked.spec.bodies).index)
 
 
 def _joined(clicked: Clicked, place: Place) -> tuple[str, list[str]]:
@@ -254,6 +276,19 @@ def _at(clicked: Clicked, place: Place) -> list[dict[str, Any]]:
 def _bodies_of(item: Mapping[str, Any]) -> set[str]:
     """The bodies that a table of a list names."""
     return {str(end).partition(".")[0] for end in (*item.get("connects", ()), item.get("body", ""), item.get("on", ""))}
+
+
+def _is_inside(place: Place, corners: Sequence[Place]) -> bool:
+    """Whether a place lies inside a polygon."""
+    x, y = place
+    edges = zip(corners, [*corners[1:], corners[0]], strict=True)
+    return sum((y0 > y) != (y1 > y) and x < x0 + (y - y0) * (x1 - x0) / (y1 - y0) for (x0, y0), (x1, y1) in edges) % 2 == 1
+
+
+def _ground_points(tables: Tables) -> set[str]:
+    """The points of the frame that joints and springs are at."""
+    ends = [str(end) for kind in LISTS for item in tables.get(kind, []) for end in item.get("connects", ())]
+    return {_name(end) for end in ends if end.startswith(f"{GROUND}.")}
 
 
 def _from_segment(place: Place, start: Place, end: Place) -> float:
@@ -299,4 +334,4 @@ def _unused(names: Iterable[str], taken: Iterable[Any]) -> str:
     return next(name for name in names if name not in known)
 
 
-CONSTRUCTION = Construction(TOOLS, build_step, sketch, unfinished, connected)
+CONSTRUCTION = Construction(TOOLS, build_step, sketch, unfinished, connected, "crank")

@@ -10,7 +10,7 @@ from drivewright.mechanisms.shaft.influence import flexibility
 from drivewright.result import Answer
 from drivewright.scene import Drawing, Part, Scene
 from drivewright.shafts.drawing import turned_drawing, turned_part
-from drivewright.shafts.scenes import BentShape, DrawnGear, shaft_scene
+from drivewright.shafts.scenes import BentShape, DrawnGear, load_phases, shaft_scene
 
 
 def scene(model: ShaftModel) -> Scene:
@@ -39,5 +39,5 @@ def drawings(model: ShaftModel) -> tuple[Drawing, ...]:
 
 
 def parts(model: ShaftModel) -> tuple[Part, ...]:
-    """The shaft as a solid of revolution about x."""
-    return (turned_part(model.shaft),)
+    """The shaft as a solid of revolution about x, which turns once over the scene."""
+    return (turned_part(model.shaft, load_phases()),)

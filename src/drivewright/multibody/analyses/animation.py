@@ -10,6 +10,7 @@ from drivewright.multibody.analyses.cycle_poses import FINE, CyclePoses, cycle_p
 from drivewright.multibody.analyses.magnified_play import bearing_shapes, journal_body, magnify_play
 from drivewright.multibody.analyses.simulation_model import SimulationModel
 from drivewright.multibody.drawing import bar_half_width, coil_symbol, positions_of, rounded
+from drivewright.multibody.forces.load import AppliedForce
 from drivewright.multibody.joints.joint import JointDrawing
 from drivewright.multibody.joints.revolute import Revolute
 from drivewright.multibody.model import GROUND, PointSpring
@@ -40,7 +41,12 @@ def animate(model: SimulationModel, points: Mapping[str, Floats]) -> Scene:
     bodies = [
         Body(name, in_words(name), tuple(shapes[name]), cycle.frames(name), colour) for name, colour in zip(names, colours, strict=True)
     ]
-    bodies += [*_spring_bodies(springs, cycle, half_width), *(journal_body(play) for play in plays)]
+    loads = [force for force in model.assembly.model.forces if isinstance(force, AppliedForce)]
+    bodies += [
+        *_spring_bodies(springs, cycle, half_width),
+        *_force_bodies(loads, cycle, half_width),
+        *(journal_body(play) for play in plays),
+    ]
     traces = tuple(Trace(o.name, f"path of {in_words(o.name)}", o.body, o.marker[1:]) for o in model.outputs if o.point)
     still = np.zeros((len(cycle.cycle), 3))
     table = "motion" if model.outputs else "drive" if model.assembly.model.drives else ""
@@ -95,3 +101,25 @@ def _spring_bodies(springs: Iterable[PointSpring], cycle: CyclePoses, half_width
         shapes = coil_symbol(coil, 0.8 * half_width), polygon([(0, 0), (-rod, 0)], closed=False)
         for part, shape, end in zip(("coil", "rod"), shapes, ends, strict=True):
             yield Body(f"{part} {name}", label, (Shape("body", shape),), np.column_stack([end[::FINE], angle]), "steel")
+
+
+def _force_bodies(forces: Iterable[AppliedForce], cycle: CyclePoses, half_width: float) -> Iterator[Body]:
+    """Every applied force as an arrow whose tip is where it acts."""
+    w = half_width
+    arrow = polygon(
+        [
+            (0, 0),
+            (-2.4 * w, 0.9 * w),
+            (-2.4 * w, 0.25 * w),
+            (-9 * w, 0.25 * w),
+            (-9 * w, -0.25 * w),
+            (-2.4 * w, -0.25 * w),
+            (-2.4 * w, -0.9 * w),
+        ]
+    )
+    for force in forces:
+        poses, name = cycle.poses[force.point.body][::FINE], in_words(force.name)
+        tip = positions_of(force.point[1:], poses)
+        angle = np.arctan2(force.direction[1], force.direction[0]) + (poses[:, 2] if force.follows else np.zeros(len(poses)))
+        label = name if name.startswith("force") else f"force {name}"
+        yield Body(f"force {force.name}", label, (Shape("body", arrow),), np.column_stack([tip, angle]), "steel")

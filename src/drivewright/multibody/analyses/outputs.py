@@ -37,13 +37,13 @@ def window(model: SimulationModel) -> Record:
 
 
 def motion(model: SimulationModel) -> Answer:
-    """Swing and peaks of the outputs, and the last turn as a table."""
+    """Swing, travel and peaks of the outputs, and the last turn as a table."""
     tables = (_motion_table(model),) if model.outputs else ()
     return Answer(output_values(model), tables)
 
 
 def output_values(model: SimulationModel) -> dict[str, Value]:
-    """Swing and peaks of the outputs."""
+    """Swing, travel and peaks of the outputs."""
     window(model)  # refuses a run that holds no numbers
     values, run_statistics = {}, statistics(model)
     for output in model.outputs:
@@ -65,6 +65,13 @@ def output_values(model: SimulationModel) -> dict[str, Value]:
                 f"peak magnitude of the acceleration of point {output.point} of {body}",
                 f"peak acceleration, {label}",
             )
+            for axis in "xy":
+                values[f"{name}.travel_{axis}"] = Value.of(
+                    run_statistics.of_run(f"{name}.travel_{axis}"),
+                    "m",
+                    f"range of {axis} of point {output.point} of {body} in the window",
+                    f"travel in {axis}, {label}",
+                )
     return values
 
 

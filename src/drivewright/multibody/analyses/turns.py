@@ -127,16 +127,17 @@ def audit_of_run(model: SimulationModel, run: Run) -> Audit:
 
 
 def _motions(record, outputs, ends, numbers):
-    """Largest magnitudes and the ranges of the angles of the outputs, in SI."""
+    """Largest magnitudes, and the ranges of angles and coordinates of the outputs, in SI."""
     sizes = {f"{output.name}.{key}": x for output in outputs for key, x in _sizes(record, output).items()}
-    angles = {f"{output.name}.swing": record.point(output.name, "angle") for output in outputs}
-    top = highest(record.t, np.array([*sizes.values(), *angles.values(), *(-angle for angle in angles.values())]))
-    largest_sizes, above, below = np.split(top, [len(sizes), len(sizes) + len(angles)])
+    ranges = {f"{output.name}.swing": record.point(output.name, "angle") for output in outputs}
+    ranges |= {f"{output.name}.travel_{axis}": record.point(output.name, axis) for output in outputs if output.point for axis in "xy"}
+    top = highest(record.t, np.array([*sizes.values(), *ranges.values(), *(-x for x in ranges.values())]))
+    largest_sizes, above, below = np.split(top, [len(sizes), len(sizes) + len(ranges)])
     numbers.whole.update(zip(sizes, largest_sizes.tolist(), strict=True))
-    numbers.whole.update(zip(angles, (above + below).tolist(), strict=True))
+    numbers.whole.update(zip(ranges, (above + below).tolist(), strict=True))
     if len(ends) > 1:
         numbers.turns.update({name: largest_per_turn(*peaks(record.t, x), ends) for name, x in sizes.items()})
-        numbers.turns.update({name: _range_per_turn(record.t, angle, ends) for name, angle in angles.items()})
+        numbers.turns.update({name: _range_per_turn(record.t, x, ends) for name, x in ranges.items()})
 
 
 def _sizes(record, output):

@@ -15,6 +15,9 @@ study        the [study] of a design: its cases as rows of a table, and what the
 timing       the seconds of each analysis, for an estimate
 """
 
+from typing import Any
+
+from drivewright.errors import InputError, brief
 from drivewright.studio.jobs import fields, figures, files, fix, search, sensitivity, solid, study, timing
 
 # What a page may ask for: nothing that names a place on the disk, another machine, or how much of this one to take.
@@ -31,12 +34,35 @@ JOBS = {
     "report": files.report,
     "save": files.save,
 }
-OPTIONS = {
-    "fix": ("check", "longer"),
-    "figures": ("theme", "analyses"),
-    "fields": ("analysis", "run"),
-    "study": ("theme",),
-    "optimise": ("theme",),
-    "export": ("format", "anyway"),
-    "report": ("whole",),
+MOST, LONGEST = 100, 500  # texts in an option, and characters in one
+OPTIONS: dict[str, dict[str, type]] = {
+    "fix": {"check": str, "longer": bool},
+    "figures": {"theme": str, "analyses": list},
+    "fields": {"analysis": str, "run": bool},
+    "study": {"theme": str},
+    "optimise": {"theme": str},
+    "export": {"format": str, "anyway": bool},
+    "report": {"whole": bool},
 }
+
+
+def checked_options(name: object, options: object = None) -> dict[str, Any]:
+    """The options of a job that a page asks for; InputError where there is no such job, or it takes no such option or value."""
+    if not isinstance(name, str) or name not in JOBS:
+        raise InputError(f"there is no job {brief(name)}")
+    if not isinstance(options, dict | None):
+        raise InputError(f"{name} has no options in a list or a value")
+    for option, value in (options or {}).items():
+        wanted = OPTIONS.get(name, {}).get(option)
+        if wanted is None:
+            raise InputError(f"{name} takes no {brief(option)}")
+        if not isinstance(value, wanted) or not _is_short(value):
+            raise InputError(f"{name} cannot have {brief(value)} as {option}")
+    return dict(options or {})
+
+
+def _is_short(value: object) -> bool:
+    """Whether a value of an option has a length that a page sends; a list holds texts only."""
+    if isinstance(value, list):
+        return len(value) <= MOST and all(isinstance(each, str) and len(each) <= LONGEST for each in value)
+    return not isinstance(value, str) or len(value) <= LONGEST

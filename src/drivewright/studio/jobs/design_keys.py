@@ -4,11 +4,13 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
+from drivewright import registry
 from drivewright.errors import SpecError
 from drivewright.execution.keys import FIXED, KeyKind, key_kind
 from drivewright.spec import MechanismSpec, value_at
 from drivewright.spec.keys import leaves
 from drivewright.studio.design import Design, Tables
+from drivewright.studio.field_info import field_info_at
 from drivewright.view.text import display_unit
 
 
@@ -55,10 +57,12 @@ def input_text(kind: KeyKind, value: Any) -> str:
 
 
 def label(tables: Tables, key: str) -> str:
-    """A key in words: an element of a list by its name where it has one."""
+    """A key in words, as the form names it: an element of a list by its name or counted from 1, a part of a point by its axis."""
     place: Any = tables
     words = []
-    for step in key.split("."):
+    steps = key.split(".")
+    for at, step in enumerate(steps):
+        part = _part(tables, steps[:at], step) if isinstance(place, list) and step.isdecimal() else step
         place = (
             place[int(step)]
             if isinstance(place, list) and step.isdecimal() and int(step) < len(place)
@@ -67,8 +71,16 @@ def label(tables: Tables, key: str) -> str:
             else None
         )
         name = place.get("name") if isinstance(place, dict) and step.isdecimal() else None
-        words.append((name if isinstance(name, str) and name else step).replace("_", " "))
+        words.append((name if isinstance(name, str) and name else part).replace("_", " "))
     return " · ".join(words)
+
+
+def _part(tables: Tables, places: list[str], step: str) -> str:
+    """What an entry of a list is called that has no name of its own."""
+    kind = tables.get("mechanism")
+    info = field_info_at(registry.mechanism(kind).spec, places) if kind in registry.kinds() and places else None
+    number = int(step)
+    return info.parts[number] if info and number < len(info.parts) else str(number + 1)
 
 
 def plain(value: float, unit: str = "-") -> float | None:

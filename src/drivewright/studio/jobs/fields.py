@@ -13,10 +13,10 @@ from drivewright.registry import Analysis
 from drivewright.report.pack import floats
 from drivewright.result import Result
 from drivewright.solids.engine import fe_module
+from drivewright.solids.shading import surface_shape
 from drivewright.steps import detailed
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.progress import Progress
-from drivewright.studio.jobs.solid import surface_shape
 from drivewright.studio.kept_results import kept_result, result_of
 from drivewright.surface_fields import ScalarField, SurfaceBody, SurfaceFields
 from drivewright.view.palette import BARE, colour_stops

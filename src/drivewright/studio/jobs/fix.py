@@ -1,6 +1,8 @@
 """What to change so that a check which fails passes: the smallest change of one or two dimensions, verified by a run."""
 
+import time
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from drivewright import runner
@@ -30,19 +32,35 @@ def fix(design: Design, progress: Progress, check: str = "", longer: bool = Fals
     with detailed(progress) as step:
         result = runner.run(spec, progress=step)
     failed = _check_named(result, check)
-    held = {each.key for each in dimensions(spec) if is_locked(design.tables, each.key, locks)}
-    free = len(dimensions(spec)) - len(held)
     seconds = PATIENCE * (LONGER if longer else 1)
-    stopped, found = False, None
-    if is_advisable(failed) and free:
+    deadline, free, stopped, found = time.monotonic() + seconds, 0, False, None
+    for asked in _questions(result) if is_advisable(failed) else ():
+        held = {each.key for each in dimensions(asked.spec) if is_locked(design.tables, each.key, locks)}
+        here = len(dimensions(asked.spec)) - len(held)
+        free += here
+        if not here:
+            continue
         advised = advise(
-            result, seconds, checks=(check,), held=held, tried=lambda number: progress(0, 0, f"design {number} is being computed")
+            asked,
+            deadline - time.monotonic(),
+            checks=(check,),
+            held=held,
+            tried=lambda number: progress(0, 0, f"design {number} is being computed"),
         )
         stopped, found = advised.advice_stopped, next(iter(advised.advice), None)
+        if found or stopped:
+            break
     if found is None:
         reason = _reason(failed, result, free, stopped, seconds)
         return {"check": check, "changes": [], "load": {}, "reason": reason, "stopped": stopped}
     return _fix_found(design, result, failed, found)
+
+
+def _questions(result: Result[Any]) -> tuple[Result[Any], ...]:
+    """What may change, one after the other: the unknowns of the design's own search, then what its kind calls adjustable."""
+    if result.spec.optimise is None:
+        return (result,)
+    return result, replace(result, spec=result.spec.model_copy(update={"optimise": None}))
 
 
 def _check_named(result: Result[Any], name: str) -> Check:

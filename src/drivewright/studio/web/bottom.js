@@ -63,10 +63,10 @@ export function createBottom(host, tools) {
     const ids = chosen();
     plots.compare(overlays(store.state, t).map(({plots: theirs, ...run}) => ({...run, packed: chosenPlots(theirs, ids, t)})));
   }
-  const exported = (state, plot) => {
+  const exported = (state, {series}) => {
     const save = (ending, type, text) => {
       const title = t("Download this plot as *", ending.toUpperCase()), stem = store.state.design.name || kind();
-      return pressable({class: "bt-export", "data-testid": `plot-${ending}`, title, "aria-label": `${plot.title}: ${title}`}, () => saveText(`${stem}-${state().panel.id.replace("/", "-")}.${ending}`, type, text(state())), ending.toUpperCase());
+      return pressable({class: "bt-export", "data-testid": `plot-${ending}`, title, "aria-label": `${series.map(({label}) => label).join(", ")}: ${title}`}, () => saveText(`${stem}-${state().panel.id.replace("/", "-")}.${ending}`, type, text(state())), ending.toUpperCase());
     };
     return [element("span", {class: "bt-exports"}, save("svg", "image/svg+xml", one => svgText(one, store.state.design.title)), save("csv", "text/csv", csvText))];
   };

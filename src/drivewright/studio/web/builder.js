@@ -3,6 +3,7 @@
 import { pressable } from "./parts.js";
 import { element, nice } from "./player.js";
 import { onGrid } from "./snapping.js";
+import { refusedText } from "./words.js";
 
 const NEAR = 9, FINE = 10, STEP = 12;  // px: what a click falls upon, a step of the grid at least, a step of an arrow key
 const SVG = "http://www.w3.org/2000/svg";
@@ -18,9 +19,10 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   const panel = element("div", {class: "bd-panel"}, row, words, missing);
   const layer = element("div", {class: "bd-layer", hidden: ""}, sheet, marks, panel);
   const button = pressable({class: "dw-button bd-button", "data-testid": "build"}, () => turn(!on));
-  let on = false, tool = null, places = [], cursor = null, handles = [], buttons = new Map();
-  marks.setAttribute("class", "bd-marks");
+  let on = false, drive = null, tool = null, heard = null, places = [], cursor = null, handles = [], buttons = new Map();
+  marks.setAttribute("class", "bd-marks"); marks.setAttribute("aria-hidden", "true");
 
+  const refusal = () => store.state.refused?.[""] || null;
   const offered = () => (store.state.kinds || []).find(({kind}) => kind === store.state.design?.kind)?.tools || [];
   const chosen = () => offered().find(({name}) => name === tool);
 
@@ -36,7 +38,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     show();
     if (on) sheet.focus({preventScroll: true});
   }
-  function choose(name) { tool = name; places = []; show(); sheet.focus({preventScroll: true}); }
+  function choose(name) { tool = name; places = []; heard = refusal(); show(); sheet.focus({preventScroll: true}); }
 
   // ---- where a hand is: pixels of the drawing, metres of the machine at its start
   const frame = () => getPlayer().poseOf(-1, 0);
@@ -49,12 +51,12 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     const dx = (x - view.width / 2) / view.scale + mx - px, dy = (view.height / 2 - y) / view.scale + my - py;
     return [c * dx + s * dy, c * dy - s * dx];
   }
-  /** A point of the mechanism near a pixel, else the nearest place of a round grid; Alt takes the pixel itself. */
+  /** A point of the mechanism near a pixel, else the nearest place of a round grid; Alt, and a tool for what is there, take the pixel itself. */
   function meant(pixel, free) {
     const points = [...handles.map(seen), ...places.map(toPixel)].map(at => [Math.hypot(at[0] - pixel[0], at[1] - pixel[1]), at]);
     const [distance, at] = points.sort(([a], [b]) => a - b)[0] || [Infinity];
     if (distance < NEAR) return toMachine(at);
-    const step = free ? 0 : nice(FINE * 2.5 / getPlayer().view.scale) / 2;
+    const step = free || chosen()?.picks ? 0 : nice(FINE * 2.5 / getPlayer().view.scale) / 2;
     return toMachine(pixel).map(part => onGrid(part, step));
   }
   function seen({body, point: [x, y]}) {
@@ -105,7 +107,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     marks.replaceChildren(line, ...dots);
   }
   function show() {
-    const tools = offered(), current = chosen(), refused = store.state.refused?.[""]?.message;
+    const tools = offered(), current = chosen(), refused = refusal() === heard ? "" : refusal()?.message;  // what another tool was told is over
     button.hidden = !tools.length;
     button.textContent = t("Build");
     button.title = t("Build the mechanism by clicking");
@@ -118,7 +120,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     for (const {name, label} of tools) { buttons.get(name).textContent = t(label); buttons.get(name).setAttribute("aria-pressed", String(name === tool)); }
     row.setAttribute("aria-label", t("Tools"));
     sheet.setAttribute("aria-label", t("Drawing to build on: arrow keys move, the space bar sets a place, Enter ends"));
-    words.textContent = refused ? t(refused) : current ? t(current.hint) : "";
+    words.textContent = refused ? refusedText(refused, t) : current ? t(current.hint) : "";
     words.classList.toggle("is-refused", Boolean(refused));
     const texts = (store.state.scene?.missing || []).filter(text => text !== refused);
     missing.replaceChildren(...texts.map(text => element("li", {}, t(text))));
@@ -128,7 +130,12 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
 
   show();
   const stops = [store.on(["lang", "kinds", "scene", "refused"], show),
-    store.on(["design"], () => { if (on && !offered().length) turn(false); else show(); })];
+    store.on(["design"], ({design, building}) => {
+      const begins = building && design?.opened !== drive;
+      drive = design?.opened;
+      if (on && !offered().length) turn(false); else show();
+      if (begins) { store.set({building: false, view: "motion"}); turn(true); }
+    })];
   return {layer, button, draw, active: () => on, load(scene) { handles = scene.handles || []; },
     destroy() { stops.forEach(stop => stop()); layer.remove(); button.remove(); }};
 }

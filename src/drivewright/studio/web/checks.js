@@ -83,7 +83,7 @@ export function createChecks(host, tools) {
     }
     if (!same(names, shown)) arrange(names);
     if (active && !names.includes(active)) active = null;
-    const partial = result?.full && result.outcome && result.outcome !== "complete";
+    const partial = result?.full && (result.verdict.state === "bad" || result.outcome !== "complete");
     put(empty, partial ? t("No check could be computed; the findings say why.") : result ? t("This drive has no design checks.") : t("The checks appear when the design has been analysed."));
     empty.hidden = names.length > 0;
   }

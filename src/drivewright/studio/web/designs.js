@@ -28,7 +28,7 @@ export function createDesigns({store, t}, {fresh, example, close}) {
     made.append(element("span", {}, text), element("small", {}, hint));
     return made;
   }
-  const preset = ({kind, pictures = [], films = [], titles = {}}) => name => card(t(titles[name] || spoken(name)), `${t("preset")} · ${t(spoken(name))}`,
+  const preset = ({kind, pictures = [], films = [], titles = {}, start}) => name => card(t(titles[name] || spoken(name)), name === start ? t("Build the mechanism by clicking") : `${t("preset")} · ${t(spoken(name))}`,
     `preset-${kind}-${name}`, pictures.includes(name) && picture(`preset.${kind}.${name}.webp`, films.includes(name) && `preset.${kind}.${name}.moving.webp`),
     () => fresh(kind, name));
   const worked = ({name, title, moving}) => card(t(title), t("worked example"), `example-${name}`,
@@ -37,7 +37,7 @@ export function createDesigns({store, t}, {fresh, example, close}) {
   const group = ({kind, summary, presets, examples = [], ...more}) =>
     element("div", {class: "st-kind", role: "group", "aria-label": t(spoken(kind))},
       element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
-      element("div", {class: "st-cards"}, ...presets.map(preset({kind, ...more})), ...examples.map(worked)));
+      element("div", {class: "st-cards"}, ...[...presets].sort((a, b) => (b === more.start) - (a === more.start)).map(preset({kind, ...more})), ...examples.map(worked)));
   /** A box that leaves only the cards whose words hold all that is typed; a kind without any goes too. */
   function finder(groups) {
     const box = element("input", {class: "st-find-design", type: "search", placeholder: t("Find a design"), "aria-label": t("Find a design"),

@@ -32,7 +32,7 @@ export function createDock({store, t}) {
   function button() {
     const title = t("Drawing of the dimensions beside the form");
     node.setAttribute("aria-label", title);
-    made = pressable({class: "st-button st-small", title, "aria-label": title, "data-testid": "dock-drawing"}, () => { on = !on; show(); }, icon("ruler"));
+    made = pressable({class: "st-button st-small", title, "aria-label": title, "data-testid": "dock-drawing"}, () => { on = !on; show(); }, icon("dimension"));
     show();
     return made;
   }

@@ -2,37 +2,62 @@
 
 import { element, nice } from "./player.js";
 import { quantityOf } from "./numbers.js";
+import { put } from "./parts.js";
 import { createGesture } from "./slider.js";
 import { onGrid, snapped } from "./snapping.js";
 
 const SHAKE = 3, FINE = 1, COARSE = 6;  // px of a hand that presses without moving; px of a step of the grid, of an arrow key, at least
+const SEEN = 2500;  // ms that the numbers stay after an arrow key
 
 /**
  * The drag of a handle.  `place(handle, point)` is the pixel of a point in the frame of its body, `frame(handle)` the pose of that frame,
  * `others(handle)` the other handles with their pixels, `nameOf(handle)` its name, `numbers(handle)` the numbers of its keys.
  */
 export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, say, t, clock}) {
-  let hold = null, box = null, pending = 0;
+  const nudges = createGesture("nudge");
+  let hold = null, pointed = null, box = null, pending = 0, fading = 0, bubbleSize = {wide: 0, high: 0};
+  let nudged = null;  // {button, handleOf, start, now, gesture, seen} of the last arrow key
 
   function attach(button, handleOf) {
     button.addEventListener("pointerdown", event => { if (event.button === 0) press(event, button, handleOf); });
     button.addEventListener("keydown", event => keys(event, button, handleOf));
+    button.addEventListener("pointerenter", event => { if (event.pointerType === "mouse") point(button, handleOf); });
+    button.addEventListener("pointerleave", () => point(null));
+    button.addEventListener("blur", () => { if (nudged?.button === button) settle(); });
     button.addEventListener("dblclick", event => event.stopPropagation());
+  }
+
+  /** Says what the handle under the mouse is called, with its numbers. */
+  function point(button, handleOf) {
+    pointed = button && {button, handleOf};
+    show();
   }
 
   // ---- pointer
   function press(event, button, handleOf) {
     event.preventDefault(); event.stopPropagation();
+    if (hold) return;  // another finger has it
     if (clock.playing) { clock.set(0); clock.pause(); }
     const handle = handleOf(), start = numbers(handle);
     if (!start) return;
     button.focus({preventScroll: true});
     button.setPointerCapture(event.pointerId);
     const at = pixel(event), own = place(handle, handle.point);
-    hold = {button, handleOf, start, grip: [at[0] - own[0], at[1] - own[1]], at, travelled: 0, gesture: createGesture(handle.key).current(), now: start.map(n => n.value)};
+    settle();
+    hold = {button, handleOf, start, pointer: event.pointerId, grip: [at[0] - own[0], at[1] - own[1]], at, travelled: 0, gesture: createGesture(handle.key).current(), now: start.map(n => n.value)};
     button.classList.add("is-held");
     for (const [name, act] of Object.entries(WHILE_HELD)) button.addEventListener(name, act);
+    addEventListener("pointerdown", pinch, {capture: true});
     show();
+  }
+  /** A second finger means the view and not the handle: what was dragged goes back, and both fingers go to the canvas. */
+  function pinch(event) {
+    if (!hold || event.pointerId === hold.pointer) return;
+    const canvas = layer.parentElement.querySelector(".dw-canvas"), {left, top} = layer.getBoundingClientRect(), {pointer, last, at, travelled} = hold, [x, y] = last || at;
+    event.preventDefault(); event.stopPropagation();
+    if (travelled < SHAKE) end(); else takeBack();
+    for (const [pointerId, clientX, clientY] of [[pointer, left + x, top + y], [event.pointerId, event.clientX, event.clientY]])
+      canvas.dispatchEvent(new PointerEvent("pointerdown", {pointerId, clientX, clientY, pointerType: event.pointerType, bubbles: true}));
   }
   function move(event) {
     if (!hold) return;
@@ -62,6 +87,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     hold = null;
     cancelAnimationFrame(pending); pending = 0;
     for (const [name, act] of Object.entries(WHILE_HELD)) button.removeEventListener(name, act);
+    removeEventListener("pointerdown", pinch, {capture: true});
     button.classList.remove("is-held");
     guides.replaceChildren();
     bubble.hidden = true;
@@ -86,7 +112,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     const fixed = near.filter(({body, at, direction}) => !direction && body !== handle.body && !coincides(at, handle)).map(({at}) => at);
     const found = hold.free ? {at: wanted, guides: [], words: ""} : snapped(wanted, {fixed, partners, lengths: lengthsOf(near)});
     mark(found);
-    const exact = inFrame(handle, found.at), snaps = found.words !== "";
+    const exact = inFrame(handle, found.at), snaps = found.words !== "" || found.guides.length > 0;
     return hold.start.map((number, n) => {
       const value = exact[n] / number.factor, step = gridOf(number);
       return kept(snaps ? tidy(value, step) : onGrid(value, step), number);
@@ -111,13 +137,21 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
   }
   const texts = (start, values) => Object.fromEntries(start.map(({key, unit}, n) => [key, unit ? `${values[n]} ${unit}` : String(values[n])]));
   function show() {
-    if (!hold) return;
-    const handle = hold.handleOf(), [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "];
-    const words = hold.words ? ` · ${t(hold.words)}` : "";
+    const shown = hold || (nudged?.seen ? nudged : pointed), handle = shown?.handleOf(), start = handle && (shown.start || numbers(handle));
+    if (!start || shown.button.hidden) { bubble.hidden = true; return; }
+    const [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "], now = shown.now || start.map(({value}) => value);
+    const words = hold?.words ? ` · ${t(hold.words)}` : "";
+    tell(`${nameOf(handle)}  ${now.map((value, n) => `${names[n]}${value} ${start[n].unit}`.trim()).join("  ")}${words}`);
+    const {wide, high} = bubbleSize, {width, height} = view(), left = x + 16 + wide > width ? x - 16 - wide : x + 16;
+    bubble.style.transform = `translate(${within(left, width - wide)}px, ${within(y - 34, height - high)}px)`;
+  }
+  /** The text of the bubble, which a screen reader says; it is measured when it gets longer or shorter only, for that has the whole page
+   *  laid out. */
+  function tell(text) {
+    const anew = bubble.hidden || text.length !== bubble.textContent.length;
     bubble.hidden = false;
-    bubble.textContent = `${nameOf(handle)}  ${hold.now.map((value, n) => `${names[n]}${value} ${hold.start[n].unit}`).join("  ")}${words}`;
-    const wide = bubble.offsetWidth, left = x + 16 + wide > layer.clientWidth ? x - 16 - wide : x + 16;
-    bubble.style.transform = `translate(${within(left, layer.clientWidth - wide)}px, ${within(y - 34, layer.clientHeight - bubble.offsetHeight)}px)`;
+    put(bubble, text);
+    if (anew) bubbleSize = {wide: bubble.offsetWidth, high: bubble.offsetHeight};
   }
   function mark({guides: lines, words}) {
     hold.words = words;
@@ -132,7 +166,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
   // ---- keys and typing
   function keys(event, button, handleOf) {
     const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
-    if (event.key === "Escape" && hold) { event.preventDefault(); event.stopPropagation(); takeBack(); return; }
+    if (event.key === "Escape" && (hold || nudged?.button === button)) { event.preventDefault(); event.stopPropagation(); if (hold) takeBack(); else unnudge(); return; }
     if (event.key === "Enter" || /^[-\d.]$/.test(event.key) && !event.ctrlKey && !event.metaKey) {
       event.preventDefault(); event.stopPropagation();
       const drag = hold;
@@ -140,20 +174,29 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
       type(button, handleOf, event.key === "Enter" ? null : event.key, drag?.gesture);
     } else if (step) {
       event.preventDefault(); event.stopPropagation();
-      nudge(handleOf(), step, event.shiftKey ? 10 : 1);
+      nudge(button, handleOf, step, event.shiftKey ? 10 : 1);
     }
   }
-  const nudges = createGesture("nudge");
-  function nudge(handle, [x, y], times) {
-    const start = numbers(handle);
+  /** An arrow key: the numbers go a step on, from where the key before it sent them.  As long as they are shown it is one gesture. */
+  function nudge(button, handleOf, [x, y], times) {
+    const handle = handleOf(), start = numbers(handle);
     if (!start) return;
     if (clock.playing) { clock.set(0); clock.pause(); }
-    const moves = handle.direction ? [x + y] : [x, y], values = start.map((number, n) => {
+    if (nudged?.button !== button) { settle(); nudges.end(); }
+    const gesture = nudges.current(), from = nudged?.gesture === gesture ? nudged.now : start.map(({value}) => value);
+    const moves = handle.direction ? [x + y] : [x, y], now = start.map((number, n) => {
       const step = gridOf(number, COARSE);
-      return moves[n] ? onGrid(number.value + moves[n] * times * step, step) : number.value;
+      return moves[n] ? kept(onGrid(from[n] + moves[n] * times * step, step), number) : from[n];
     });
-    say({what: "drag", changes: texts(start, values), gesture: nudges.next()});
+    nudged = {button, handleOf, start, now, gesture, seen: true};
+    say({what: "drag", changes: texts(start, now), gesture});
+    show();
+    clearTimeout(fading);
+    fading = setTimeout(() => { nudges.end(); nudged.seen = false; show(); }, SEEN);
   }
+  /** Esc behind arrow keys: their steps are taken back. */
+  function unnudge() { say({what: "revert", gesture: nudged.gesture}); settle(); nudges.end(); }
+  function settle() { clearTimeout(fading); nudged = null; show(); }
   /** A box beside the handle for its numbers: "40 mm" or "40, 12 mm". */
   function type(button, handleOf, first = null, gesture = "") {
     const handle = handleOf(), start = numbers(handle);
@@ -190,7 +233,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
 
   /** Whether a hand holds a handle, or that of a button. */
   const held = button => hold !== null && (!button || hold.button === button);
-  return {attach, held, end, draw: show, destroy() { end(); box?.remove(); }};
+  return {attach, held, end, draw: show, destroy() { end(); settle(); box?.remove(); }};
 }
 
 /** Lengths in pixels between neighbouring handles of every body. */

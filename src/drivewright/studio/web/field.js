@@ -6,6 +6,7 @@ import { decimals, quantityOf, unitsRead, unitsTyped, withUnit } from "./numbers
 import { tool } from "./parts.js";
 import { element } from "./player.js";
 import { createGesture, createSlider } from "./slider.js";
+import { refusedText } from "./words.js";
 
 const PAUSE = 700;                       // ms after the last key until a text is sent
 const PATIENCE = 2500;                   // ms that a sent value stays on screen without an answer
@@ -26,10 +27,10 @@ function agrees(field, text) {
 const messageOf = key => element("div", {class: "st-message", role: "alert", "data-testid": `message-${key}`, hidden: ""});
 const nameOf = (field, name, t) => element("span", {class: "st-name", title: `${field.key}${field.hint ? `\n${t(field.hint)}` : ""}`}, name);
 
-function tell(message, root, refusal) {
-  root.classList.toggle("st-refused", Boolean(refusal));
-  message.textContent = refusal?.message || "";
-  message.hidden = !refusal;
+function tell(message, root, refused, t) {
+  root.classList.toggle("st-refused", Boolean(refused));
+  message.textContent = refusedText(refused?.message || "", t);
+  message.hidden = !refused;
 }
 
 /** The button that takes a value back to the usual one is there where that is another. */
@@ -57,7 +58,7 @@ function createControl(field, name, {t, parts, learn}) {
   const own = many.map(value => ({value: String(value), text: t(String(value))}));
   const options = () => field.list ? parts(field.list).map(([value, note]) => ({value, text: value, note})) : own;
   const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
-  if (field.optional || field.value === null) box.placeholder = field.default ?? t("not set");
+  if (field.optional || field.value === null) box.placeholder = t(String(field.default ?? "not set"));
   const counted = COUNTED.includes(field.kind), told = own.length > 0 || Boolean(field.list);
   const read = text => counted ? unitsRead(text) : named || told ? t(text) : text, value = text => options().find(one => one.text === text)?.value ?? text;
   /** The text of the spec: a title that is shown in the language of the page is still the one of the spec. */
@@ -89,7 +90,7 @@ function createLook(row, context, back) {
     },
     slide(slider) { message.before(slider.root); root.classList.add("st-slid"); },
     refuse(refusal) {
-      tell(message, root, refusal);
+      tell(message, root, refusal, t);
       if (refusal) input.setAttribute("aria-invalid", "true"); else input.removeAttribute("aria-invalid");
     },
     lock(locked) {
@@ -290,7 +291,7 @@ export function createPair(field, context) {
     rows.forEach((row, index) => row.update(now.parts[index], context.refusal(row.key), locked || context.locked(row.key)));
     if (refusal?.message === pair.refusal?.message) return;
     pair.refusal = refusal;
-    tell(message, root, refusal);
+    tell(message, root, refusal, t);
     if (refusal) context.reveal(pair);
   }
   return pair;

@@ -6,6 +6,7 @@ import { icon } from "./icons.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createText } from "./text.js";
+import { refusedText } from "./words.js";
 
 /** The column in `host`. */
 export function createForm(host, {store, say, t}) {
@@ -23,6 +24,7 @@ export function createForm(host, {store, say, t}) {
   function choose(name) {
     tab = name;
     for (const [key, made] of Object.entries(tabs)) {
+      panes[key].setAttribute("aria-label", made.textContent);
       made.setAttribute("aria-selected", String(key === tab));
       made.tabIndex = key === tab ? 0 : -1;
       panes[key].hidden = key !== tab;
@@ -54,7 +56,7 @@ export function createForm(host, {store, say, t}) {
     return element("div", {class: "st-search-hold"}, icon("search"), box, none);
   }
   function buildHead() {
-    const row = element("div", {class: "st-tabs", role: "tablist"}, tabButton("form", t("Form")), tabButton("text", t("Text")));
+    const row = element("div", {class: "st-tabs", role: "tablist", "aria-label": t("The design as a form or as text")}, tabButton("form", t("Form")), tabButton("text", t("Text")));
     head.replaceChildren(row, searchBox(), dock.button());
   }
 
@@ -69,7 +71,7 @@ export function createForm(host, {store, say, t}) {
     if (strip.dataset.lines === lines.join("\n")) return;
     strip.dataset.lines = lines.join("\n");
     strip.hidden = !lines.length;
-    strip.replaceChildren(...lines.map(line => element("p", {}, line)));
+    strip.replaceChildren(...lines.map(line => element("p", {}, refusedText(line, t))));
   }
   /** All words anew; what was typed into the text stays. */
   function restart() {

@@ -52,12 +52,17 @@ export function createGroups(body, {say, t, chinese}, rowOf) {
   let kind = "", wanted = "", titles = [], named = new Map();
 
   // ---- words
-  const bare = group => (chinese() && group.zh) || group.title || t("General");
+  const bare = group => (chinese() && group.zh) || t(group.title || "General");
   /** An element without a name of its own is called after its list. */
   const titleOf = group => group.role === "element" && /^\d+$/.test(group.title) && named.has(group.list)
     ? `${bare(named.get(group.list))} ${group.index + 1}` : bare(group);
   function retitle() {
-    for (const [title, key] of titles) { const text = titleOf(named.get(key)); if (title.textContent !== text) title.textContent = text; }
+    for (const [title, key] of titles) {
+      const text = titleOf(named.get(key));
+      if (title.textContent === text) continue;
+      title.textContent = text;
+      title.closest(".st-group").setAttribute("aria-label", text);
+    }
   }
 
   // ---- folding
@@ -133,7 +138,7 @@ export function createGroups(body, {say, t, chinese}, rowOf) {
   }
   function section(node, at, depth, siblings, parent) {
     const {group, children} = node, open = openAtFirst(node, at, depth, siblings), title = element("span", {class: "st-group-title"}, titleOf(group));
-    const made = element("section", {class: `st-group st-depth-${Math.min(depth, 3)}`, "data-key": group.key, "data-open": String(open),
+    const made = element("section", {class: `st-group st-depth-${Math.min(depth, 3)}`, "data-key": group.key, "data-open": String(open), role: "group", "aria-label": titleOf(group),
       "data-testid": `group-${group.key}`});
     const toggle = pressable({class: "st-group-toggle", "aria-expanded": String(open), title: t(group.hint || "")},
       () => fold(made, made.dataset.open !== "true"), icon("chevron"), title), head = element("div", {class: "st-group-head"}, toggle);

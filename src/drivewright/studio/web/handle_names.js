@@ -5,7 +5,7 @@ export function createNames({store, t}) {
   let groups = new Map(), fields = new Map();
 
   const chinese = () => store.state.lang === "zh";
-  const called = ({zh, title, label}) => (chinese() && zh) || title || label || "";
+  const called = ({zh, title, label}) => (chinese() && zh) || t(title || label || "");
 
   function learn(list) {
     groups = new Map(list.map(group => [group.key, group]));

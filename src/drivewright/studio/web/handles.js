@@ -32,8 +32,8 @@ export function createHandles(getPlayer, tools) {
   const layer = element("div", {class: "hd-layer", role: "group"}), guides = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   const bubble = element("output", {class: "hd-bubble", hidden: ""});
   const names = createNames(tools);
-  let packed = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
-  guides.setAttribute("class", "hd-guides");
+  let packed = [], bodies = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
+  guides.setAttribute("class", "hd-guides"); guides.setAttribute("aria-hidden", "true");
   layer.append(guides, bubble);
 
   const drag = createDrag({layer, guides, bubble, place, others, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
@@ -51,6 +51,7 @@ export function createHandles(getPlayer, tools) {
   function load(scene) {
     const next = scene?.handles || [], same = next.length === packed.length && next.every(({key}, n) => key === packed[n].key);
     packed = next;
+    bodies = scene?.bodies || [];
     if (!same) {
       buttons.forEach(button => button.remove());
       buttons = packed.map((handle, n) => createButton(handle, n));
@@ -65,14 +66,20 @@ export function createHandles(getPlayer, tools) {
   }
   /** What each is called, with its numbers. */
   function name() {
-    layer.setAttribute("aria-label", t("Handles of the drawing"));
+    layer.setAttribute("aria-label", t("Handles of the drawing: arrow keys move, with Shift further, Enter types numbers, Esc takes back"));
     packed.forEach((handle, n) => {
       const numbers = numbersOf(handle, fields), button = buttons[n], called = names.of(handle);
       const locked = Boolean(numbers?.some(({key}) => isLocked(key)));
       button.disabled = !numbers || locked;
       button.setAttribute("aria-label", `${called}: ${(numbers || []).map(({value, unit}) => `${value} ${unit}`.trim()).join(", ")}`);
-      button.title = locked ? `${called} (${t("locked")})` : called;
+      button.title = locked ? `${called} (${t("locked")})` : "";  // what can be moved says its name beside it
+      button.style.setProperty("--of", colourOf(handle));
     });
+  }
+  /** The colour of the body that a handle belongs to, so that two on one joint can be told apart. */
+  function colourOf({body}) {
+    const role = bodies[body]?.colour;
+    return role && role !== "ground" ? `var(--${role})` : "";
   }
   /** Whether a key, or the point that it is a part of, is locked. */
   const isLocked = key => store.state.design.locks.some(lock => lock === key || key.startsWith(`${lock}.`));

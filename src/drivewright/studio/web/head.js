@@ -86,7 +86,11 @@ export function createHead(host, {store, say, t}) {
     notice.hidden = false;
     hide = setTimeout(() => { notice.hidden = true; }, NOTICE);
   }
-  function fresh(kind, preset) { chosen = preset || ""; say({what: "fresh", kind, preset}); }
+  function fresh(kind, preset) {
+    chosen = preset || "";
+    store.set({building: Boolean(preset) && store.state.kinds.find(each => each.kind === kind)?.start === preset});  // such a design opens ready to be built on
+    say({what: "fresh", kind, preset});
+  }
   function example(name) { chosen = ""; say({what: "example", name}); }
 
   // ---- its parts
@@ -107,7 +111,7 @@ export function createHead(host, {store, say, t}) {
     dot: element("span", {class: "st-dot", title: t("not saved yet")}), preset: presetChoice(),
     fresh: button({id: "new", sign: "plus", title: t("New design"), text: t("New"), ...hanging("menu")},
       made => popovers.toggle(made, "menu", t("New design"), designs)),
-    keys: button({id: "keys", sign: "ruler", title: t("What the keys measure"), long: t("What the keys measure"), ...hanging("dialog")},
+    keys: button({id: "keys", sign: "dimension", title: t("What the keys measure"), long: t("What the keys measure"), ...hanging("dialog")},
       made => popovers.toggle(made, "dialog", t("What the keys measure"), () => drawings(store, t))),
     undo: button({id: "undo", sign: "undo", title: `${t("Undo")} (Ctrl+Z)`}, () => say({what: "undo"})),
     redo: button({id: "redo", sign: "redo", title: `${t("Redo")} (Ctrl+Y)`}, () => say({what: "redo"})),
@@ -133,7 +137,7 @@ export function createHead(host, {store, say, t}) {
   });
 
   function build() {
-    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste(),};
+    const p = parts = {...design(), ...comparison(), ...exchange(), ...taste()}, focused = bar.contains(document.activeElement) ? document.activeElement.dataset.testid : "";
     popovers.close(false);
     overflow?.stop();
     overflow = createOverflow(t, [rule(), p.preset, held(p.keys), element("i", {class: "st-space"}),
@@ -143,6 +147,7 @@ export function createHead(host, {store, say, t}) {
       element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.undo, p.redo, p.save, overflow.button, overflow.list);
     files.reword();
     showDesign(); showReference(); showJobs(); showTheme();
+    if (focused) bar.querySelector(`[data-testid="${focused}"]`)?.focus();
   }
 
   // ---- what they show

@@ -19,7 +19,7 @@ const PLACES = [["header", "head", createHead], ["aside", "form", createForm], [
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
-    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, parts: {}, setup: null, ...taste()});
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, setup: null, ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
   const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside
@@ -81,7 +81,7 @@ function createEar(store, begin) {
       store.set({refused: {...before, [key]: {text: null, message}}, work: IDLE, result: unsolved(state.result)});
     },
     outdated: () => state.result && store.set({result: stale(state.result)}),
-    result: ({gen, full, result}) => gen >= since && store.set({result: {...result, gen, full}}),
+    result: ({gen, full, result}) => gen >= since && store.set({result: isBare(result) && state.result ? {...unsolved(state.result), gen, verdict: result.verdict, findings: result.findings} : {...result, gen, full}}),
     differences: ({differences}) => state.result && store.set({result: {...state.result, differences}}),
     reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
     work: message => store.set({work: message.state === "lost" ? {...IDLE, state: "lost"} : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
@@ -100,6 +100,9 @@ function createEar(store, begin) {
 function unsolved(result) {
   return result && {...stale(result), unsolved: true, verdict: {state: "bad", text: "no solution", stale: true}};
 }
+
+/** A run that ended before it had anything to show: what was shown last stays, so that nothing jumps under a hand. */
+const isBare = ({plots, checks, values}) => !plots && !checks.length && !values.length;
 
 /** A result that a change has overtaken. */
 const stale = result => ({...result, full: false, verdict: {...result.verdict, stale: true}, checks: result.checks.map(check => ({...check, stale: true}))});

@@ -1,6 +1,7 @@
 // Measuring on the drawing: points, lines and circles are picked, their distance, angle or radius is told now and over the cycle.
 
 import { distanceTo, featuresOf } from "./features.js";
+import { createNames } from "./handle_names.js";
 import { icon } from "./icons.js";
 import { dimension } from "./measure_lines.js";
 import { createMeasureList } from "./measure_list.js";
@@ -17,11 +18,11 @@ const SVG = "http://www.w3.org/2000/svg";
  * draw(), reword(), destroy()}.  They outlive every change of the design, and end with another drive.
  */
 export function createMeasure(getPlayer, tools) {
-  const {t, clock} = tools;
+  const {store, t, clock} = tools, names = createNames(tools);
   const layer = document.createElementNS(SVG, "svg"), lines = document.createElementNS(SVG, "g"), mark = document.createElementNS(SVG, "g");
   const bubble = element("output", {class: "hd-bubble", hidden: ""}), cover = element("div", {class: "ms-layer"});
   const button = pressable({class: "dw-button ms-toggle", "data-testid": "measure", "aria-pressed": "false"}, () => toggle(!on), icon("ruler"));
-  const list = createMeasureList(tools, {choose, pick, remove, close: () => toggle(false)});
+  const list = createMeasureList(tools, {choose, pick, remove, close: () => toggle(false)}, names.of);
   let on = false, kind = "distance", picked = [], features = [], measures = [], cycle = null, count = 0, stage = null, pressed = null;
   layer.append(lines, mark);
   layer.setAttribute("class", "ms-svg"); layer.setAttribute("aria-hidden", "true");
@@ -162,10 +163,11 @@ export function createMeasure(getPlayer, tools) {
     tell();
   }
   reword();
+  const stop = store.on(["design"], ({design}) => { names.learn(design?.form?.groups || []); tell(); });
   return {
     button, attach, load, draw, reword, active: () => on,
     /** Another scene comes: nothing is drawn until it is there; another drive begins with no measurements. */
     expect(afresh) { if (afresh) { measures = []; picked = []; } picked = picked.map(({ref}) => ({ref, body: -1, point: [0, 0]})); for (const measure of measures) measure.course = null; },
-    destroy() { for (const [name, act] of Object.entries(EVENTS)) stage?.removeEventListener(name, act); cover.remove(); list.destroy(); },
+    destroy() { stop(); for (const [name, act] of Object.entries(EVENTS)) stage?.removeEventListener(name, act); cover.remove(); list.destroy(); },
   };
 }

@@ -1,14 +1,18 @@
 // The panel of the measurements: what kind to make, what to pick next, and the list of those that there are, each with its course.
 
 import { icon } from "./icons.js";
-import { cycleText, textOf } from "./measures.js";
+import { cycleText, panelOf, textOf } from "./measures.js";
 import { button, pressable, put, same } from "./parts.js";
 import { element, fixed } from "./player.js";
+import { csvText, saveText, svgText } from "./plotfiles.js";
+import { axisOf } from "./plotting.js";
+import { createScaling } from "./scaling.js";
 
 const SVG = "http://www.w3.org/2000/svg", WIDE = 200, TALL = 30, EDGE = 3;  // of the small plot
 
-/** The panel; `acts` are {choose(kind), pick(feature), remove(id), close()}. */
-export function createMeasureList({t, clock}, acts) {
+/** The panel; `acts` are {choose(kind), pick(feature), remove(id), close()}, `nameOfHandle(handle)` the name of a point that a hand can move. */
+export function createMeasureList(tools, acts, nameOfHandle) {
+  const {store, t, clock} = tools;
   const node = element("section", {class: "ms", "data-testid": "measure-panel", hidden: ""});
   node.addEventListener("keydown", event => { if (event.key !== "Escape") event.stopPropagation(); });  // the player has keys of its own
   let rows = new Map(), parts = null, state = null, told = [], phase = 0;
@@ -16,7 +20,7 @@ export function createMeasureList({t, clock}, acts) {
   const words = () => ({distance: t("Distance"), horizontal: t("Horizontal"), vertical: t("Vertical"), angle: t("Angle"), radius: t("Radius")});
   const hints = () => ({point: t("Pick a point on the drawing"), line: t("Pick the other edge"), circle: t("Pick a circle or an arc"), both: t("Pick three points, or two edges")});
   /** What a feature is called: its own name, or what it is a part of. */
-  const nameOf = ({label, of}) => label.includes("*") ? t(label, t(of)) : t(label);
+  const nameOf = ({label, of, handle}) => handle ? nameOfHandle(handle) : label.includes("*") ? t(label, t(of)) : t(label) || t(of);
 
   function reword() {
     const kinds = words(), made = Object.entries(kinds).map(([kind, text]) => pressable({"data-kind": kind, "data-testid": `measure-${kind}`}, () => acts.choose(kind), text));
@@ -28,6 +32,7 @@ export function createMeasureList({t, clock}, acts) {
       hint: element("p", {class: "ms-hint", role: "status"}), list: element("ul", {class: "ms-list", "data-testid": "measure-list", "aria-label": t("Measurements")}),
     };
     parts.tool = element("div", {class: "ms-tool"}, element("div", {class: "ms-top"}, parts.kinds, close), parts.hint, element("div", {class: "ms-pick"}, choice, take));
+    movable(parts.tool.firstChild, node);
     node.setAttribute("aria-label", t("Measurements"));
     node.replaceChildren(parts.tool, parts.list);
     rows = new Map();
@@ -70,6 +75,7 @@ export function createMeasureList({t, clock}, acts) {
   }
   function createRow({id, kind, role}) {
     const name = element("span", {class: "ms-name"}), value = element("b", {"data-testid": "measure-value"}), ends = element("small", {"data-testid": "measure-ends"});
+    const range = element("span", {class: "ms-range", "data-testid": "measure-range"}), files = element("span", {class: "ms-files"});
     const plot = document.createElementNS(SVG, "svg"), path = document.createElementNS(SVG, "path"), cursor = document.createElementNS(SVG, "line");
     const drop = pressable({class: "ms-drop", "data-testid": "measure-drop"}, () => acts.remove(id), icon("cross"));
     plot.setAttribute("viewBox", `0 0 ${WIDE} ${TALL}`); plot.setAttribute("preserveAspectRatio", "none"); plot.setAttribute("class", "ms-plot"); plot.setAttribute("aria-hidden", "true");
@@ -78,20 +84,42 @@ export function createMeasureList({t, clock}, acts) {
     const follow = event => { const box = plot.getBoundingClientRect(); clock.pause(); clock.set((event.clientX - box.left) / box.width); };
     plot.addEventListener("pointerdown", event => { plot.setPointerCapture(event.pointerId); follow(event); });
     plot.addEventListener("pointermove", event => { if (plot.hasPointerCapture(event.pointerId)) follow(event); });
-    const made = element("li", {class: "ms-row", "data-kind": kind, style: `--chip: var(--${role})`}, element("i", {}), name, value, drop, ends, plot);
-    return {node: made, name, value, ends, drop, path, plot, cursor};
+    const made = element("li", {class: "ms-row", "data-kind": kind, style: `--chip: var(--${role})`}, element("i", {}), name, value, drop, range, files, ends, plot);
+    const row = {node: made, name, value, range, files, saves: [], ends, drop, path, plot, cursor};
+    row.scale = createScaling(range, tools, () => lengthOf(state.measures.find(measure => measure.id === id)));
+    row.saves = [["svg", "image/svg+xml", state => svgText(state, store.state.design.title)], ["csv", "text/csv", csvText]].map(([ending, type, text]) =>
+      pressable({class: "bt-export", "data-testid": `measure-${ending}`}, () => saveText(`${store.state.design.name || store.state.design.kind}-${kind}.${ending}`, type, text(plotOf(id, role))), ending.toUpperCase()));
+    files.append(row.scale.node, ...row.saves);
+    return row;
   }
+  /** What of a measured length has a size of its own: its range where it moves. */
+  const lengthOf = ({course}) => course.constant ? Math.abs(course.high) : course.high - course.low;
+  /** The course of a measurement as the plot that files show. */
+  function plotOf(id, role) {
+    const {kind, now, course} = state.measures.find(measure => measure.id === id);
+    const axis = axisOf({}, {marks: [], ...state.cycle});
+    return {panel: panelOf(titleOf(kind, now), kind, course, role), axis: {...axis, label: t(axis.label)}, behind: []};
+  }
+  const titleOf = (kind, features) => `${words()[kind]}: ${features.map(nameOf).join(" – ")}`;
   function fill(row, {kind, parts: first, now, course}) {
-    const features = now?.every(Boolean) ? now : first, title = `${words()[kind]}: ${features.map(nameOf).join(" – ")}`;
+    const features = now?.every(Boolean) ? now : first, title = titleOf(kind, features), moves = Boolean(course) && !course.constant;
     put(row.name, title);
     row.name.title = title;
     row.drop.title = t("Remove this measurement");
     row.drop.setAttribute("aria-label", `${row.drop.title}: ${title}`);
-    row.plot.style.display = !course || course.constant ? "none" : "";
+    row.plot.style.display = moves ? "" : "none";
+    row.range.hidden = !moves;
+    row.scale.show(Boolean(course) && ["distance", "horizontal", "vertical"].includes(kind) && lengthOf({course}) > 0);
+    if (moves) put(row.range, t("range *", textOf(kind, course.high - course.low)));
+    for (const made of row.saves) {
+      made.hidden = !moves;
+      made.title = t("Download this plot as *", made.textContent);
+      made.setAttribute("aria-label", `${title}: ${made.title}`);
+    }
     if (!course) { put(row.value, "–"); put(row.ends, t("not in this design")); return; }
     put(row.ends, course.constant ? t("constant over the cycle") : t("min * at * · max * at *", textOf(kind, course.low), cycleText(state.cycle, course.lowAt),
       textOf(kind, course.high), cycleText(state.cycle, course.highAt)));
-    if (!course.constant) row.path.setAttribute("d", pathOf(course));
+    if (moves) row.path.setAttribute("d", pathOf(course));
   }
   function pathOf({u, values, low, high}) {
     const step = Math.max(1, Math.floor(u.length / 240)), points = [];
@@ -109,4 +137,24 @@ export function createMeasureList({t, clock}, acts) {
     }
   }
   return {node, show, reword, follow, nameOf, destroy() { node.remove(); }};
+}
+
+/** Drags `node` by its `grip`, within what it lies upon: a panel that covers what is to be picked is put aside. */
+function movable(grip, node) {
+  let from = null, [x, y] = (node.dataset.place || "0 0").split(" ").map(Number);
+  grip.addEventListener("pointerdown", event => {
+    if (event.button !== 0 || event.target.closest("button")) return;
+    event.preventDefault(); event.stopPropagation();
+    grip.setPointerCapture(event.pointerId);
+    from = [event.clientX - x, event.clientY - y];
+  });
+  grip.addEventListener("pointermove", event => {
+    if (!from) return;
+    const room = node.parentElement.getBoundingClientRect(), box = node.getBoundingClientRect(), home = [box.left - x, box.top - y];
+    x = Math.min(Math.max(event.clientX - from[0], room.left - home[0]), room.right - home[0] - box.width);
+    y = Math.min(Math.max(event.clientY - from[1], room.top - home[1]), room.bottom - home[1] - box.height);
+    node.dataset.place = `${x} ${y}`;
+    node.style.transform = `translate(${x}px, ${y}px)`;
+  });
+  for (const name of ["pointerup", "pointercancel"]) grip.addEventListener(name, () => { from = null; });
 }

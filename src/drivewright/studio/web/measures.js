@@ -45,6 +45,13 @@ export function courseOf(kind, parts, player) {
   return {u, values, low: values[low], high: values[high], lowAt: u[low], highAt: u[high], constant: values[high] - values[low] <= noise};
 }
 
+/** The course as a panel of a plot over the cycle, for files of it. */
+export function panelOf(title, kind, {u, values, low, high}, role) {
+  const [factor, unit] = kind === "angle" ? [180 / Math.PI, "°"] : [1e3, "mm"], air = (high - low || Math.abs(high) || 1) * 0.06;
+  return {title, u, style: "line", shade: [], limits: [], low: (low - air) * factor, high: (high + air) * factor,
+    series: [{label: title, unit, role, ends: [], values: values.map(value => value * factor)}]};
+}
+
 /** A value as text: millimetres, degrees. */
 export const textOf = (kind, value) => kind === "angle" ? `${fixed(value * 180 / Math.PI, 2)}°` : `${fixed(value * 1e3, 3)}\u00a0mm`;
 

@@ -18,7 +18,7 @@ const tidy = value => Number(value.toPrecision(12));
  */
 export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, hold, select, tools}) {
   const {say, t, clock} = tools, bubble = element("output", {class: "hd-bubble", hidden: ""}), nudges = createGesture("programme");
-  let buttons = new Map(), grip = null, pending = 0, swept = false;
+  let buttons = new Map(), grip = null, pending = 0, swept = false, nudged = null;  // nudged: {id, gesture} of the last arrow key
   layer.append(bubble);
 
   // ---- what each button moves: {kind, n, k}
@@ -100,7 +100,8 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
   /** Moves the lift at the end of segment `n`; the next segment that moves takes up the difference. */
   function moveLift(n, to, snap, gesture) {
     const {segments} = drawn(), other = partnerOf(segments, n), [own, next] = numbersOf({kind: "lift", n}), step = stepOf(own);
-    const levels = segments.filter((_, k) => k !== n && k !== other - 1).map(segment => segment.from), upon = snap && levels.find(level => Math.abs(plot.toY(level) - plot.toY(to)) < NEAR);
+    const levels = segments.filter((_, k) => k < n || k > other).map(segment => segment.from);  // the others move along
+    const upon = snap && levels.find(level => Math.abs(plot.toY(level) - plot.toY(to)) < NEAR);
     const onLevel = typeof upon === "number" && Math.abs(upon - segments[n].from) > 1e-9 ? upon : null;
     const wanted = (onLevel ?? to) - segments[n].from, exact = wanted / own.factor;
     const rise = tidy(Math.round((onLevel === null ? onGrid(exact, snap ? step : step / 10) : exact) * 1e5) / 1e5);  // courses are single precision
@@ -127,6 +128,7 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
   const pixel = event => { const area = stage.getBoundingClientRect(); return [event.clientX - area.left, event.clientY - area.top]; };
   function press(event, made, thing) {
     event.preventDefault(); event.stopPropagation();
+    if (grip) return;  // another finger has one
     const [x, y] = pixel(event), [ox, oy] = at(thing, drawn().segments[thing.n]);
     made.focus({preventScroll: true});
     made.setPointerCapture(event.pointerId);
@@ -177,12 +179,20 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
   function keys(event, {kind, n, k}) {
     const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key], times = event.shiftKey ? 10 : 1, segment = drawn().segments[n];
     if (event.key === "Escape" && grip) { const {gesture} = grip; event.preventDefault(); event.stopPropagation(); end(); hold(null); say({what: "revert", gesture}); return; }
+    if (event.key === "Escape" && nudged?.id === idOf({kind, n, k})) {  // the steps of the arrow keys before it
+      event.preventDefault(); event.stopPropagation();
+      say({what: "revert", gesture: nudged.gesture});
+      nudged = null; nudges.end();
+      return;
+    }
     if (!step || !(kind === "point" || numbersOf({kind, n}).every(Boolean))) return;
     event.preventDefault(); event.stopPropagation();
-    const [dx, dy] = step;
-    if (kind === "border") moveBorder(n, segment.start + (dx + dy) * times * DEGREE, false, nudges.next());
-    else if (kind === "lift") { const [own] = numbersOf({kind, n}); moveLift(n, segment.to + (dx + dy) * times * stepOf(own) * own.factor, false, nudges.next()); }
-    else movePoint(n, k, [segment.points[k][0] + dx * times * 0.01, segment.points[k][1] + dy * times * 0.01], nudges.next());
+    const [dx, dy] = step, id = idOf({kind, n, k});
+    if (nudged?.id !== id) nudges.end();
+    nudged = {id, gesture: nudges.next()};
+    if (kind === "border") moveBorder(n, segment.start + (dx + dy) * times * DEGREE, false, nudged.gesture);
+    else if (kind === "lift") { const [own] = numbersOf({kind, n}); moveLift(n, segment.to + (dx + dy) * times * stepOf(own) * own.factor, false, nudged.gesture); }
+    else movePoint(n, k, [segment.points[k][0] + dx * times * 0.01, segment.points[k][1] + dy * times * 0.01], nudged.gesture);
     hold(null);
   }
   /** A typed angle or rise of segment `n`: the border behind it moves, or the one before the last; the lift at its end, or at its start. */

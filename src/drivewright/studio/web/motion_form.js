@@ -16,7 +16,7 @@ export function createMotionForm(host, tools) {
   const canvas = element("canvas", {class: "mf-canvas"}), cursor = element("div", {class: "dw-cursor mf-cursor"}), layer = element("div", {class: "mf-layer"});
   const stage = element("div", {class: "mf-stage", "data-testid": "programme"}, canvas, cursor, layer), bar = element("div", {class: "mf-bar"}), status = element("p", {class: "mf-status", role: "status", "data-testid": "programme-continuity"});
   let programme = null, packed = null, fields = new Map(), selected = 0, held = null, opened = false, timer = 0;
-  let shown = null, design = null, current = true;  // as drawn; as the form has it; whether the segments of both are the same
+  let drive = null, shown = null, design = null, current = true;  // the drive that all of it belongs to; as drawn; as the form has it; whether the segments of both are the same
   host.classList.add("mf");
   host.append(bar, stage, status);
   const theme = watchTheme(host, () => render()), plot = createMotionPlot(canvas, () => place());
@@ -60,8 +60,16 @@ export function createMotionForm(host, tools) {
     }
     return {...programme, segments: made};
   }
+  /** The segment that states no angle has the rest of the turn: its field gets that number. */
+  function complete() {
+    const {list, keys, cycle} = programme, angles = [];
+    for (let n = 0; fields.has(`${list}.${n}.${keys.angle}`); n++) angles.push([`${list}.${n}.${keys.angle}`, fields.get(`${list}.${n}.${keys.angle}`)]);
+    const open = angles.filter(([, {value}]) => typeof value !== "number"), given = angles.reduce((sum, [, {value, unit}]) => sum + (typeof value === "number" ? value * (FACTORS[unit] || 1) : 0), 0);
+    if (open.length === 1) fields.set(open[0][0], {...open[0][1], value: tidy((cycle.span - given) / FACTORS.deg), unit: "deg"});
+  }
   function render() {
     if (!programme || !opened) return;
+    complete();
     design = readDesign();
     current = design.segments.length === programme.segments.length && design.segments.every(({law}, n) => law === programme.segments[n].law);
     const own = name => current ? designed(name) : programme.segments.map(segment => segment[name]);
@@ -121,7 +129,7 @@ export function createMotionForm(host, tools) {
   function arrange(elements) { waiting = true; say({what: "arrange", list: programme.list, elements}); fill(); }
   function fill() {
     const segment = design?.segments[selected];
-    if (!segment || !parts) return;
+    if (!segment || !parts || !opened) return;  // a pane that is not seen knows an older design
     const fixed = segment.absolute, choices = design.laws.map(({name}) => name), all = choices.includes(segment.law) ? choices : [segment.law, ...choices];
     put(parts.name, t("Segment * of *", selected + 1, design.segments.length));
     if (parts.law.dataset.all !== all.join()) { parts.law.dataset.all = all.join(); parts.law.replaceChildren(...all.map(name => element("option", {value: name}, t(name)))); }
@@ -145,6 +153,7 @@ export function createMotionForm(host, tools) {
   }
   function designChanged({design: next}) {
     waiting = false;
+    if (next?.opened !== drive) { drive = next?.opened; programme = packed = shown = design = held = null; selected = 0; }
     fields = new Map((next?.form?.groups || []).flatMap(group => group.fields.map(field => [field.key, field])));
     if (held && !drag.held() && programme && Object.entries(held).every(([name, value]) => {
       const own = number(...[0, 1].map(k => k ? name.split(" ")[1] : Number(name.split(" ")[0])));

@@ -1,6 +1,6 @@
 // Numbers as people type them and read them.
 
-const TYPED = /^\s*([+-−]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
+const TYPED = /^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*?)\s*$/i;
 const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
 /** [number, unit] of a typed text as "60 rpm", or null. */

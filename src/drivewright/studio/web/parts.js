@@ -1,25 +1,17 @@
 // Small parts that several modules are made of: buttons, lists that hang below a button, progress and outcome of a job.
 
 import { icon } from "./icons.js";
-import { element } from "./player.js";
+import { element, pressable } from "./player.js";
+
+export { pressable, same } from "./player.js";
 
 /** Set a text only where it differs: layout costs more than comparing. */
 export function put(node, text) { if (node.firstChild?.data !== text) node.textContent = text; }
-
-/** Whether two lists have the same entries. */
-export const same = (a, b) => a === b || (a && b && a.length === b.length && a.every((x, n) => x === b[n]));
 
 /** The theme that is seen: the chosen one, else the reader's. */
 export const themeOf = ({theme}) => theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
 
 // ------------------------------------------------------------------------------------------------------------------- buttons
-
-/** A button with what is in it; `act(button)` when it is pressed. */
-export function pressable(attributes, act, ...inside) {
-  const made = element("button", {type: "button", ...attributes}, ...inside);
-  made.addEventListener("click", () => act(made));
-  return made;
-}
 
 /** A button of words, which looks "plain", "main", "quiet" or "jump". */
 export const button = (text, act, {testid, look = "plain", title} = {}) =>

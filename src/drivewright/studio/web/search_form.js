@@ -107,7 +107,7 @@ export function createSearchForm(tools, closed) {
     part(t("What may change"), keys.node), part(t("What is wanted"), goals.node), part(t("Checks to respect"), needs.node),
     part(t("How it searches"), element("label", {class: "sf-pair"}, t("Method"), method), element("label", {class: "sf-pair"}, t("Designs to try at most"), budget)),
     element("div", {class: "sf-foot"}, wrong, estimate, element("div", {class: "pn-row"}, start, away)));
-  let table = null, ready = false;
+  let table = null, ready = false, among = [];
 
   function size(several) { return members(keys.chosen().length, several, table?.population); }
   function content() {
@@ -131,6 +131,7 @@ export function createSearchForm(tools, closed) {
     return each > 0 ? Math.min(USUAL, Math.max(64, Math.round(LONG / each / 10) * 10)) : USUAL;
   }
   function load({keys: found, optimise}) {
+    among = found;
     table = optimise;
     ready = false;
     keys.load(found.filter(({kind}) => kind !== "choice" && kind !== "flag"), Object.fromEntries((optimise?.unknowns || []).map(one => [one.key, one])));
@@ -138,7 +139,7 @@ export function createSearchForm(tools, closed) {
     needs.load(optimise);
     method.value = optimise?.method || "auto";
     const several = method.value === "nsga2" || (optimise?.objectives || []).length > 1;
-    budget.value = String(optimise?.generations ? designsOf(optimise.generations, size(several), several) : usual());
+    budget.value = optimise?.budget ?? String(optimise?.generations ? designsOf(optimise.generations, size(several), several) : usual());
     ready = true;
     changed();
   }
@@ -146,6 +147,8 @@ export function createSearchForm(tools, closed) {
   budget.addEventListener("input", changed);
   return {
     node, load,
+    /** What load() takes to come back to what is in the form now. */
+    draft: () => ({keys: among, optimise: {...table, ...content(), budget: budget.value}}),
     result() { if (ready) { goals.refresh(); needs.draw(); changed(); } },
     refused(text) { wrong.hidden = !text; put(wrong, text); },
   };

@@ -2,16 +2,19 @@
 
 import { learn, secondsOf } from "./costs.js";
 import { button } from "./parts.js";
+import { refusedText } from "./words.js";
 
 const SHORT = 20;  // seconds of all analyses up to which they are timed once more, without compiling
 
 /**
+ * What is in an open form is kept in the store while the column is made anew in another language.
  * `create(tools, closed)` makes the form of the table `name`.  Returns {node, opener, open(), wanted() -> whether the design lacks its table,
  * follow(job), stops}; `opener` is the button that opens it.
  */
 export function createSetup(name, words, tools, create) {
   const {store, say} = tools, form = create(tools, close), opener = button(words, open, {testid: `setup-${name}`});
-  let shown = false, before = null, drive = null;
+  opener.setAttribute("aria-label", form.node.getAttribute("aria-label"));  // there are two of them
+  let shown = false, asked = false, before = null, drive = null, was = null;  // before: proposals that were there when others were asked for
   form.node.hidden = true;
 
   function open() {
@@ -19,6 +22,7 @@ export function createSetup(name, words, tools, create) {
     form.node.hidden = false;
     form.refused("");
     toTop();
+    asked = true; before = store.state.proposals;
     say({what: "propose"});
     if (!store.state.jobs?.timing && (secondsOf(store) ?? 0) < SHORT) say({what: "job", name: "timing", options: {}});
   }
@@ -29,15 +33,17 @@ export function createSetup(name, words, tools, create) {
   }
   /** While its job runs the form is out of the way; it comes back with the reason where the job fails. */
   function follow({state, text}) {
+    const ended = was === "running" && (state === "done" || state === "cancelled");
+    was = state;
     if (!shown) return;
-    if (state === "done" || state === "cancelled") close();
+    if (ended) close();
     form.node.hidden = !shown || state === "running";
-    if (state === "failed") form.refused(text);
+    if (state === "failed") form.refused(refusedText(text, tools.t));
   }
-  /** What is refused of its table. */
+  /** What is refused of its table, or of what was asked for in the form. */
   function refused({refused = {}}) {
-    const own = Object.entries(refused).filter(([key]) => key === "" || key === name || key.startsWith(`${name}.`));
-    if (own.length || !shown) form.refused(own.map(([, {message}]) => message).join("\n"));
+    const own = Object.entries(refused).filter(([key]) => key === "" && form.node.contains(document.activeElement) || key === name || key.startsWith(`${name}.`));
+    if (own.length || !shown) form.refused(own.map(([, {message}]) => refusedText(message, tools.t)).join("\n"));
   }
   function designed({design}) {
     if (design && design.opened !== drive) { drive = design.opened; close(); }
@@ -51,10 +57,18 @@ export function createSetup(name, words, tools, create) {
     if (shown) form.result();
   }
   const stops = [store.on(["jobs"], timing),
-    store.on(["proposals"], ({proposals}) => { if (proposals && shown && proposals !== before) { before = proposals; form.load(proposals); } }),
+    store.on(["proposals"], ({proposals}) => { if (asked && proposals && proposals !== before) { asked = false; form.load(proposals); } }),
     store.on(["setup"], ({setup}) => { if (setup === name) { store.set({setup: null}); open(); } }),
     store.on(["result"], () => { learn(store); if (shown) form.result(); }), store.on(["refused"], refused), store.on(["design"], designed),
+    () => keep(shown ? form.draft() : null),
   ];
+  const keep = draft => store.set({drafts: {...store.state.drafts, [name]: draft}}), draft = store.state.drafts?.[name];
+  if (draft) {
+    keep(null);
+    shown = true;
+    form.node.hidden = false;
+    form.load(draft);
+  }
   return {
     node: form.node, opener, open, follow, stops,
     wanted: () => !store.state.design?.form.groups.some(group => group.key === name && group.present !== false && (group.fields.length || group.role === "table")),

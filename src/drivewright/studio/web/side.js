@@ -97,7 +97,7 @@ function createNumbers(host, {store, t}) {
 
 function createFindings(host, {store, t}) {
   const count = element("span", {class: "sd-count"}), list = element("ul", {});
-  const node = element("details", {class: "sd-findings"}, element("summary", {}, t("Findings"), count), list);
+  const node = element("details", {class: "sd-findings"}, element("summary", {}, t("Findings"), " ", count), list);
   let before = null;
   host.append(node);
   return [store.on(["result"], ({result}) => {

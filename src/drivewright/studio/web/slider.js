@@ -48,7 +48,10 @@ export function createSlider(row, {bounds, t, moved, ended}) {
     span = [low, high];
     step = stepOf(field, span);
     range.min = low; range.max = high; range.step = step;
-    ends.forEach((end, index) => { end.textContent = short(span[index]); });
+    ends.forEach((end, index) => {
+      end.textContent = short(span[index]);
+      end.setAttribute("aria-label", `${t(index ? "Upper end of the slider" : "Lower end of the slider")}: ${end.textContent}`);
+    });
   }
   function paint() { range.style.setProperty("--part", (range.value - span[0]) / (span[1] - span[0] || 1)); }
   function show(field) {

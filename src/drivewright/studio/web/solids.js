@@ -1,11 +1,10 @@
 // The solids of a design: its parts, asked for when the pane opens, and the fields that analyses compute on them, on request.
 
 import { createAsked } from "./asked.js";
-import { createAssemblyBar } from "./assembly_bar.js";
+import { createAssembly } from "./assembly_bar.js";
 import { createFields, titleOf } from "./deformed.js";
 import { pressable } from "./parts.js";
 import { element } from "./player.js";
-import { createSolid } from "./solid.js";
 
 const PARTS = "";  // what is shown unless an analysis is chosen
 
@@ -14,20 +13,14 @@ export function createSolids(host, tools) {
   const {store, t, clock} = tools;
   const row = element("div", {class: "so-modes", role: "group", "aria-label": t("What is shown"), hidden: ""});
   const geometry = element("div", {class: "so-pane"}), place = element("div", {class: "so-pane", hidden: ""});
-  let viewer = null, fields = null, chosen = PARTS, opened = false;
-  const bar = createAssemblyBar(() => viewer, tools), stage = element("div", {class: "so-stage"});
+  let assembly = null, fields = null, chosen = PARTS, opened = false;
   host.append(row, geometry, place);
 
   function shown(body, answer) {
-    body.classList.add("vw-solid", "so-assembly");
-    if (!viewer) {
-      body.replaceChildren(bar.node, stage);
-      viewer = createSolid(stage, {t});
-    }
-    viewer.load(answer);
-    bar.show(viewer.moving);
-    clock.see(stage, opened && viewer.moving);
-    viewer.highlight(store.state.lit);
+    body.classList.add("vw-solid");
+    assembly ||= createAssembly(body, {t, clock});
+    assembly.load(answer);
+    assembly.highlight(store.state.lit);
     offer(answer.analyses || []);
   }
   /** A button for the parts and one for each analysis with fields. */
@@ -51,7 +44,7 @@ export function createSolids(host, tools) {
   }
   const pane = createAsked(geometry, "solid", tools, {wanted: t("Solid parts of this design"), shown});
   const stops = [
-    store.on(["lit"], ({lit}) => viewer?.highlight(lit)),
+    store.on(["lit"], ({lit}) => assembly?.highlight(lit)),
     store.on(["design"], (() => {
       let drive = store.state.design?.opened;
       return ({design}) => { if (design && design.opened !== drive) { drive = design.opened; offer([]); } };  // another drive has other analyses
@@ -59,8 +52,8 @@ export function createSolids(host, tools) {
   ];
   return {
     ...pane,
-    open() { opened = true; clock.see(stage, Boolean(viewer?.moving)); pane.open(); fields?.open(); },
-    close() { opened = false; clock.see(stage, false); pane.close(); },
-    destroy() { stops.forEach(stop => stop()); bar.destroy(); clock.see(stage, false); pane.destroy(); fields?.destroy(); viewer?.destroy(); },
+    open() { opened = true; pane.open(); fields?.open(); },
+    close() { opened = false; pane.close(); },
+    destroy() { stops.forEach(stop => stop()); pane.destroy(); fields?.destroy(); assembly?.destroy(); },
   };
 }

@@ -80,7 +80,7 @@ export function createStudyForm(tools, closed) {
   const node = element("div", {class: "sf", role: "group", "aria-label": t("Set up the study"), "data-testid": "study-form"},
     part(t("What varies"), keys.node), sampling, kept.node,
     element("div", {class: "sf-foot"}, wrong, estimate, element("div", {class: "pn-row"}, start, away)));
-  let ready = false;
+  let ready = false, among = [];
 
   const isRandom = entry => RANDOM.includes(entry.distribution) || entry.as_written;
   function content() {
@@ -106,6 +106,7 @@ export function createStudyForm(tools, closed) {
   }
   function load({keys: found, study}) {
     ready = false;
+    among = found;
     keys.load(found, Object.fromEntries((study?.vary || []).map(one => [one.key, one])));
     method.value = study?.method || METHODS[0];
     samples.value = String(study?.samples ?? SAMPLES);
@@ -117,6 +118,8 @@ export function createStudyForm(tools, closed) {
   node.addEventListener("input", changed);
   return {
     node, load,
+    /** What load() takes to come back to what is in the form now. */
+    draft: () => ({keys: among, study: {...content(), method: method.value, samples: samples.value}}),
     result() { if (ready) { kept.draw(); changed(); } },
     refused(text) { wrong.hidden = !text; put(wrong, text); },
   };

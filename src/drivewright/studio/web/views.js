@@ -6,7 +6,7 @@ import { createFigures } from "./figures.js";
 import { createHandles } from "./handles.js";
 import { createMeasure } from "./measure.js";
 import { createMotionForm } from "./motion_form.js";
-import { pressable } from "./parts.js";
+import { button, pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
 import { createStudies } from "./studies.js";
@@ -14,11 +14,12 @@ import { createStudies } from "./studies.js";
 // -------------------------------------------------------------------------------------------------------------------- motion
 
 const LATE = 4000;  // ms
+const ROOM = 0.35;  // of its size: a drawing to build on has room around it
 const FIRST = "the first drawing after installation compiles for up to a minute";
 
 /** The player, and what there is to say where nothing can be drawn.  `reword()` writes its words anew, and leaves the view as it is. */
 function createMotion(host, tools) {
-  const {store, t, clock, createPlayer} = tools;
+  const {store, say, t, clock, createPlayer} = tools;
   const stage = element("div", {class: "vw-player"}), note = element("div", {class: "vw-note", role: "status", hidden: ""});
   let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
   const handles = createHandles(() => player, tools), measure = createMeasure(() => player, tools);
@@ -31,8 +32,12 @@ function createMotion(host, tools) {
     shown = scene;
     measure.expect(afresh);
     handles.load(scene.scene); builder.load(scene.scene);  // before the player draws: what lies upon the drawing is that of its bodies
-    if (player) { player.load(packed); if (afresh) player.fit(); }
-    else {
+    if (player) {
+      player.load(packed);
+      if (afresh) player.fit();
+      if (afresh && builder.active()) { const {view} = player; view.zoom(ROOM, view.width / 2, view.height / 2); player.redraw(); }
+    }
+    if (!player) {
       player = createPlayer(stage, packed, {clock, text: t, picked, sides: () => diagrams.active() ? SIDES : 0, tools: () => [...handles.bar(), measure.button, builder.button],
         drawn: () => { if (player) { handles.draw(); measure.draw(); builder.draw(); diagrams.draw(); } }, held: () => handles.held() || builder.active()});
       player.stage.append(handles.layer, builder.layer);
@@ -45,10 +50,11 @@ function createMotion(host, tools) {
   function remark(scene) {
     const missing = scene && !scene.scene, words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? scene.remarks : [];
     const head = missing ? [element("b", {}, t("There is no motion to show"))] : [];
+    const back = missing && store.state.design?.undo ? [button(t("Undo"), () => store.state.design.undo && say({what: "undo"}), {testid: "note-undo"})] : [];
     stage.hidden = !player;
     stage.classList.toggle("is-old", Boolean(player) && !scene?.scene);
     note.hidden = Boolean(scene?.scene);
-    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text.replace(/^no motion to show: /, "")))));
+    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text.replace(/^no motion to show: /, "")))), ...back);
   }
   function update({scene}) {
     if (scene?.scene && scene !== shown) load(scene);

@@ -73,3 +73,11 @@ function filled(text, values) {
   let next = 0;
   return values.length ? text.replace(/\*/g, star => next < values.length ? String(values[next++]) : star) : text;
 }
+
+/** What was refused, in the language of the page, line by line; a line may begin with the key that it is about. */
+export function refusedText(text, t) {
+  return text.split("\n").map(line => {
+    const [, key, words] = /^(\s*[\w.-]+: )(.+)$/.exec(line) || [line, "", line];
+    return key && t(line) === line ? key + t(words) : t(line);
+  }).join("\n");
+}

@@ -1,0 +1,63 @@
+// As much of a browser's page as the studio's modules use, for tests that run them without one.
+
+class Style {
+  setProperty(name, value) { this[name] = value; }
+  removeProperty(name) { delete this[name]; }
+}
+
+class Classes extends Set {
+  contains(name) { return this.has(name); }
+  remove(...names) { names.forEach(name => this.delete(name)); }
+  toggle(name, on = !this.has(name)) { on ? this.add(name) : this.delete(name); return on; }
+}
+
+export class Part {
+  constructor(tag) {
+    Object.assign(this, {tagName: tag.toUpperCase(), children: [], attributes: {}, dataset: {}, style: new Style(), classList: new Classes(), listeners: {},
+      parentElement: null, hidden: false, value: "", clientWidth: 600, clientHeight: 400, offsetWidth: 50, offsetHeight: 20, box: {left: 0, top: 0, width: 600, height: 400}});
+  }
+  setAttribute(name, value) {
+    this.attributes[name] = String(value);
+    if (name === "class") String(value).split(" ").forEach(each => this.classList.add(each));
+    if (name.startsWith("data-")) this.dataset[name.slice(5)] = String(value);
+    if (name === "hidden") this.hidden = true;
+  }
+  getAttribute(name) { return this.attributes[name] ?? null; }
+  append(...parts) { for (const part of parts) { this.children.push(part); if (part instanceof Part) part.parentElement = this; } }
+  replaceChildren(...parts) { this.children = []; this.append(...parts); }
+  remove() { if (this.parentElement) this.parentElement.children = this.parentElement.children.filter(each => each !== this); }
+  contains(other) { return this === other || this.children.some(each => each instanceof Part && each.contains(other)); }
+  get textContent() { return this.children.map(each => each instanceof Part ? each.textContent : each).join(""); }
+  set textContent(text) { this.children = [text]; }
+  get firstChild() { const [first] = this.children; return typeof first === "string" ? {data: first} : first || null; }
+  addEventListener(name, act) { (this.listeners[name] ||= new Set()).add(act); }
+  removeEventListener(name, act) { this.listeners[name]?.delete(act); }
+  /** Tells an event to this part and those around it. */
+  fire(name, more = {}) {
+    let going = true;
+    const event = {type: name, target: this, button: 0, preventDefault() {}, stopPropagation() { going = false; }, ...more};
+    for (let at = this; at && going; at = at.parentElement) for (const act of [...at.listeners[name] || []]) act(event);
+  }
+  getBoundingClientRect() { return this.box; }
+  setPointerCapture() {}
+  focus() { document.activeElement = this; }
+  select() {}
+  /** All parts inside that a test id begins. */
+  named(start) { return this.all().filter(({dataset}) => (dataset.testid || "").startsWith(start)); }
+  all() { return this.children.filter(each => each instanceof Part).flatMap(each => [each, ...each.all()]); }
+  querySelectorAll(tag) { return this.all().filter(({tagName}) => tagName === tag.toUpperCase()); }
+}
+
+let frames = [];
+Object.assign(globalThis, {
+  document: {createElement: tag => new Part(tag), createElementNS: (_, tag) => new Part(tag), addEventListener() {}, activeElement: null, styleSheets: []},
+  requestAnimationFrame: act => frames.push(act),
+  cancelAnimationFrame: number => { if (number) frames[number - 1] = () => {}; },
+  addEventListener() {}, removeEventListener() {}, innerHeight: 900,
+});
+
+/** What waits for the next frame. */
+export function nextFrame() { const now = frames; frames = []; now.forEach(act => act()); }
+
+/** Words as they are in English. */
+export const t = (text, ...parts) => parts.reduce((all, part) => all.replace("*", part), text);
