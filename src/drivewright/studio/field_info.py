@@ -154,7 +154,7 @@ def _suggestions(field: PydanticField | None) -> tuple[str, ...]:
 
 
 def _of_a_part(field: PydanticField | None) -> tuple[str, tuple[str, ...]]:
-    """(name of the list that a bought part comes from, keys that override it): `json_schema_extra={"x-list": ..., "x-overrides": [...]}`."""
+    """(list that a bought part comes from, keys that override it): `json_schema_extra={"x-list": ..., "x-overrides": [...]}`."""
     extra = field.json_schema_extra if field is not None else None
     if not isinstance(extra, dict):
         return "", ()
