@@ -154,11 +154,11 @@ def _suggestions(field: PydanticField | None) -> tuple[str, ...]:
 
 
 def _of_a_part(field: PydanticField | None) -> tuple[str, tuple[str, ...]]:
-    """(name of the list that a bought part comes from, keys that override it): `json_schema_extra={"list": ..., "overrides": [...]}`."""
+    """(list that a bought part comes from, keys that override it): `json_schema_extra={"x-list": ..., "x-overrides": [...]}`."""
     extra = field.json_schema_extra if field is not None else None
     if not isinstance(extra, dict):
         return "", ()
-    named, overrides = extra.get("list", ""), extra.get("overrides", [])
+    named, overrides = extra.get("x-list", ""), extra.get("x-overrides", [])
     return str(named), tuple(map(str, overrides)) if isinstance(overrides, list) else ()
 
 

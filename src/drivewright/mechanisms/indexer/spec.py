@@ -115,7 +115,7 @@ class IndexerBearings(Spec):
         title="Bearing designation",
         description="designation in the catalogue, e.g. NU207E",
         examples=["NU207E"],
-        json_schema_extra={"list": "bearings", "overrides": ["radial_clearance"]},
+        json_schema_extra={"x-list": "bearings", "x-overrides": ["radial_clearance"]},
     )
     stiffness: Stiffness | None = Field(
         None, gt=0, title="Radial stiffness", description="constant radial stiffness, instead of a bearing", examples=["4.5e8 N/m"]

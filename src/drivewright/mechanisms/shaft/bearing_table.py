@@ -75,7 +75,7 @@ class Bearing(Spec):
         title="Bearing designation",
         description="designation of a rolling bearing, e.g. 6306 or NU206",
         examples=["6306"],
-        json_schema_extra={"list": "bearings", "overrides": ["radial_clearance", "dynamic_rating", "static_rating"]},
+        json_schema_extra={"x-list": "bearings", "x-overrides": ["radial_clearance", "dynamic_rating", "static_rating"]},
     )
     geometry: BallBearing | None = Field(None, description="inner geometry of a ball bearing, instead of a designation")
     roller_geometry: RollerBearing | None = Field(None, description="inner geometry of a roller bearing, instead of a designation")

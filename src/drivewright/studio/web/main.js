@@ -19,7 +19,7 @@ const PLACES = [["header", "head", createHead], ["aside", "form", createForm], [
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
-    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, ...taste()});
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, setup: null, ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
   const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside

@@ -58,6 +58,7 @@ export function createSetup(name, words, tools, create) {
   }
   const stops = [store.on(["jobs"], timing),
     store.on(["proposals"], ({proposals}) => { if (asked && proposals && proposals !== before) { asked = false; form.load(proposals); } }),
+    store.on(["setup"], ({setup}) => { if (setup === name) { store.set({setup: null}); open(); } }),
     store.on(["result"], () => { learn(store); if (shown) form.result(); }), store.on(["refused"], refused), store.on(["design"], designed),
     () => keep(shown ? form.draft() : null),
   ];

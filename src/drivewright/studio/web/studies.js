@@ -3,7 +3,7 @@
 import { empty } from "./asked.js";
 import { gallery } from "./figures.js";
 import { numberOf, unitText } from "./numbers.js";
-import { pressable } from "./parts.js";
+import { button, pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createScatter } from "./scatter.js";
 
@@ -30,8 +30,10 @@ function tradeOff(answer) {
 export function createStudies(host, {store, say, t}) {
   const choice = element("div", {class: "dw-segments vw-sources"}), plot = element("div", {class: "vw-scatter"});
   const figures = element("div", {class: "vw-study-figures"}), page = element("div", {class: "vw-scroll vw-study"}, choice, plot, figures);
+  const begin = (name, text) => button(text, () => store.set({setup: name, pane: "checks"}), {testid: `begin-${name}`});
   const none = empty(element("b", {}, t("No study has been run yet")), element("p", {},
-    t("Run a study or an optimisation with several objectives on the right; its designs appear here as points, and a click loads one.")));
+    t("Run a study or an optimisation with several objectives on the right; its designs appear here as points, and a click loads one.")),
+    element("div", {class: "pn-row"}, begin("study", t("Set up the study")), begin("optimise", t("Set up the search"))));
   const sources = [["study", t("Study")], ["optimise", t("Optimisation")]];
   let scatter = null, shown = null, chosen = null, before = {};
   host.append(page, none);
