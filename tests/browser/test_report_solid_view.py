@@ -121,3 +121,27 @@ def test_a_turn_about_a_line_in_space_is_that_of_rodrigues(browser):
     arm = at - point
     wanted = point + arm * np.cos(angle) + np.cross(k, arm) * np.sin(angle) + k * (k @ arm) * (1 - np.cos(angle)) + pull
     assert np.allclose(matrix[:3, :3] @ at + matrix[:3, 3], wanted, atol=1e-7)
+
+
+PACES = """([first, then]) => {
+  const pace = window.pacing(() => {}), seen = [];
+  let now = 1000;
+  for (const gap of [...Array(25).fill(first), ...Array(25).fill(then), 500, then]) { now += gap; seen.push(pace.smooth(now)); }
+  pace.stop();
+  return [pace.mode, seen];
+}"""
+
+
+@pytest.mark.parametrize(
+    "first, then, mode",
+    [(12, 12, "smooth"), (40, 12, "quick"), (40, 38, "settled")],
+    ids=["a machine that keeps up", "a slow one that gains", "a slow one that does not"],
+)
+def test_moving_solids_are_smoothed_while_the_machine_keeps_up(browser, first, then, mode):
+    page = browser.new_page()
+    page.set_content(f"<script type='module'>{scripts((*MODULES, *SOLID_MODULES))}\nwindow.pacing = createPacing;</script>")
+    until(page, "window.pacing !== undefined")
+    found, seen = page.evaluate(PACES, [first, then])
+    page.close()
+    assert found == mode and all(seen[:20]) and all(seen[20:24]) == (mode == "smooth")
+    assert seen[50] and seen[51] == (mode != "quick")  # after rest the first drawing is smooth

@@ -2,6 +2,7 @@
 
 import json
 import re
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from sample_designs import all_views, four_bar_result, four_bar_scene
 from sample_solids import PARTS, SOLIDS
 
 from drivewright.errors import InputError
+from drivewright.report import content
 from drivewright.report.content import pictures
 from drivewright.report.form import report_form
 from drivewright.report.html import SOLID_MODULES, solid_texts, write_report
@@ -56,6 +58,18 @@ def test_an_assembly_for_a_report_has_a_limit_and_says_what_to_do():
     with pytest.raises(InputError, match="triangles of the solids of a report.*export STEP or STL"):
         solid_surfaces(PARTS, most=30)
     assert len(solid_surfaces(PARTS, most=1000)) == 3
+
+
+@pytest.mark.parametrize(
+    "parts, reason",
+    [(None, "no solids to show: toy has none"), (lambda model: PARTS, "no solids to show: .*triangles of the solids.*export STEP")],
+)
+def test_what_cannot_be_shown_is_a_remark(monkeypatch, parts, reason):
+    kind = SimpleNamespace(kind="toy", scene=None, drawings=None, parts=parts)
+    monkeypatch.setattr(content, "registry", SimpleNamespace(is_known=lambda name: True, mechanism=lambda name: kind))
+    monkeypatch.setattr(content, "MOST_TRIANGLES", 30)
+    wanted, bare = (content.views(four_bar_result(), object(), solids) for solids in (True, False))
+    assert wanted.solids == () and re.search(reason, wanted.remarks[0]) and bare.remarks == ()
 
 
 def test_packed_parts_are_the_surfaces():

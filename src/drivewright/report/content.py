@@ -88,7 +88,7 @@ def _surfaces(mechanism, model):
     """The surfaces of the parts of a drive; InputError where it has none, or too many triangles."""
     parts = tuple(mechanism.parts(model)) if mechanism.parts else ()
     if not parts:
-        raise InputError(f"{mechanism.kind} has no solids to show")
+        raise InputError(f"{mechanism.kind} has none")
     return solid_surfaces(parts, most=MOST_TRIANGLES)
 
 

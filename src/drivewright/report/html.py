@@ -73,9 +73,10 @@ def write_report(
     return path
 
 
-def _is_moving(name: str, plots: Collection[str], packed: object) -> bool:
+def _is_moving(name: str, plots: Collection[str], packed: Mapping[str, Any] | None) -> bool:
     """Whether a picture stands for something that moves on the page."""
-    return name in {file_name(plot) for plot in plots} or (packed is not None and (name.startswith("scene-") or name in packed))
+    solids = name == "solids" and packed is not None and "solids" in packed
+    return solids or name in {file_name(plot) for plot in plots} or (packed is not None and name.startswith("scene-"))
 
 
 def packed_views(result: Result[Any], seen: Views, language: str = "en", scene: Scene | None = None) -> dict[str, Any] | None:
