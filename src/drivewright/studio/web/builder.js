@@ -1,9 +1,9 @@
 // Building a mechanism on its drawing: tools that the kind of drive offers, each used by clicking places.  What it makes of them the server says.
 
 import { pressable } from "./parts.js";
+import { refusedText } from "./words.js";
 import { element, nice } from "./player.js";
 import { onGrid } from "./snapping.js";
-import { refusedText } from "./words.js";
 
 const NEAR = 9, FINE = 10, STEP = 12;  // px: what a click falls upon, a step of the grid at least, a step of an arrow key
 const SVG = "http://www.w3.org/2000/svg";
@@ -20,7 +20,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   const layer = element("div", {class: "bd-layer", hidden: ""}, sheet, marks, panel);
   const button = pressable({class: "dw-button bd-button", "data-testid": "build"}, () => turn(!on));
   let on = false, tool = null, places = [], cursor = null, handles = [], buttons = new Map();
-  marks.setAttribute("class", "bd-marks"); marks.setAttribute("aria-hidden", "true");
+  marks.setAttribute("class", "bd-marks");
 
   const offered = () => (store.state.kinds || []).find(({kind}) => kind === store.state.design?.kind)?.tools || [];
   const chosen = () => offered().find(({name}) => name === tool);
@@ -127,6 +127,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     draw();
   }
 
+  marks.setAttribute("aria-hidden", "true");
   show();
   const stops = [store.on(["lang", "kinds", "scene", "refused"], show),
     store.on(["design"], () => { if (on && !offered().length) turn(false); else show(); })];

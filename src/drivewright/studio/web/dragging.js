@@ -2,7 +2,6 @@
 
 import { element, nice } from "./player.js";
 import { quantityOf } from "./numbers.js";
-import { put } from "./parts.js";
 import { createGesture } from "./slider.js";
 import { onGrid, snapped } from "./snapping.js";
 
@@ -14,14 +13,13 @@ const SEEN = 2500;  // ms that the numbers stay after an arrow key
  * `others(handle)` the other handles with their pixels, `nameOf(handle)` its name, `numbers(handle)` the numbers of its keys.
  */
 export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, say, t, clock}) {
-  const nudges = createGesture("nudge");
-  let hold = null, box = null, pending = 0, nudged = null, fading = 0;  // nudged: {button, handleOf, start, now, gesture} of the last arrow key
+  let hold = null, box = null, pending = 0;
 
   function attach(button, handleOf) {
     button.addEventListener("pointerdown", event => { if (event.button === 0) press(event, button, handleOf); });
     button.addEventListener("keydown", event => keys(event, button, handleOf));
-    button.addEventListener("blur", () => { if (nudged?.button === button) settle(); });
     button.addEventListener("dblclick", event => event.stopPropagation());
+    button.addEventListener("blur", () => { if (nudged?.button === button) settle(); });
   }
 
   // ---- pointer
@@ -128,14 +126,11 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
   }
   const texts = (start, values) => Object.fromEntries(start.map(({key, unit}, n) => [key, unit ? `${values[n]} ${unit}` : String(values[n])]));
   function show() {
-    if (hold) announce(hold.handleOf(), hold.start, hold.now, hold.words);
-    else if (!bubble.hidden && nudged) announce(nudged.handleOf(), nudged.start, nudged.now);
-  }
-  /** What a handle is and where it stands, beside it; a screen reader says it. */
-  function announce(handle, start, values, words = "") {
-    const [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "];
+    if (!hold) return;
+    const handle = hold.handleOf(), [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "];
+    const words = hold.words ? ` · ${t(hold.words)}` : "";
     bubble.hidden = false;
-    put(bubble, `${nameOf(handle)}  ${values.map((value, n) => `${names[n]}${value} ${start[n].unit}`).join("  ")}${words ? ` · ${t(words)}` : ""}`);
+    bubble.textContent = `${nameOf(handle)}  ${hold.now.map((value, n) => `${names[n]}${value} ${hold.start[n].unit}`).join("  ")}${words}`;
     const wide = bubble.offsetWidth, left = x + 16 + wide > layer.clientWidth ? x - 16 - wide : x + 16;
     bubble.style.transform = `translate(${within(left, layer.clientWidth - wide)}px, ${within(y - 34, layer.clientHeight - bubble.offsetHeight)}px)`;
   }
@@ -163,6 +158,8 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
       nudge(button, handleOf, step, event.shiftKey ? 10 : 1);
     }
   }
+  const nudges = createGesture("nudge");
+  let nudged = null, fading = 0;  // {button, handleOf, start, now, gesture} of the last arrow key; the timer that ends its showing
   /** An arrow key: the numbers go a step on, from where the key before it sent them.  As long as they are shown it is one gesture. */
   function nudge(button, handleOf, [x, y], times) {
     const handle = handleOf(), start = numbers(handle);
@@ -176,13 +173,20 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     });
     nudged = {button, handleOf, start, now, gesture};
     say({what: "drag", changes: texts(start, now), gesture});
-    announce(handle, start, now);
     clearTimeout(fading);
-    fading = setTimeout(() => { nudges.end(); if (!hold) bubble.hidden = true; }, SEEN);
+    fading = setTimeout(() => { fading = 0; nudges.end(); if (!hold) bubble.hidden = true; }, SEEN);
+    showNudge();
+  }
+  /** The numbers of the last arrow key beside its handle, as those of one that is held; a screen reader says them. */
+  function showNudge() {
+    if (hold || !fading) return;
+    hold = nudged;
+    show();
+    hold = null;
   }
   /** Esc behind arrow keys: their steps are taken back. */
   function unnudge() { say({what: "revert", gesture: nudged.gesture}); settle(); nudges.end(); }
-  function settle() { clearTimeout(fading); if (!hold) bubble.hidden = true; nudged = null; }
+  function settle() { clearTimeout(fading); fading = 0; if (!hold) bubble.hidden = true; nudged = null; }
   /** A box beside the handle for its numbers: "40 mm" or "40, 12 mm". */
   function type(button, handleOf, first = null, gesture = "") {
     const handle = handleOf(), start = numbers(handle);
@@ -219,7 +223,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
 
   /** Whether a hand holds a handle, or that of a button. */
   const held = button => hold !== null && (!button || hold.button === button);
-  return {attach, held, end, draw: show, destroy() { end(); settle(); box?.remove(); }};
+  return {attach, held, end, draw() { show(); showNudge(); }, destroy() { end(); settle(); box?.remove(); }};
 }
 
 /** Lengths in pixels between neighbouring handles of every body. */

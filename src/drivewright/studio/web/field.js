@@ -57,12 +57,13 @@ function createControl(field, name, t) {
   const named = field.key === "title", many = field.kind === "choice" ? field.choices : field.suggestions || [];
   const options = many.map(value => ({value: String(value), text: t(String(value))}));
   const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
-  if (field.optional || field.value === null) box.placeholder = t(String(field.default ?? "not set"));
+  if (field.optional || field.value === null) box.placeholder = field.default ?? t("not set");
   const counted = COUNTED.includes(field.kind), told = options.length > 0;
   const read = text => counted ? unitsRead(text) : named || told ? t(text) : text, value = text => options.find(one => one.text === text)?.value ?? text;
   /** The text of the spec: a title that is shown in the language of the page is still the one of the spec. */
   const text = () => counted ? unitsTyped(box.value) : named && box.value === read(spec) ? spec : value(box.value);
   let spec = "";
+  if (told) box.placeholder = t(box.placeholder);
   function show(now) { spec = now.text ?? ""; if (box.value !== read(spec)) box.value = read(spec); }
   if (told) createCombobox(box, options, name);
   return {input: box, show, text, whole: false};

@@ -33,7 +33,7 @@ export function createHandles(getPlayer, tools) {
   const bubble = element("output", {class: "hd-bubble", hidden: ""});
   const names = createNames(tools);
   let packed = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
-  guides.setAttribute("class", "hd-guides"); guides.setAttribute("aria-hidden", "true");
+  guides.setAttribute("class", "hd-guides");
   layer.append(guides, bubble);
 
   const drag = createDrag({layer, guides, bubble, place, others, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
@@ -48,6 +48,7 @@ export function createHandles(getPlayer, tools) {
   /** The other handles that are points, each with its pixel. */
   function others(handle) { return packed.filter((other, n) => other !== handle && !buttons[n].hidden).map(other => ({...other, at: place(other, other.point)})); }
 
+  guides.setAttribute("aria-hidden", "true");
   function load(scene) {
     const next = scene?.handles || [], same = next.length === packed.length && next.every(({key}, n) => key === packed[n].key);
     packed = next;

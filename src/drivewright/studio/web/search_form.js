@@ -5,6 +5,7 @@ import { box, choice, createKeyList, part, tick } from "./key_list.js";
 import { numberOf, withUnit } from "./numbers.js";
 import { button, put, themeOf, tool } from "./parts.js";
 import { element } from "./player.js";
+import { refusedText } from "./words.js";
 
 const USUAL = 500, LONG = 300;  // designs; seconds that a budget proposes at most
 const GOALS = ["minimise", "maximise", "at_least", "at_most"];
@@ -150,6 +151,6 @@ export function createSearchForm(tools, closed) {
     /** What load() takes to come back to what is in the form now. */
     draft: () => ({keys: among, optimise: {...table, ...content(), budget: budget.value}}),
     result() { if (ready) { goals.refresh(); needs.draw(); changed(); } },
-    refused(text) { wrong.hidden = !text; put(wrong, text); },
+    refused(text) { wrong.hidden = !text; put(wrong, refusedText(text, t)); },
   };
 }

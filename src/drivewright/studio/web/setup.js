@@ -2,7 +2,6 @@
 
 import { learn, secondsOf } from "./costs.js";
 import { button } from "./parts.js";
-import { refusedText } from "./words.js";
 
 const SHORT = 20;  // seconds of all analyses up to which they are timed once more, without compiling
 
@@ -38,12 +37,12 @@ export function createSetup(name, words, tools, create) {
     if (!shown) return;
     if (ended) close();
     form.node.hidden = !shown || state === "running";
-    if (state === "failed") form.refused(refusedText(text, tools.t));
+    if (state === "failed") form.refused(text);
   }
   /** What is refused of its table. */
   function refused({refused = {}}) {
     const own = Object.entries(refused).filter(([key]) => key === "" || key === name || key.startsWith(`${name}.`));
-    if (own.length || !shown) form.refused(own.map(([, {message}]) => refusedText(message, tools.t)).join("\n"));
+    if (own.length || !shown) form.refused(own.map(([, {message}]) => message).join("\n"));
   }
   function designed({design}) {
     if (design && design.opened !== drive) { drive = design.opened; close(); }

@@ -4,6 +4,7 @@ import { durationText, secondsOf } from "./costs.js";
 import { box, choice, createKeyList, part, tick } from "./key_list.js";
 import { button, put, themeOf } from "./parts.js";
 import { element } from "./player.js";
+import { refusedText } from "./words.js";
 
 const SAMPLES = 200;
 const RANDOM = ["normal", "uniform"];  // ways to vary that are sampled
@@ -121,6 +122,6 @@ export function createStudyForm(tools, closed) {
     /** What load() takes to come back to what is in the form now. */
     draft: () => ({keys: among, study: {...content(), method: method.value, samples: samples.value}}),
     result() { if (ready) { kept.draw(); changed(); } },
-    refused(text) { wrong.hidden = !text; put(wrong, text); },
+    refused(text) { wrong.hidden = !text; put(wrong, refusedText(text, t)); },
   };
 }
