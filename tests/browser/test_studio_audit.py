@@ -74,7 +74,7 @@ def test_everything_fits_in_chinese_on_a_phone(tab, spec):
 UNITS = r"[-−\d.,~/\s×⁻⁰¹²³]*(mm|MPa|GPa|mPa s|rpm|rad|deg|arcmin|min|kg|N|m|s|[\s/·^²])+"
 KEPT = re.compile(
     rf'"(Drivewright|English|inch|(DXF|SVG|CSV|STEP|STL|GCODE|PDF)|{UNITS})" '
-    r'|^option |^title |aria-label "[^"]*: [-\d]|16MnCr5|st-group-title|group-[\w.]+$'
+    r'|^option |^title |aria-label "[^"]*: [-\d]|16MnCr5|^placeholder "(ground|centroid)"|st-group-title|group-[\w.]+$'
 )
 
 
