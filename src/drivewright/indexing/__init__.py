@@ -17,6 +17,7 @@ drivetrain      what yields: pins, bearings, split shafts, gears, wheel
 stiffness/      torsional stiffness, forces of pins and bearings, statics
 solid/          the same with cams, shafts and wheel as solids in contact (extra `fe`)
 batch/          many pin wheels at once in compiled code
+geneva/         external Geneva drives: step, wheel and locking disc, clearance, forces
 roller_gear/    barrel and globoidal cams: flanks, trimming, play, stress, tables, scene, solids
 torsion_test/   evaluation of measured loops of torque and angle
 """

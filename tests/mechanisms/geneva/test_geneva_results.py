@@ -42,6 +42,11 @@ def test_a_crank_that_is_off_fails_the_fit_and_is_computed_all_the_same(off, fit
     assert any("strikes the tip of the wheel" in finding for finding in result.findings) != fits
 
 
+def test_a_slot_without_clearance_fits_the_pin():
+    result = run("wheel.slot_clearance=0 mm", only="entry")
+    assert result.check("fit").ok and result["entry.path_angle"] == pytest.approx(0.0, abs=1e-7) and result["crossing.speed"] == 0.0
+
+
 def test_the_energy_is_not_audited_where_a_shock_takes_it():
     assert run(only="energy").check("energy_audit").ok
     off = run("crank_radius=70.8 mm", only="energy")

@@ -65,17 +65,9 @@ def _checks(model: GenevaModel, found: Entry, values: dict[str, Value]) -> Itera
     limit = model.spec.limits.entry_angle
     yield Check.of(values["entry.path_angle"], "entry_angle", limit, "<=", message, ("crank", "wheel"), label="Entry angle of the pin")
     message = "crank radius off the one with which the pin enters the slot, against half the clearance of the slot"
-    yield Check(
-        "fit",
-        abs(model.step.excess),
-        model.shape.slot_clearance / 2 + FIT,
-        "<=",
-        "m",
-        message,
-        ("crank", "wheel"),
-        True,
-        label="Fit of the pin at entry",
-    )
+    off = abs(model.step.excess) if abs(model.step.excess) > FIT else 0.0
+    room, parts = model.shape.slot_clearance / 2, ("crank", "wheel")
+    yield Check("fit", off, room, "<=", "m", message, parts, True, label="Fit of the pin at entry")
 
 
 FIT = 1e-9  # m: rounding of a radius that follows from the other length
