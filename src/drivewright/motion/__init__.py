@@ -6,6 +6,7 @@
 `splines`, `tables`, `ripple`  laws through points and from measured lifts; ripple that their digits leave
 `programme`     segments of one turn
 `motor_sizing`  torque, power and reflected inertia over a cycle
+`diagram`       a programme as a diagram: samples of its segments, ends and jumps
 `mapped`        programmes stated in one coordinate and followed in another
 """
 

@@ -9,6 +9,7 @@ content          what a report says, as plain text in plain dictionaries
 dimension_drawings  what the keys of a kind measure, drawn from its presets
 dxf              DXF drawings of flat parts
 export           manufacturing files of a design: everything that `drivewright export` can write
+features         lines and arcs of a packed scene that can be measured
 folder           the run folder
 gallery          the gallery of the worked examples: a page of its own, or one of the documentation
 form             in which form a report is wanted: how much it says, and in which language
@@ -22,10 +23,13 @@ names            names of files that no file system minds
 numbering        the figures of a report: their order, their numbers, and which of them shows a check
 optimised        the outcome of an optimisation beside its evaluations
 pack             a scene and the linked plots as JSON for the browser
+pack_plots       all plots of a result as JSON, for a page that offers a choice
 paper_figures    figures for paper: two in a row where they fit
 pdf              the report as a PDF: the same content as the page, typeset by Typst
+programme        a motion programme as JSON for a page that edits it
 records          what a report wants of a study and of a search
 renames          renames that the standard library does not have
+solids           an assembly as triangles for a viewer, and how its parts move
 study            the report of a study beside its cases
 svgout           SVG drawings of flat parts in true millimetres, for laser cutters and plots
 tabular          tables as CSV and Excel files in the units people read, with the unit of every column in its header

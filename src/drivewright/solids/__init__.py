@@ -11,6 +11,8 @@ engine         the door to Netgen and NGSolve
 facets         closed triangle surfaces of parts
 grooving       grooves milled into turned bodies
 meshing        curved meshes of CAD shapes with named boundaries whose lengths or areas are checked
+shading        normals of a triangle surface, and the edges that are drawn
+stacked        the union of prisms along one axis as a triangle surface
 stresses       stress on the skin of an elastic body
 pieces         the pieces of an outline (`scene.Line`, `Arc`, `Spline`)
 plane_meshing  curved triangle meshes of flat parts for plane stress

@@ -221,7 +221,7 @@ class Document(UndoHistory):
             raise SpecError("is no list of tables", key)
         uses = [element["of"] for element in elements if element["of"] is not None]
         if any(uses.count(number) > 2 for number in set(uses)):
-            raise SpecError("an element is wanted more than twice; a message must not grow without end", key)
+            raise SpecError("an element stands in the list more than twice; the page may send each one twice at most", key)
         tables = deepcopy(self.design.tables)
         insert_parents(tables, spec_class(self.design), [*key.split("."), "0"])
         set_key(tables, key, [_arranged(info.table, given, key, **element) for element in elements])

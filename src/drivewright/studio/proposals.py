@@ -131,7 +131,7 @@ def _part(design: Design, table: Tables, name: str, part: str, given: Any) -> An
     if part not in LISTS:
         return str(given)
     if not isinstance(given, list) or len(given) > MOST:
-        raise InputError(f"{name}.{part} wants a list of at most {MOST} entries")
+        raise InputError(f"{name}.{part} must be a list of at most {MOST} entries")
     if part == "values":
         return [str(each) for each in given]
     return [_entry(design, table, f"{name}.{part}.{number}", part, each) for number, each in enumerate(given)]

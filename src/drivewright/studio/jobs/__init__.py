@@ -12,6 +12,7 @@ search       the [optimise] of a design: a search for its best, told while it go
 sensitivity  which key moves which number: every key of a design a little down and up, one at a time
 solid        the assembly as triangles for a viewer
 study        the [study] of a design: its cases as rows of a table, and what they say
+trade_off    the designs of a search as a table like that of a study
 timing       the seconds of each analysis, for an estimate
 """
 
