@@ -314,7 +314,8 @@ def test_each_face_counts_by_its_angle_at_the_corner():
 
 
 def test_the_size_of_an_assembly_is_that_of_the_box_around_its_parts(monkeypatch):
-    parts = [SimpleNamespace(name=name, colour=colour, body="", at=at) for name, colour, at in (("left", "blue", -2.0), ("right", "steel", 1.0))]
+    places = (("left", "blue", -2.0), ("right", "steel", 1.0))
+    parts = [SimpleNamespace(name=name, colour=colour, body="", at=at) for name, colour, at in places]
     tetrahedron = np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 2]], float), np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     kind = SimpleNamespace(kind="cam", analyses=(), parts=lambda model: parts, scene=None)
     monkeypatch.setattr(solid, "registry", SimpleNamespace(mechanism=lambda name: kind))

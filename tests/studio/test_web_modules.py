@@ -52,3 +52,11 @@ def test_no_module_of_the_studio_takes_the_name_of_one_of_the_report():
 def test_a_module_of_the_report_comes_behind_those_it_imports(place):
     text = (REPORT / html.MODULES[place]).read_text(encoding="utf-8")
     assert {source for _, source in IMPORTS.findall(text)} <= set(html.MODULES[:place])
+
+
+def test_no_module_takes_a_text_for_markup():
+    """Names of bodies, joints, presets, plots and studies come from whoever wrote the spec: they are set as text, never read as HTML."""
+    markup = re.compile(
+        r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|DOMParser|createContextualFragment|srcdoc|setHTML|eval\(|new Function"
+    )
+    assert {name: found for name, text in modules().items() if (found := markup.findall(text))} == {}
