@@ -53,9 +53,9 @@ def draw(
         if construction:  # what is not assembled is drawn as the spec states it; the error says the rest
             _send_scene(send, design, spec, construction.sketch(spec), [], construction.unfinished(spec))
         raise
-    connected = not construction or construction.connected(spec)
-    quick = _quick_scene(spec, model) if moving and connected else None
-    scene, remarks = (quick, []) if quick else _scene(spec, model) if connected else (construction.sketch(spec), [])
+    loose = construction if construction and not construction.connected(spec) else None
+    quick = _quick_scene(spec, model) if moving and not loose else None
+    scene, remarks = (quick, []) if quick else (loose.sketch(spec), []) if loose else _scene(spec, model)
     missing = construction.unfinished(spec) if construction else None
     _send_scene(send, design, spec, scene, remarks, missing, _programme(spec, model))
     if quick or not affordable:

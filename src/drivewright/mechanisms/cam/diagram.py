@@ -6,6 +6,7 @@ from functools import cache
 from drivewright import motion
 from drivewright.mechanisms.cam.build import LAW_KEYS, CamModel
 from drivewright.motion.diagram import diagram_segments
+from drivewright.motion.laws import BUILT_IN
 from drivewright.motion_diagram import LawChoice, MotionDiagram
 
 STARTS: dict[str, dict[str, str]] = {  # parameters of the laws that do not go without
@@ -41,5 +42,5 @@ def laws() -> tuple[LawChoice, ...]:
 
 def _goes_without(name):
     """Whether a law needs neither parameters nor a file."""
-    build = None if name in ("table", "uniform") else motion.laws.BUILT_IN.get(name)
+    build = None if name in ("table", "uniform") else BUILT_IN.get(name)
     return build is not None and not any(each.default is inspect.Parameter.empty for each in inspect.signature(build).parameters.values())

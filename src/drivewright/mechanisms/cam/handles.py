@@ -24,7 +24,7 @@ def handles(model: CamModel) -> Iterator[Handle]:
         yield from _flat_lever(model, follower)
     else:
         yield from _round(model)
-    if model.oscillating:
+    if isinstance(follower, OscillatingFlat | OscillatingRound):
         yield Handle("follower.pivot_distance", (float(follower.pivot_distance), 0.0), (1.0, 0.0))
     if model.arm:
         yield from _valve_arm(model)
