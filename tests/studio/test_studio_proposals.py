@@ -134,7 +134,7 @@ def test_an_entry_that_the_form_cannot_show_stays_as_written():
         ("optimise", {"settings": []}, "has no 'settings'"),
         ("study", {"vary": [{"key": "drive.speed", "points": "x"}]}, "that no page sends"),
         ("study", {"vary": [3]}, "that no page sends"),
-        ("study", {"vary": "drive.speed"}, "wants a list"),
+        ("study", {"vary": "drive.speed"}, "must be a list"),
         ("study", {"vary": [{"key": "drive.speed"}] * 1001}, "at most 1000"),
         ("study", {"vary": [{"key": "follower.offset", "as_written": True}]}, "is not in the table"),
         ("study", {"samples": "many"}, "wants a whole number"),

@@ -65,3 +65,11 @@ def test_no_two_modules_of_the_report_use_the_same_name_at_their_top():
         for name in [name, *re.findall(r", (\w+)", more)]
     ]
     assert len(found) > 100 and sorted(name for name in set(found) if found.count(name) > 1) == []
+
+
+def test_no_module_takes_a_text_for_markup():
+    """Names of bodies, joints, presets, plots and studies come from whoever wrote the spec: they are set as text, never read as HTML."""
+    markup = re.compile(
+        r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|DOMParser|createContextualFragment|srcdoc|setHTML|eval\(|new Function"
+    )
+    assert {name: found for name, text in modules().items() if (found := markup.findall(text))} == {}

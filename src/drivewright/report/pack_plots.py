@@ -108,9 +108,10 @@ def _apart(panel: Panel, phase: Floats | None, count: int, factor: float) -> Pac
         own = [x for _ in own]
     rows = _rows(panel, x)
     alone = all(each.x is None for each in panel.series)
+    first = panel.series[0]
     return {
-        "name": panel.series[0].name,
-        "title": panel.series[0].label if count > 1 and len(panel.series) == 1 else panel.title,
+        "name": first.name,
+        "title": first.label if count > 1 and len(panel.series) == 1 else panel.title,
         "label": panel.label,
         "low": panel.low,
         "high": panel.high,

@@ -5,7 +5,7 @@ A change that is refused raises SpecError in the words of the command line and l
 
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
-from typing import Any, Self
+from typing import Any
 
 from drivewright import registry
 from drivewright.errors import InputError, SpecError, brief
@@ -47,9 +47,9 @@ class Document(UndoHistory):
         super()._step(source, target)
         self.locks &= values(form(self.design)).keys()  # of what is no longer there
 
-    def follow(self, change: str, after: Self) -> None:
+    def follow(self, change: str, after: "Document") -> None:
         """Take over what a change has made of `present()` in another process; `change` is the name of the method."""
-        super().follow(change, after)
+        self._follow_steps(change, after)
         self.locks = after.locks
 
     def _accept(self, design: Design, gesture: tuple[str, str] | None = None) -> None:

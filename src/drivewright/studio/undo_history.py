@@ -90,8 +90,8 @@ class UndoHistory:
         document._past, document._future = self._past[-1:], self._future[-1:]
         return document
 
-    def follow(self, change: str, after: Self) -> None:
-        """Take over what a change has made of `present()` in another process; `change` is the name of the method."""
+    def _follow_steps(self, change: str, after: "UndoHistory") -> None:
+        """Take the same step forward or back as a change has made of `present()` in another process; `change` is the name of the method."""
         if change == "undo" and self._past:
             self._future.append(self.design)
             self._past.pop()
