@@ -35,7 +35,12 @@ export function createScaling(shown, {store, say, t}, lengthNow) {
       if (Object.keys(changes).length) say({what: "load", changes});
     };
     box.value = `${Number((lengthNow() * 1e3).toPrecision(6))} mm`;
-    box.addEventListener("keydown", event => { event.stopPropagation(); if (event.key === "Enter" || event.key === "Escape") end(event.key === "Enter"); });
+    box.addEventListener("keydown", event => {
+      event.stopPropagation();
+      if (event.key !== "Enter" && event.key !== "Escape") return;
+      event.preventDefault();  // the button takes the focus, and must not be pressed by the same key
+      end(event.key === "Enter");
+    });
     box.addEventListener("blur", () => end(false));
     shown.replaceWith(box);
     box.focus(); box.select();
