@@ -75,7 +75,7 @@ def test_fields_on_the_deformed_solids(studio, browser):
     until(page, "window.drivewright !== undefined", 30)
     drawn(page)
     page.get_by_test_id("view-solid").click()
-    page.get_by_test_id("solid-solid_stress").click(timeout=300_000)
+    page.get_by_test_id("solid-solid_stress").click(timeout=120_000)
     run = page.get_by_test_id("job-fields")
     run.wait_for(state="visible", timeout=60_000)
     assert "plate and pins as solids in contact" in page.locator(".vw-empty:visible").inner_text()
