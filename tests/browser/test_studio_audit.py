@@ -70,11 +70,11 @@ def test_everything_fits_in_chinese_on_a_phone(tab, spec):
     assert audited(tab(spec, 390, "zh"), spec, {"controls": [True], "panels": [], "cut": []}) == []
 
 
-# What stays as it is in Chinese: names in the spec, the name of the program, formats of files, units, and values of the spec.
+# What stays as it is in Chinese: names in the spec, the name of the program, formats of files, units, and values as they are typed.
 UNITS = r"[-−\d.,~/\s×⁻⁰¹²³]*(mm|MPa|GPa|mPa s|rpm|rad|deg|arcmin|min|kg|N|m|s|[\s/·^²])+"
 KEPT = re.compile(
     rf'"(Drivewright|English|inch|(DXF|SVG|CSV|STEP|STL|GCODE|PDF)|{UNITS})" '
-    r'|^option |^title |aria-label "[^"]*: [-\d]|16MnCr5|^placeholder "(ground|centroid)"|st-group-title|group-[\w.]+$'
+    r'|^option |^title |aria-label "[^"]*: [-\d]|16MnCr5|^placeholder "[\w-]+"|st-group-title|group-[\w.]+$'
 )
 
 
