@@ -75,7 +75,10 @@ def test_the_packed_diagram_is_plain_data_with_units():
     lift = np.frombuffer(base64.b64decode(packed["segments"][0]["course"][1]), "<f4")
     assert lift[0] == pytest.approx(0, abs=1e-12) and lift[-1] == pytest.approx(0.02)
     assert [segment["rise"] for segment in packed["segments"]] == pytest.approx([0.02, -0.02, 0])
-    assert pack_programme(diagram_of(model_of("oscillating_cam")))["lift"]["unit"] == "°"
+    assert packed["cycle"]["span"] == pytest.approx(2 * np.pi) == pytest.approx(sum(segment["angle"] for segment in packed["segments"]))
+    assert packed["lift"]["factor"] == pytest.approx(1e3) and packed["cycle"]["factor"] == pytest.approx(180 / np.pi)
+    swing = pack_programme(diagram_of(model_of("oscillating_cam")))
+    assert swing["lift"]["unit"] == "°" and swing["lift"]["angular"] and not packed["lift"]["angular"]
 
 
 @pytest.mark.parametrize("kind", KINDS_WITHOUT)
