@@ -138,7 +138,7 @@ def test_a_search_of_segment_angles_keeps_the_turn(page):
     page.get_by_test_id("load-best").click()
     until(page, f"{STATE}.design.gen > {gen}")
     analysed(page)
-    assert value(page, "max_jerk") < 0.8 * before and value(page, "stroke") == pytest.approx(20.0)
+    assert value(page, "max_jerk") < 0.8 * before and value(page, "lift") == pytest.approx(20.0)
     assert page.evaluate(f"{STATE}.result.checks.every(check => check.ok)")
     page.get_by_test_id("view-programme").click()  # the dwell has the rest of the turn, and its border can be dragged
     segments = "[...document.querySelectorAll('.mf-segment')].map(each => each.getBoundingClientRect().width)"
