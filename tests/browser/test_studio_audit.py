@@ -16,7 +16,7 @@ SIZES = {390: 844, 820: 1180, 1440: 900}
 
 @pytest.fixture(scope="module")
 def address():
-    with running(own_port(8530), EXAMPLES / "four_bar.toml") as (address, _):
+    with running(own_port(8610), EXAMPLES / "four_bar.toml") as (address, _):
         yield address
 
 

@@ -16,7 +16,7 @@ PLACES = """(() => {
 
 @pytest.fixture(scope="module")
 def address():
-    with running(own_port(8540), EXAMPLES / "four_bar.toml") as (address, _):
+    with running(own_port(8630), EXAMPLES / "four_bar.toml") as (address, _):
         yield address
 
 
