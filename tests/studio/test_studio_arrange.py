@@ -48,7 +48,6 @@ def test_an_empty_text_takes_a_key_out_and_an_element_may_be_halved(cam):
         ("programme", [keep(0), keep(0), keep(0)], "more than twice"),
         ("programme", [keep(0, angle="3 kg")], "wants an angle"),
         ("programme", [keep(0, nonsense="3")], "nonsense"),
-        ("programme", [keep(0, angle="")], "angle"),
         ("programme", [], "programme"),
         ("follower", [keep(0)], "is no list"),
         ("programme.0.points", [keep(0)], "is no list of tables"),

@@ -111,7 +111,7 @@ def test_the_course_of_a_search_has_every_improvement_and_the_end():
 def test_while_no_design_is_allowed_the_nearest_is_the_best():
     course, best = search._best_so_far(problem(1.0, (0.5, 0.2, 0.3)), {"gap": np.array([1.0, 2.0, 3.0])})
     assert course == [[1, None, 0.5], [2, None, 0.2], [3, None, 0.2]] and best == 1
-    assert search._so_far(problem(), SimpleNamespace(tables=list)) is None
+    assert search._so_far(None, problem(), SimpleNamespace(tables=list)) is None
 
 
 def test_what_a_search_wants_is_told_with_its_direction():

@@ -83,7 +83,11 @@ def test_features_are_named_ones_first_each_place_once():
     assert seen[:2] == [("point", "crank", [0.04, 0]), ("point", "rod", [0.1, 0.05])]  # no handle of a size, which is no point
     assert ("circle", "crank", [0.04, 0]) in seen and [each["to"] for each in found if each["kind"] == "line"] == [[0.04, 0]]
     assert sum(each["kind"] == "circle" for each in found) == 2  # two equal shapes of the rod are one
-    assert found[0]["ref"] == "crank|handle crank.A" and found[0]["last"] == "A" and {each["of"] for each in found} == {"crank", "rod"}
+    assert (
+        found[0]["ref"] == "crank|handle crank.A"
+        and found[0]["handle"]["key"] == "crank.A"
+        and {each["of"] for each in found} == {"crank", "rod"}
+    )
 
 
 def test_the_distance_of_a_pixel_from_a_feature():
@@ -603,7 +607,7 @@ def test_a_part_stands_between_its_frames_and_its_matrix_moves_it_so():
 def test_parts_are_pulled_away_from_the_middle_and_further_apart_along_the_axis():
     whole = {"low": [-1, -1, 0], "high": [1, 1, 0.2], "centre": [0, 0, 0.1], "size": 2.8}
     parts = [{"points": [0.4, 0, 0, 0.6, 0, 0.04]}, {"points": [-1, -1, 0.18, 1, 1, 0.2]}]
-    near, high = in_node("return pullsOf(data.parts, data.whole);", {"parts": parts, "whole": whole}, assembly="pullsOf")
+    near, high = in_node("return pullsOf(data.parts, null, data.whole);", {"parts": parts, "whole": whole}, assembly="pullsOf")
     assert near == pytest.approx([0.45, 0, 0.9 * (0.02 - 0.1) * 0.5 * 2.8 / 0.2]) and high == pytest.approx([0, 0, 0.9 * 0.09 * 7])
 
 
