@@ -115,7 +115,7 @@ def test_undecided_is_a_warning_on_the_page():
     assert said["verdict"] == {"state": "warn", "text": "1 of 2 checks undecided"}
     told = next(each for each in said["checks"] if each["name"] == "low_enough")
     assert told["undecided"] == UNDECIDED
-    text = page("report.html.j2", said, player=None, pictures=[])
+    text = page("report.html.j2", said, player=None, solids=None, pictures=[])
     assert 'class="check warn"' in text and "Undecided: the limit lies within the interval" in text
 
 
@@ -152,7 +152,7 @@ def test_command_line_prints_a_life_over_powers_of_ten_with_two_digits_each():
 
 def test_page_tells_the_interval_with_a_hint(tmp_path):
     result = run()
-    text = page("report.html.j2", content(result), player=None, pictures=[])
+    text = page("report.html.j2", content(result), player=None, solids=None, pictures=[])
     assert '<p class="tile-interval" title="95\u00a0%, ensemble">9.27 to 10.43</p>' in text
     assert '<b>9.85\u00a0mm</b><span class="ends" title="95\u00a0%, ensemble">9.27 to 10.43</span>' in text
     folder = write_run_folder(result, tmp_path / "run", seen=Views())

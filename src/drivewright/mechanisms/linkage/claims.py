@@ -19,10 +19,11 @@ def claims(spec: LinkageSpec) -> Claims:
     balances = tuple(Balance(name, limit, (analysis,)) for name, (limit, analysis) in audits.items())
     if any(joint.pin in ("dry", "lubricated", "massless-link") for joint in spec.joints):
         return Claims(derivatives, balances, reasons=REASONS)
-    speed = Scaling("drive.speed", {"*.max_angular_acceleration": 2, "*.swing": 0}, ("motion",), 1e-6)
+    speed = (Scaling("drive.speed", {"*.max_angular_acceleration": 2, "*.swing": 0}, ("motion",), 1e-6),) if spec.outputs else ()
+    reasons = REASONS if spec.outputs else REASONS | {"speed": "this preset has no outputs"}
     odd = ("*.y", "*.vy", "*.angle", "*.angular_velocity")
     mirror = Mirror(image, odd, analyses=("motion", "end"), tolerance=1e-7)
-    return Claims(derivatives, balances, (speed,), (mirror,), reasons=REASONS)
+    return Claims(derivatives, balances, speed, (mirror,), reasons=reasons)
 
 
 def _derivatives(name: str, of_point: bool) -> tuple[Derivative, ...]:
