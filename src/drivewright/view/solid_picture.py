@@ -26,11 +26,19 @@ class Surface(Protocol):
     """What is drawn of a part: points (n, 3) [m] and corners (m, 3), counter-clockwise from outside."""
 
     @property
-    def colour(self) -> str: ...
+    def colour(self) -> str:
+        """Name of a colour of the palette."""
+        ...
+
     @property
-    def points(self) -> Floats: ...
+    def points(self) -> Floats:
+        """Points (n, 3) [m]."""
+        ...
+
     @property
-    def corners(self) -> Ints: ...
+    def corners(self) -> Ints:
+        """Points of each triangle (m, 3)."""
+        ...
 
 
 class _Canvas(NamedTuple):
