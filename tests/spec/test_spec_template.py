@@ -79,7 +79,8 @@ def test_a_switched_off_key_can_be_switched_on(kind, preset):
         assert spec == plain or "no default]" in comment, lines[number]
 
 
-@pytest.mark.parametrize(("kind", "preset"), PRESETS)
+# A crank alone has no second joint and no output, which drives and sections of phase space name.
+@pytest.mark.parametrize(("kind", "preset"), [pair for pair in PRESETS if pair != ("linkage", "crank")])
 def test_all_switched_on_at_once_is_a_complete_spec(kind, preset):
     lines = [code(line) for line in template(kind, preset).splitlines() if "data.csv" not in line and "logo.svg" not in line]
     spec = from_document(tomllib.loads("\n".join(lines)), folder=preset_path(kind, preset).parent)

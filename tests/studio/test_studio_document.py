@@ -73,11 +73,22 @@ def test_every_field_set_to_its_own_text_changes_nothing(path):
     assert document.design.spec().digest() == digest
 
 
+UNFIT = {  # a crank on one pin has no room for another, and no output
+    ("crank", "joints"): "zero length",
+    ("crank", "drives"): "no joint is called",
+    ("crank", "poincare"): "no output is called",
+}
+
+
 @pytest.mark.parametrize("path", PRESETS, ids=lambda path: f"{path.parts[-3]}-{path.stem}")
 def test_everything_can_be_added_and_put_and_taken_back(path):
     document = Document(design_of(path))
     first, tried = document.design, 0
     for group in form(first)["groups"]:
+        if words := UNFIT.get((path.stem, group["key"])):
+            with pytest.raises(SpecError, match=words):
+                document.add(group["key"])
+            continue
         if group["role"] in ("list", "names"):
             document.add(group["key"])
         elif not group["present"]:

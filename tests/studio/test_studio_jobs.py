@@ -332,7 +332,9 @@ def test_a_shaft_is_a_smooth_cylinder_with_two_sharp_rims():
     a, b, c = np.moveaxis(points.reshape(-1, 3, 3), 1, 0)
     volume = np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
     assert unit == "m" and volume == pytest.approx(math.pi * radius**2 * length, rel=0.01) and len(points) == 3 * part["triangles"]
-    assert np.linalg.norm(rims[:, 1] - rims[:, 0], axis=1).sum() == pytest.approx(2 * 2 * math.pi * radius, rel=0.01)
+    assert np.linalg.norm(rims[:, 1] - rims[:, 0], axis=1).sum() == pytest.approx(2 * 2 * math.pi * radius + length, rel=0.01), (
+        "with a line along it that shows how it turns"
+    )
     ends = np.abs(normals[:, 0]) > 0.5
     assert np.allclose(np.abs(normals[ends]), [1, 0, 0], atol=1e-6)
     outward = (points - (points.min(axis=0) + points.max(axis=0)) / 2) * [0, 1, 1]
