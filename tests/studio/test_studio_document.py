@@ -78,6 +78,7 @@ UNFIT = {  # a crank on one pin has no room for another, and no output
     ("crank", "drives"): "no joint is called",
     ("crank", "poincare"): "no output is called",
     ("crank", "bifurcation"): "no output is called",
+    ("crank", "table"): "no output is called",
 }
 
 
