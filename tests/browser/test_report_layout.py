@@ -104,6 +104,7 @@ def test_nothing_overlaps_or_is_cut(open_page, written, name):
     assert {where: what for where, what in found.items() if what} == {}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("detail", "language"), [("short", "en"), ("full", "zh")])
 def test_neither_in_another_form_or_language(open_page, written, detail, language):
     page = open_page(written("pin_indexer", detail, language), width=WIDTHS[0], height=900)

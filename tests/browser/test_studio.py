@@ -298,6 +298,7 @@ def test_a_script_that_gets_into_the_page_is_not_run(studio, browser):
         context.close()
 
 
+@pytest.mark.slow
 def test_analyses_that_take_too_long_can_run_longer(studio, tab):
     page = tab(studio[0])
     analysed(page)

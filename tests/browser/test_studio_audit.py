@@ -59,8 +59,9 @@ def audited(page, spec, audits):
     return wrong
 
 
-@pytest.mark.parametrize("spec", FEW)
-@pytest.mark.parametrize("width", [390, pytest.param(820, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("spec", SPECS)
+@pytest.mark.parametrize("width", [390, 820])
 def test_everything_can_be_reached_read_and_named(tab, spec, width):
     audits = {"controls": [True], "panels": [], "cut": [], "nameless": []}
     assert audited(tab(spec, width), spec, audits) == []

@@ -99,6 +99,7 @@ def test_the_names_of_checks_keep_their_room_beside_what_is_compared(opened):
     assert page.evaluate("[...document.querySelectorAll('.sd-card')].every(card => card.scrollWidth <= card.clientWidth + 1)")
 
 
+@pytest.mark.slow
 def test_a_search_with_two_objectives_shows_its_trade_off_while_it_runs(opened):
     page = opened("disc_cam")
     page.get_by_test_id("setup-optimise").click()
@@ -123,6 +124,7 @@ def test_a_search_with_two_objectives_shows_its_trade_off_while_it_runs(opened):
     assert page.evaluate(f"{STATE}.result.checks.every(check => check.ok)")
 
 
+@pytest.mark.slow
 def test_a_cancelled_study_says_how_many_designs_it_has(opened):
     page = opened("disc_cam")
     page.evaluate("window.drivewright.set({view: 'study'})")

@@ -84,7 +84,7 @@ def _becomes(page, key, text):
     until(page, f"document.querySelector('[data-testid=\"field-{key}\"] input').value === {json.dumps(text)}")
 
 
-@pytest.mark.parametrize("theme", ["light", "dark"])
+@pytest.mark.parametrize("theme", [pytest.param("light", marks=pytest.mark.slow), "dark"])
 @pytest.mark.parametrize("width", [390, 1440])
 def test_texts_have_contrast_and_controls_have_names(address, tab, theme, width):
     page = tab(address, theme=theme, width=width)

@@ -82,6 +82,7 @@ def test_a_search_is_set_up_run_and_loaded_without_text(cam):
     until(page, f"!{STATE}.design.toml.includes('optimise') && !{STATE}.design.undo")
 
 
+@pytest.mark.slow
 def test_a_form_that_is_refused_stays_with_the_reason(cam):
     page = cam()
     page.get_by_test_id("setup-study").click()
@@ -97,6 +98,7 @@ def test_a_form_that_is_refused_stays_with_the_reason(cam):
     assert page.get_by_test_id("study-form").is_hidden() and page.evaluate(f"{STATE}.jobs.study.answer.rows.length") == 4
 
 
+@pytest.mark.slow
 def test_a_study_of_nine_cases_is_set_up_run_and_a_row_loaded(cam):
     page = cam()
     page.get_by_test_id("job-study").click()
@@ -150,6 +152,7 @@ def test_a_proposal_is_dismissed_and_says_why_there_is_none(cam):
     assert value_of(page, RADIUS) == 24
 
 
+@pytest.mark.slow
 def test_sensitivity_opens_on_the_check_that_fails(cam):
     page = cam(('prime_radius = "40 mm"', 'prime_radius = "24 mm"'))
     page.get_by_test_id("job-sensitivity").click()

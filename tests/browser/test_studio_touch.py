@@ -151,6 +151,7 @@ def lengths(text):
     return [float(part.split()[0]) for part in text.split(",")]
 
 
+@pytest.mark.slow
 def test_arrow_keys_move_a_handle_and_escape_takes_them_back(desk):
     page = desk()
     before, handle = page.evaluate(TEXT), page.get_by_test_id(f"handle-{KEY}")

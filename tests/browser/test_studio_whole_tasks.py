@@ -121,6 +121,7 @@ def test_the_panel_of_measurements_is_put_aside(page):
     assert (after["x"], after["y"]) == pytest.approx((before["x"] - 120, before["y"] - 60), abs=2)
 
 
+@pytest.mark.slow
 def test_a_search_of_segment_angles_keeps_the_turn(page):
     before = value(page, "max_jerk")
     page.get_by_test_id("setup-optimise").click()

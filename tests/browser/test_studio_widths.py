@@ -69,7 +69,7 @@ def _look(page):
     return page.evaluate(OVERLAPS) + page.evaluate(HIDDEN)
 
 
-@pytest.mark.parametrize("lang", ["en", "zh"])
+@pytest.mark.parametrize("lang", ["en", pytest.param("zh", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("width", SIZES)
 def test_every_control_can_be_reached_and_nothing_lies_over_another(address, tab, width, lang):
     page = tab(address, width, lang)

@@ -492,6 +492,7 @@ def test_a_drag_that_is_undone_on_the_way_leaves_the_first_design(server):
     loops.run(attack())
 
 
+@pytest.mark.slow
 def test_a_search_for_a_change_gives_way_to_the_next_and_ends_with_its_tab(server):
     async def running(tab):
         return await tab.until(lambda message: message["what"] == "job" and message["name"] == "fix" and message["state"] == "running")
