@@ -29,7 +29,7 @@ export function createBottom(host, tools) {
   const bar = element("div", {class: "bt-bar"}), scroll = element("div", {class: "bt-scroll", "data-testid": "plots"});
   const plotted = element("div"), pictured = element("div", {class: "bt-pictures"}), none = element("p", {class: "bt-none", hidden: ""});
   const keep = () => { try { localStorage.setItem(KEPT, JSON.stringify(memory)); } catch { /* a full or forbidden storage */ } };
-  let plots = null, first = [], drive = null, lang = "", picker = null, runs = null;
+  let plots = null, first = [], drive = null, lang = "", seen = null, picker = null, runs = null;
 
   const kind = () => store.state.design?.kind ?? "";
   /** Ids of what is shown: as chosen for this kind of drive, else what a full result begins with. */
@@ -41,6 +41,7 @@ export function createBottom(host, tools) {
   function choose(ids) {
     if (ids) memory.chosen[kind()] = ids; else delete memory.chosen[kind()];
     keep();
+    seen = null;
     update(store.state);
   }
 
@@ -71,8 +72,10 @@ export function createBottom(host, tools) {
     return [element("span", {class: "bt-exports"}, save("svg", "image/svg+xml", one => svgText(one, store.state.design.title)), save("csv", "text/csv", csvText))];
   };
   function update({result, lang: now, design}) {
-    if (design?.opened !== drive) { drive = design?.opened; first = []; plots?.destroy(); plots = null; }
-    if (now !== lang) { lang = now; build(); }
+    if (design?.opened !== drive) { drive = design?.opened; first = []; plots?.destroy(); plots = null; seen = null; }
+    if (now !== lang) { lang = now; build(); seen = null; }
+    if (result && result === seen) return;  // a step of a drag, of which no analysis has an answer
+    seen = result;
     const has = Boolean(result?.plots);
     host.classList.toggle("st-none", !has);
     if (!has) return;

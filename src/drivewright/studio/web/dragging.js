@@ -16,7 +16,7 @@ const SEEN = 2500;  // ms that the numbers stay after an arrow key
  */
 export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, say, t, clock}) {
   const nudges = createGesture("nudge");
-  let hold = null, pointed = null, box = null, pending = 0, fading = 0, bubbleSize = {wide: 0, high: 0};
+  let hold = null, pointed = null, box = null, pending = 0, fading = 0, bubbleSize = {length: 0, wide: 0, high: 0};
   let nudged = null;  // {button, handleOf, start, now, gesture, seen} of the last arrow key
 
   function attach(button, handleOf) {
@@ -43,9 +43,9 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     if (!start) return;
     button.focus({preventScroll: true});
     button.setPointerCapture(event.pointerId);
-    const at = pixel(event), own = place(handle, handle.point);
+    const area = layer.getBoundingClientRect(), at = pixel(event, area), own = place(handle, handle.point);
     settle();
-    hold = {button, handleOf, start, pointer: event.pointerId, grip: [at[0] - own[0], at[1] - own[1]], at, travelled: 0, gesture: createGesture(handle.key).current(), now: start.map(n => n.value)};
+    hold = {button, handleOf, start, area, pointer: event.pointerId, grip: [at[0] - own[0], at[1] - own[1]], at, travelled: 0, gesture: createGesture(handle.key).current(), now: start.map(n => n.value)};
     button.classList.add("is-held");
     for (const [name, act] of Object.entries(WHILE_HELD)) button.addEventListener(name, act);
     addEventListener("pointerdown", pinch, {capture: true});
@@ -62,7 +62,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
   }
   function move(event) {
     if (!hold) return;
-    const at = pixel(event);
+    const at = pixel(event, hold.area);
     hold.travelled = Math.max(hold.travelled, Math.hypot(at[0] - hold.at[0], at[1] - hold.at[1]));
     if (hold.travelled < SHAKE) return;
     Object.assign(hold, {last: at, free: event.altKey});
@@ -94,7 +94,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     bubble.hidden = true;
   }
   const WHILE_HELD = {pointermove: move, pointerup: release, pointercancel: release, lostpointercapture: release};
-  const pixel = event => { const area = layer.getBoundingClientRect(); return [event.clientX - area.left, event.clientY - area.top]; };
+  const pixel = (event, {left, top} = layer.getBoundingClientRect()) => [event.clientX - left, event.clientY - top];
 
   /** A point in the frame of the handle's body [m] that is seen at a pixel. */
   function inFrame(handle, [x, y]) {
@@ -146,13 +146,12 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     const {wide, high} = bubbleSize, {width, height} = view(), left = x + 16 + wide > width ? x - 16 - wide : x + 16;
     bubble.style.transform = `translate(${within(left, width - wide)}px, ${within(y - 34, height - high)}px)`;
   }
-  /** The text of the bubble, which a screen reader says; it is measured when it gets longer or shorter only, for that has the whole page
-   *  laid out. */
+  /** The text of the bubble, which a screen reader says; it is measured when it gets longer only, for that has the whole page laid out. */
   function tell(text) {
-    const anew = bubble.hidden || text.length !== bubble.textContent.length;
+    const anew = bubble.hidden || text.length > bubbleSize.length;
     bubble.hidden = false;
     put(bubble, text);
-    if (anew) bubbleSize = {wide: bubble.offsetWidth, high: bubble.offsetHeight};
+    if (anew) bubbleSize = {length: text.length, wide: bubble.offsetWidth, high: bubble.offsetHeight};
   }
   function mark({guides: lines, words}) {
     hold.words = words;

@@ -50,7 +50,6 @@ export function createPicker({t}, choice) {
     return [element("div", {class: "bt-search"}, search, usual, clear), element("div", {class: "bt-list"}, ...groups.map(group => group.node), none)];
   }
   return {node, destroy: popovers.destroy, show() {
-    fit();
     const every = choice.plots().flatMap(idsOf), shown = choice.chosen().filter(id => every.includes(id)).length;
     put(count, t("* of * shown", shown, every.length));
     open.title = t("Choose plots"); open.setAttribute("aria-label", `${t("Choose plots")}: ${count.textContent}`);
