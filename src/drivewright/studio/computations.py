@@ -12,6 +12,7 @@ from drivewright.execution.workers import CallTimedOut, Cancellation, WorkerDied
 from drivewright.studio import preview
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import JOBS
+from drivewright.studio.jobs.progress import LONGER
 from drivewright.studio.resources import ServerResources
 
 Message: TypeAlias = Mapping[str, Any]  # to the page: {"what": its name, ...}
@@ -22,7 +23,6 @@ BUDGET = 0.02  # seconds of analyses that go with a drawing
 PACE = 0.12  # seconds at least between two drawings with analyses: those between are only drawn, and are the faster for it
 SHARE = 4  # times as long as it took with them, at least, where that is more
 ANALYSIS = 120.0  # seconds that one analysis may take: enough to compile what it needs
-LONGER = 10  # times as long, where a person asks for it
 
 
 class TabComputations:

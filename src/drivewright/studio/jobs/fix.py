@@ -15,11 +15,10 @@ from drivewright.studies.adjustable import dimensions
 from drivewright.studies.advising import advise, is_advisable
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.design_keys import is_locked, label
-from drivewright.studio.jobs.progress import Progress
+from drivewright.studio.jobs.progress import LONGER, Progress
 from drivewright.view.text import SIGNS, quantity
 
 PATIENCE = 30.0  # seconds of the search for a change
-LONGER = 10  # times as long, where a person asks for it
 
 
 def fix(design: Design, progress: Progress, check: str = "", longer: bool = False, locks: Sequence[str] = ()) -> dict[str, Any]:

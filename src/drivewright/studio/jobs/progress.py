@@ -1,6 +1,8 @@
-"""How a job reports its progress."""
+"""How work that takes a while reports its progress, and how much longer it may take."""
 
 from typing import Any, Protocol
+
+LONGER = 10  # times as long, where a person asks for it
 
 
 class Progress(Protocol):
