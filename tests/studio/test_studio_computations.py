@@ -363,6 +363,46 @@ async def test_what_a_hand_moves_is_drawn_quickly_and_drawn_in_full_when_it_rest
     assert bench.calls[-1].arguments[3] is False
 
 
+async def moved(bench, gen):
+    """The drawing of a design that a hand moves, drawn."""
+    bench.computing.update(gen, SimpleNamespace(kind=KIND, gen=gen), moving=True)
+    await settled()
+    drawing = bench.calls[-1]
+    await drawing.answer(None)
+    return drawing
+
+
+@story
+async def test_analyses_of_what_a_hand_moves_run_beside_its_drawings(bench):
+    bench.computing._seconds = {"motion": 0.001, "forces": 0.002}
+    computations.registry.mechanism(KIND).quick_scene = None
+
+    def rounds():
+        return [call for call in bench.calls if call.function == "glance"]
+
+    assert list((await moved(bench, 1)).arguments[1]) == []
+    (beside,) = rounds()
+    assert (beside.pool, beside.arguments[0].gen, list(beside.arguments[1])) == ("heavy", 1, ["motion", "forces"])
+    for gen in (2, 3):
+        await moved(bench, gen)
+    assert rounds() == [beside], "one round at a time"
+    await beside.answer(found("motion", "forces"))
+    assert bench.told("result") == [{"what": "result", "gen": 1, "full": False, "result": found("motion", "forces")}]
+    await moved(bench, 4)
+    assert [call.arguments[0].gen for call in rounds()] == [1, 4]
+
+
+@story
+async def test_analyses_beside_a_drawing_that_fail_say_nothing(bench):
+    """The drawing does, or the analyses of the design at rest."""
+    bench.computing._seconds = {"motion": 0.001}
+    computations.registry.mechanism(KIND).quick_scene = None
+    await moved(bench, 1)
+    before = list(bench.said)
+    await next(call for call in bench.calls if call.function == "glance").fail(DoesNotAssemble("the loop stays open"))
+    assert bench.said == before and bench.computing._glance_task is None
+
+
 def test_of_drawings_in_quick_succession_only_some_come_with_analyses(bench, monkeypatch):
     monkeypatch.setattr(computations, "PACE", 0.3)
 
