@@ -15,7 +15,7 @@ from drivewright.mechanisms.cam.spec import TURN, CamSpec, Groove
 from drivewright.numerics.jets import Jet
 from drivewright.spec.length_or_angle import AngleGiven
 
-LAW_KEYS = ("file", "band", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
+LAW_KEYS = ("file", "rows", "band", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
 USED = {  # keys of the follower that each motion and face reads
     "translating": ("offset",),
     "oscillating": ("pivot_distance", "arm_length", "lift_at", "inertia"),
@@ -263,7 +263,7 @@ def _refuse_rise(spec, segment, law, lengths, key):
     if segment.rise is not None and segment.rise != 0 and isinstance(segment.rise, AngleGiven) == lengths:
         raise SpecError(f"must be {wanted}", key=f"{key}.rise")
     if (getattr(law, "lift_unit", None) or "") == ("rad" if lengths else "m"):
-        raise SpecError(f"the lift in its table must be {wanted}", key=f"{key}.file")
+        raise SpecError(f"the lift in its table must be {wanted}", key=f"{key}.{'file' if segment.rows is None else 'rows'}")
 
 
 def _findings(spec, programme):
