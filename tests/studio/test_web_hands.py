@@ -182,7 +182,7 @@ PROGRAMME = """
     const segments = angles.map((angle, n) => {
       const own = {angle: angle * degree, rise: rises[n] / 1e3, start, end: start + angle * degree, from: level, to: level + rises[n] / 1e3,
         law: "cycloidal", absolute: false};
-      if (n === data.spline) own.nodes = {...readPoints("[[0, 0], [0.25, 0.1], [0.75, 0.9], [1, 1]]", "spline"), key: `programme.${n}.points`};
+      if (n === data.spline) own.nodes = {...readPoints("[[0, 0], [0.25, 0.1], [0.75, 0.9], [1, 1]]", "spline"), key: "programme.2.points"};
       start = own.end; level = own.to;
       return own;
     });

@@ -7,7 +7,6 @@ from drivewright.motion_diagram import DiagramSegment, MotionDiagram
 from drivewright.report.pack import floats
 from drivewright.view.text import shown_scale
 
-
 MOST_ROWS = 1000  # of a table that a page shows as points
 
 
