@@ -84,8 +84,8 @@ def _table(file=None, angle=None, lift=None, degree=5, ends=None, band=None, row
     The angle runs from 0; the lift is absolute.  `ends` unless given: "periodic" over a full turn, otherwise "clamped" (v = a = 0).
     With a `band` [m or rad] the smoothest lift within the band of every row (`numerics.smoothing`) instead of the spline through them.
     """
-    if [file, rows, angle].count(None) != 2 or (angle is None) != (lift is None):
-        raise InputError("motion law 'table': give either a file, or rows, or the arrays angle [rad] and lift [m or rad].")
+    if sum(given is not None for given in (file, rows, angle)) != 1 or (angle is None) != (lift is None):
+        raise InputError("motion law 'table': give either a file, or the arrays angle [rad] and lift [m or rad], or rows (angle, lift).")
     rows = read_table(file) if file is not None else _from_rows(rows) if rows is not None else _from_arrays(angle, lift)
     _refuse_rows(rows)
     span = float(rows.angle[-1])

@@ -1,7 +1,7 @@
 """Spec -> model: the programme over one turn and the surfaces that touch: cam and follower, conjugate cam, outer wall, second face."""
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from typing import Any
 
@@ -34,7 +34,11 @@ class CamModel:
     programme: motion.Programme
     tracks: tuple[CamTrack, ...]
     material: materials.Material
-    findings: tuple[str, ...] = field(default=())
+
+    @cached_property
+    def findings(self) -> tuple[str, ...]:
+        """Keys that are not used, and what is found in tables: computed where it is read, for it takes longer than a drawing may."""
+        return tuple(_findings(self.spec, self.programme))
 
     @cached_property
     def cycle(self) -> cams.Cycle:
@@ -201,7 +205,7 @@ def assembled(spec: CamSpec, programme: motion.Programme) -> CamModel:
     """
     follower = _follower(spec)
     tracks = (CamTrack("cam", "", follower, follower.contact), *_closing_tracks(spec, follower, programme))
-    model = CamModel(spec, programme, tracks, _material(spec), tuple(_findings(spec, programme)))
+    model = CamModel(spec, programme, tracks, _material(spec))
     for track in tracks:  # lever past its dead point, lift through the cam's centre: refused here, not in the middle of an analysis
         track.contact(*model.cycle.sampled())
     return model
