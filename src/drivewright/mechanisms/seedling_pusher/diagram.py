@@ -8,7 +8,7 @@ from drivewright.motion.diagram import diagram_segments
 from drivewright.motion_diagram import DiagramSegment, FixedKeys, LawChoice, MotionDiagram, Origin
 
 LOWEST = 'The push ends at the lowest position of the needle tip (push.end_event = "lowest"); that border is not moved here.'
-CHECKS = ("pressure_angle.main", "pressure_angle.return", "curvature_margin.main", "curvature_margin.return")
+CHECKS = tuple(f"{check}.{cam}" for check in ("pressure_angle", "undercut", "curvature_margin") for cam in ("main", "return"))
 NONE = DiagramSegment("dwell", 0.0, 0.0, np.zeros((5, 2)))
 
 

@@ -1,6 +1,6 @@
 // The bars above the diagram: law, angle and rise of the chosen segment, and its points.
 
-import { rowsText } from "./motion_points.js";
+import { partText, pointMoves, rowsText } from "./motion_points.js";
 import { withDwell, withLaw, without } from "./motion_segments.js";
 import { button, put } from "./parts.js";
 import { element } from "./player.js";
@@ -34,12 +34,14 @@ export function createMotionBar(host, {state, numbers, drag, arrange, select, ch
   function pointParts() {
     const which = element("input", {type: "number", class: "st-box mf-which", min: 1, "data-testid": "programme-point", "aria-label": t("Number of the point")}), of = element("span", {class: "mf-of"});
     which.addEventListener("input", () => { const k = Number(which.value) - 1; if (Number.isInteger(k) && k >= 0 && k < state().shown.segments[state().selected].nodes.at.length) choose(state().selected, k); });
-    which.addEventListener("blur", () => fill());
+    const place = [box("point-x", t("Place of the point along the angle")), box("point-y", t("Lift of the point"))];
+    place.forEach((input, part) => input.addEventListener("keydown", event => { const {selected, point} = state(); if (event.key === "Enter" && point) drag.typedPoint(selected, point.k, part, input.value); }));
+    for (const input of [which, ...place]) input.addEventListener("blur", () => fill());
     const more = button(t("Add a point"), addPoint, {testid: "programme-point-add", title: t("Half-way to the next point; a double click on the curve adds one there")});
     const less = button(t("Remove the point"), removePoint, {testid: "programme-point-drop", title: t("The Delete key does it on a point")});
     const take = button(t("Edit the points here"), takeRows, {testid: "programme-rows", title: t("The rows of the file go into the spec; the file stays as it is")});
-    const words = element("span", {class: "mf-words", "data-testid": "programme-points"}), edit = element("span", {class: "mf-list"}, label(t("Point"), which), of, more, less);
-    return {which, of, more, less, take, words, edit, row: element("div", {class: "mf-bar mf-points", hidden: ""}, edit, words, take)};
+    const words = element("span", {class: "mf-words", "data-testid": "programme-points"}), edit = element("span", {class: "mf-list"}, label(t("Point"), which), of, ...place, more, less);
+    return {which, of, place, more, less, take, words, edit, row: element("div", {class: "mf-bar mf-points", hidden: ""}, edit, words, take)};
   }
 
   // ---- what the buttons do
@@ -103,6 +105,10 @@ export function createMotionBar(host, {state, numbers, drag, arrange, select, ch
       parts.which.max = nodes.at.length; parts.which.disabled = nodes.still;
       if (document.activeElement !== parts.which) parts.which.value = k === null ? "" : k + 1;
       put(parts.of, t("of *", nodes.at.length));
+      parts.place.forEach((input, part) => {
+        input.disabled = still || k === null || !pointMoves(segment, k) || part === 0 && !inside;
+        if (document.activeElement !== input) input.value = k === null ? "" : partText(segment, k, part);
+      });
       parts.more.disabled = still || drag.isFull(segment); parts.less.disabled = still || !inside || drag.isFew(segment);
     }
     put(parts.words, wordsOf(segment, nodes, count, current));

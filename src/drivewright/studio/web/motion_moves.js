@@ -1,7 +1,7 @@
 // Steps of a motion programme: what a border, a lift, a point or a typed number changes in the spec.
 
 import { quantityOf } from "./numbers.js";
-import { FEWEST, MOST, addedPoint, liftAt, movedPoint, pointAt, withoutPoint } from "./motion_points.js";
+import { FEWEST, MOST, addedPoint, liftAt, movedPoint, pointAt, pointMoves, typedPart, withoutPoint } from "./motion_points.js";
 import { LEAST, borderMoves, partnerOf } from "./motion_segments.js";
 import { nice } from "./player.js";
 import { createGesture } from "./slider.js";
@@ -74,6 +74,14 @@ export function createMotionMoves({plot, drawn, isCurrent, number, numberAt, hol
     keepPoint(segment, movedPoint(segment, k, at), gesture);
     return straight ? t("at its angle") : "";
   }
+  /** A typed part of a point, 0 or 1; whether it is one. */
+  function typedPoint(n, k, part, text) {
+    const segment = drawn().segments[n], value = typedPart(segment, k, part, text);
+    if (!Number.isFinite(value) || !isCurrent() || !pointMoves(segment, k)) return false;
+    keepPoint(segment, movedPoint(segment, k, segment.nodes.at[k].map((own, each) => each === part ? value : own)), createGesture(segment.nodes.key).current());
+    hold(null);
+    return true;
+  }
   /** Another point of segment `n` on its curve, at an angle of the programme; its number, null where there is no room. */
   function add(n, angle) {
     const {segments, lift: shown} = drawn(), segment = segments[n];
@@ -115,5 +123,5 @@ export function createMotionMoves({plot, drawn, isCurrent, number, numberAt, hol
     hold(null);
   }
 
-  return {movers, border, lift, point, add, remove, can, typed, stepOf, isFull: segment => segment.nodes.at.length >= MOST, isFew: segment => segment.nodes.at.length <= FEWEST};
+  return {movers, border, lift, point, add, remove, can, typed, typedPoint, stepOf, isFull: segment => segment.nodes.at.length >= MOST, isFew: segment => segment.nodes.at.length <= FEWEST};
 }

@@ -32,6 +32,14 @@ function written(value, like) {
 /** The text of rows [angle [rad], lift [m or rad]] as a spec has them. */
 export const rowsText = (rows, angular) => JSON.stringify(rows.map(([angle, lift]) => [written(angle, "0 deg"), written(lift, angular ? "0 deg" : "0 mm")]));
 
+/** A part of point `k` as a person reads it, "114 deg" or 0.25; and the number of a typed text, in the unit of that part unless it has its own: NaN where it is none. */
+export const partText = ({nodes: {raw, at}}, k, part) => String(raw ? raw[k][part] : tidy(at[k][part]));
+export function typedPart(segment, k, part, text) {
+  const [value, unit] = quantityOf(text) || [NaN], [, own] = segment.nodes.kind === "table" && quantityOf(partText(segment, k, part)) || [];
+  if (segment.nodes.kind === "spline") return unit ? NaN : value;
+  return value * (FACTORS[unit || own] ?? NaN);
+}
+
 /** Where point `k` is: [angle of the programme, lift]. */
 export function placeOf(segment, k) {
   const {kind, at} = segment.nodes, [x, y] = at[k];
