@@ -1,7 +1,7 @@
 """Plain data of a motion programme that can be drawn: its segments with lift and derivatives, and the keys of the spec behind them.
 
-A `Mechanism` whose spec has a list of segments gives a `MotionDiagram` of its model; whoever lets a person edit the motion needs nothing
-else of the kind of drive.
+A `Mechanism` whose spec states a motion segment by segment, in a list or under keys of their own, gives a `MotionDiagram` of its model;
+whoever lets a person edit the motion needs nothing else of the kind of drive.
 """
 
 from collections.abc import Mapping, Sequence
