@@ -64,7 +64,11 @@ def test_a_four_bar_from_clicks_moves():
 
 def test_a_body_without_joints_stands_where_it_was_clicked(hand):
     missing = hand.use("body", (-80, 10), (-80, 70), (-120, 70))
-    assert missing[0] == "body link is held by no joint: add a pin or a slide" and not connected(hand.spec)
+    assert missing == (
+        "body link is held by no joint: add a pin or a slide",
+        "remaining degrees of freedom beside the drive: 3; add joints",
+    )
+    assert not connected(hand.spec)
     assert hand.tables["bodies"]["link"]["points"]["C"] == ["-120 mm", "70 mm"]
     drawn = {body.name: body for body in sketch(hand.spec).bodies}
     assert drawn["link"].poses.tolist() == [[0, 0, 0], [0, 0, 0]] and abs(drawn["coupler"].poses[0, 0] - 0.04) < 1e-9

@@ -152,7 +152,7 @@ def unfinished(spec: LinkageSpec) -> tuple[str, ...]:
         found.append(f"remaining degrees of freedom: {freedom}; add a drive on a pin")
     elif freedom:
         drives = "drive" if len(spec.all_drives) == 1 else "drives"
-        found.append(f"remaining degrees of freedom beside the {drives}: {freedom}; {_free_end(spec)}")
+        found.append(f"remaining degrees of freedom beside the {drives}: {freedom}; {'add joints' if found else _free_end(spec)}")
     return tuple(found)
 
 

@@ -40,8 +40,9 @@ export function createMotionBar(host, {state, numbers, drag, arrange, select, ch
     const more = button(t("Add a point"), addPoint, {testid: "programme-point-add", title: t("Half-way to the next point; a double click on the curve adds one there")});
     const less = button(t("Remove the point"), removePoint, {testid: "programme-point-drop", title: t("The Delete key does it on a point")});
     const take = button(t("Edit the points here"), takeRows, {testid: "programme-rows", title: t("The rows of the file go into the spec; the file stays as it is")});
-    const words = element("span", {class: "mf-words", "data-testid": "programme-points"}), edit = element("span", {class: "mf-list"}, label(t("Point"), which), of, ...place, more, less);
-    return {which, of, place, more, less, take, words, edit, row: element("div", {class: "mf-bar mf-points", hidden: ""}, edit, words, take)};
+    const words = element("span", {class: "mf-words", "data-testid": "programme-points"}), names = place.map(() => element("span", {}));
+    const edit = element("span", {class: "mf-list"}, label(t("Point"), which), of, ...place.map((input, part) => element("label", {class: "so-control"}, names[part], input)), more, less);
+    return {which, of, place, names, more, less, take, words, edit, row: element("div", {class: "mf-bar mf-points", hidden: ""}, edit, words, take)};
   }
 
   // ---- what the buttons do
@@ -106,6 +107,7 @@ export function createMotionBar(host, {state, numbers, drag, arrange, select, ch
       if (document.activeElement !== parts.which) parts.which.value = k === null ? "" : k + 1;
       put(parts.of, t("of *", nodes.at.length));
       parts.place.forEach((input, part) => {
+        put(parts.names[part], nodes.kind === "spline" ? ["u", "s"][part] : [t("Angle"), t("Lift")][part]);
         input.disabled = still || k === null || !pointMoves(segment, k) || part === 0 && !inside;
         if (document.activeElement !== input) input.value = k === null ? "" : partText(segment, k, part);
       });
