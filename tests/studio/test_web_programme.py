@@ -191,8 +191,8 @@ def test_borders_that_are_close_stand_apart_and_are_held_where_they_are():
 
 
 def test_the_stroke_is_one_number_for_both_motions():
-    (changes,) = pusher('pull("lift-0", [172, 120], [172, 100], {altKey: true}); return changes();')
-    assert changes == {"push.stroke": "20 mm"}
+    said, held = pusher('pull("lift-0", [172, 120], [172, 100], {altKey: true}); return [changes(), held[0]];')
+    assert said == [{"push.stroke": "20 mm"}] and held[0] == {"push.stroke": 0.02}  # as the spec has it
     assert pusher('pull("lift-0", [172, 120], [172, 380], {altKey: true}); return changes();') == []  # never negative
     typed = pusher(
         "hands.typed(2, 'rise', '-20'); hands.typed(0, 'rise', '2 cm'); hands.typed(1, 'angle', '3'); hands.typed(3, 'angle', '9');"

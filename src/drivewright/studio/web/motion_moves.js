@@ -16,7 +16,7 @@ const tidy = value => Number(value.toPrecision(12)), short = value => tidy(Math.
 export function createMotionMoves({plot, drawn, isCurrent, number, numberAt, hold, tools: {say, t}}) {
   const send = (changes, gesture, numbers, texts = {}) => { hold(numbers, texts); say({what: "drag", changes, gesture}); };
   const textsOf = (pairs) => Object.fromEntries(pairs.map(([{key, unit}, value]) => [key, `${value} ${unit}`]));
-  const heldOf = (pairs) => Object.fromEntries(pairs.map(([{key, factor}, value]) => [key, value * factor]));
+  const heldOf = (pairs) => Object.fromEntries(pairs.map(([{key, factor}, value]) => [key, value * Math.abs(factor)]));  // of the key itself, whatever its sense
 
   // ---- borders
   /** What moves with border `n`: [number, its change per change of the angle]. */
