@@ -61,6 +61,22 @@ def test_a_pendulum_from_clicks(page):
     until(page, f"{MISSING}.includes('held by no joint')", 60)
 
 
+def test_a_second_drive_is_placed_and_taken_away_by_clicks(page):
+    page.get_by_test_id("tool-body").click()
+    at(page, 0.1, 0.2)
+    at(page, 0.25, 0.3)
+    page.keyboard.press("Enter")
+    until(page, f"{MISSING}.includes('held by no joint')", 60)
+    for tool, words in (("pin", "held by one joint only"), ("drive", None), ("delete", "held by one joint only")):
+        page.get_by_test_id(f"tool-{tool}").click()
+        at(page, 0.1, 0.2)
+        until(page, f"{MISSING}.includes({words!r})" if words else f"{MISSING} === '[]'", 60)
+        drawn(page)
+        further = page.evaluate(f"({STATE}.design.toml.match(/\\[\\[drives\\]\\]/g) || []).length")
+        marks = page.evaluate(f"{STATE}.scene.scene.bodies.filter(({{name}}) => name.startsWith('drive ')).length")
+        assert (further, marks) == ((1, 2) if tool == "drive" else (0, 1))
+
+
 def test_a_refused_click_is_explained_beside_the_tools(page):
     page.get_by_test_id("tool-drive").click()
     at(page, 0.1, 0.1)

@@ -212,7 +212,8 @@ PROGRAMME = """
     let start = 0, level = 0;
     const segments = angles.map((angle, n) => {
       const own = {angle: angle * degree, rise: rises[n] / 1e3, start, end: start + angle * degree, from: level, to: level + rises[n] / 1e3,
-        law: "cycloidal", absolute: false, points: n === data.spline ? [[0, 0], [0.25, 0.1], [0.75, 0.9], [1, 1]] : []};
+        law: "cycloidal", absolute: false};
+      if (n === data.spline) own.nodes = {...readPoints("[[0, 0], [0.25, 0.1], [0.75, 0.9], [1, 1]]", "spline"), key: "programme.2.points"};
       start = own.end; level = own.to;
       return own;
     });
@@ -236,7 +237,7 @@ MOTION = {"angles": [90, 60, 120, 90], "rises": [20, 0, -12, -8]}
 
 
 def programme(body, **more):
-    return in_node(PROGRAMME + body, {**MOTION, **more}, motion_drag="createMotionDrag")
+    return in_node(PROGRAMME + body, {**MOTION, **more}, motion_drag="createMotionDrag", motion_points="readPoints")
 
 
 def test_what_can_be_held_of_a_programme():

@@ -110,7 +110,7 @@ export function createViews(host, tools) {
     }
     show(store.state);
   }
-  /** A kind of drive without a list of segments has no programme to edit. */
+  /** A kind of drive that states no motion by segments has no programme to edit. */
   function offer({design, kinds, view}) {
     if (!design) return;
     tabs.programme.hidden = !kinds.find(({kind}) => kind === design.kind)?.programme;
