@@ -291,6 +291,8 @@ ODD = [
     '{"what": "construct", "tool": "slide", "places": [[0, 0], [0, 0]], "near": 1e5}',
     '{"what": "construct", "tool": "pin", "places": [[0, 0]], "near": 5e-324}',
     '{"what": "names"}',
+    '{"what": "hints", "kind": "../cam"}',
+    '{"what": "hints", "language": ["zh"]}',
     '{"what": "names", "list": "__class__"}',
     '{"what": "names", "list": "SURROGATE"}',
     '{"what": "names", "list": ["bearings"]}',

@@ -1,7 +1,8 @@
 """Words of the page in another language than English: labels of the form, and texts on the screen.
 
 They stand in `zh.toml`, here for what all kinds share and in the folder of each mechanism for its own:
-`fields` and `tables` (dotted key, * for a name or a number -> label), `texts` (English, * for a part that varies -> text), `presets`.
+`fields` and `tables` (dotted key, * for a name or a number -> label), `hints` (what a key means, in English -> in the language), `texts`
+(English, * for a part that varies -> text), `presets`.
 """
 
 import re
@@ -24,6 +25,11 @@ def fields(kind: str) -> dict[str, str]:
 def tables(kind: str) -> dict[str, str]:
     """The same of its tables, which are the groups of a form."""
     return _merged(kind, "tables")
+
+
+def hints(kind: str) -> dict[str, str]:
+    """{meaning of a key or of a table, as its class states it: in the language}; the dictionary is shared, do not change it."""
+    return _merged(kind, "hints")
 
 
 @cache

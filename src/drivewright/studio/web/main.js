@@ -19,7 +19,7 @@ const PLACES = [["header", "head", createHead], ["aside", "form", createForm], [
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
-    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, setup: null, ...taste()});
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, setup: null, hints: null, ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
   const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside
@@ -40,6 +40,12 @@ export function start(host, page) {
   store.on(["theme"], ({theme}) => theme ? root.setAttribute("data-theme", theme) : root.removeAttribute("data-theme"));
   store.on(["lang"], ({lang}) => root.setAttribute("lang", lang === "zh" ? "zh-CN" : "en"));
   store.on(["lang", "theme"], ({lang, theme}) => remember(localStorage, TASTE, {lang, theme}));
+  let hinted = "";  // kind of drive whose hints are here, or on their way
+  store.on(["lang", "design"], ({lang, design}) => {
+    if (lang !== "zh" || !design || design.kind === hinted) return;
+    hinted = design.kind;
+    page.say({what: "hints"});
+  });
   store.on(["design"], ({design}) => design && remember(sessionStorage, KEPT, {toml: design.toml, files: design.files}));
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
   return () => { socket.leave(); parts.forEach(part => part.destroy()); };
@@ -91,6 +97,7 @@ function createEar(store, begin) {
       if (name === "save" && news.state === "failed") store.set({notice: news.text});
     },
     proposals: message => store.set({proposals: message}),
+    hints: ({words}) => store.set({hints: words}),
     names: ({list, entries}) => store.set({parts: {...store.state.parts, [list]: entries}}),
     shared: ({fragment}) => store.set({shared: {url: `${location.origin}${location.pathname}#${fragment}`}}),
   };
