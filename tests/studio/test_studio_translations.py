@@ -47,7 +47,7 @@ def keys(model, path=""):
 def meanings(model, told):
     """What the form says of each key and each table below a table class: {text}."""
     told.add(" ".join((model.__doc__ or "").split()) if not told else "")
-    for name, info in field_infos(model).items():
+    for info in field_infos(model).values():
         told.add(" ".join(group_hint(info).split()) if info.table or info.kind == "names" else info.hint)
         if info.table:
             meanings(info.table, told)

@@ -79,10 +79,7 @@ class _Maker:
 
     def inside(self, info, given, path, pattern):
         """The groups of a sub-table, of a list of them, or of those that the user names."""
-        about = {
-            "hint": group_hint(info),
-            "optional": not info.required and not info.levels and info.default is None,
-        }
+        about = {"hint": group_hint(info), "optional": not info.required and not info.levels and info.default is None}
         value = info.initial_value if given is ABSENT else given
         if info.kind == "names":
             self.names(info, value or {}, path, pattern, about)

@@ -64,6 +64,9 @@ export const presetTitle = ({state: {kinds = [], design}}, name) => kinds.find((
 export const drawingsOf = ({state: {kinds = [], design}}) =>
   (kinds.find(({kind}) => kind === design?.kind)?.drawings || []).filter(({name}) => design.drawings?.includes(name) ?? true);
 
+/** The address of a drawing, with its words in the language of the page. */
+export const drawingAddress = ({state: {lang}}, name) => `/web/drawing.${name}${lang === "zh" ? ".zh" : ""}.svg`;
+
 /** What the menu of drawings holds; `t` translates a title. */
 export const drawings = (store, t) => drawingsOf(store).map(({name, title}) =>
-  element("figure", {class: "st-drawing"}, element("img", {src: `/web/drawing.${name}.svg`, alt: t(title), loading: "lazy"})));
+  element("figure", {class: "st-drawing"}, element("img", {src: drawingAddress(store, name), alt: t(title), loading: "lazy"})));
