@@ -16,13 +16,19 @@ FINE = 8  # samples from frame to frame: between two frames a journal may bounce
 
 class CyclePoses(NamedTuple):
     """`poses` {body: (samples, 3)} of the bodies' own frames; every FINE-th sample is a frame, of which `cycle` (frames,) is the angle
-    of the drive or the time; `period` [s] 0 where nothing moves."""
+    of the drive or the time; `period` [s] 0 where nothing moves, and `start` [s] is the time of the first."""
 
     cycle: Floats
     label: str
     unit: str
     period: float
     poses: dict[str, Floats]
+    start: float = 0.0
+
+    @property
+    def times(self) -> Floats:
+        """Times (frames,) [s] of the frames."""
+        return self.start + np.linspace(0.0, self.period, len(self.cycle))
 
     def frames(self, name: str) -> Floats:
         """Poses (frames, 3) of a body."""
@@ -42,8 +48,8 @@ def cycle_poses(model: SimulationModel) -> CyclePoses:
     poses = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     passed = times[::FINE] - start
     if model.period:
-        return CyclePoses(passed * TURN / model.period, "crank angle", "rad", end - start, poses)
-    return CyclePoses(passed, "time", "s", end - start, poses)
+        return CyclePoses(passed * TURN / model.period, "crank angle", "rad", end - start, poses, start)
+    return CyclePoses(passed, "time", "s", end - start, poses, start)
 
 
 def _span(model):
