@@ -37,7 +37,7 @@ export function createDesigns({store, t}, {fresh, example, close}) {
   const group = ({kind, summary, presets, examples = [], ...more}) =>
     element("div", {class: "st-kind", role: "group", "aria-label": t(spoken(kind))},
       element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
-      element("div", {class: "st-cards"}, ...[...presets].sort((a, b) => (b === more.start) - (a === more.start)).map(preset({kind, ...more})), ...examples.map(worked)));
+      element("div", {class: "st-cards"}, ...presets.map(preset({kind, ...more})), ...examples.map(worked)));
   /** A box that leaves only the cards whose words hold all that is typed; a kind without any goes too. */
   function finder(groups) {
     const box = element("input", {class: "st-find-design", type: "search", placeholder: t("Find a design"), "aria-label": t("Find a design"),

@@ -3,7 +3,7 @@
 import { fitCanvas, fixed } from "./player.js";
 import { ticks } from "./plotting.js";
 
-export const MARGIN = {left: 58, right: 16, top: 30, bottom: 34}, GAP = 22;
+const MARGIN = {left: 58, right: 16, top: 30, bottom: 34}, GAP = 22;
 const SHARE = [0.4, 0.2, 0.2, 0.2], ROLES = ["blue", "orange", "green", "violet"], FONT = "11px system-ui, sans-serif";
 
 /** The drawing on a canvas; `changed()` after each change of its size.  `toX(angle)`, `toY(lift)` and back give pixels of the lift diagram. */
