@@ -17,7 +17,8 @@ from drivewright.spec import load
 from drivewright.spec.fields import containers_of, has_user_keys, table_of
 from drivewright.studio import translations
 from drivewright.studio.field_info import field_infos
-from drivewright.studio.form import form, group_hint
+from drivewright.studio.form import form, group_hint, values
+from drivewright.studio.jobs.design_keys import label
 from drivewright.studio.opening import opened
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.text import sentence
@@ -212,6 +213,24 @@ def test_every_analysis_has_a_name_and_a_meaning(kind):
     analyses = registry.mechanism(kind).analyses
     asked = [text for each in analyses for text in (each.name, each.meaning)]
     assert [(english, text) for english, text in zip(asked, translated([(kind, asked)])[0], strict=True) if not CHINESE.search(text)] == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_keys_that_a_search_may_vary_are_named_in_chinese(kind):
+    path = registry.mechanism(kind).presets()["default"]
+    design, spec = opened(path), load(path)
+    asked = [label(design.tables, key) for key, field in values(form(design)).items() if not field.get("parts") and field["kind"] != "list"]
+    own = {part for name in names(type(spec), spec) for part in re.findall("[A-Za-z]{2,}", name)} | LATIN | {"kxx", "kyy", "kxy", "kyx"}
+    told = translated([(kind, asked)])[0]
+    left = [(english, text) for english, text in zip(asked, told, strict=True) if set(re.findall("[A-Za-z]{2,}", text)) - own]
+    assert len(asked) > 30 and [pair for pair in left if not re.search("c[xy][xy]|eC", pair[1])] == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_a_run_leaves_out_is_told_in_chinese(kind):
+    found = runner.run(load(registry.mechanism(kind).presets()["default"])).findings
+    told = translated([(kind, found)])[0]
+    assert [text for text in told if not CHINESE.search(text)] == []
 
 
 # -- words.js ----------------------------------------------------------------------------------------------------------------------

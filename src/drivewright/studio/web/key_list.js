@@ -6,6 +6,11 @@ import { element } from "./player.js";
 const SHOWN = 60;  // keys that are listed at once; a word in the box finds the others
 const LONG = 16;  // letters of a value that stand beside its name
 
+/** The value of a key as it stands in the list. */
+function textOf({kind, text}, t) {
+  return kind === "flag" ? t(text === "true" ? "yes" : "no") : kind === "choice" ? t(text) : shortened(text, LONG);
+}
+
 /** A small box for text. */
 export function box(value, name, testid, more = {}) {
   const made = element("input", {type: "text", class: "st-box sf-box", "aria-label": name, spellcheck: "false", autocomplete: "off", "data-testid": testid, ...more});
@@ -50,7 +55,7 @@ export function createKeyList(name, {t}, editor, changed) {
     changed();
   }
   function row(key) {
-    const words = [element("span", {class: "sf-name", title: key.key}, t(key.label)), element("b", {}, key.kind === "choice" ? t(key.text) : shortened(key.text, LONG))];
+    const words = [element("span", {class: "sf-name", title: key.key}, t(key.label)), element("b", {}, textOf(key, t))];
     const made = element("div", {class: "sf-key"},
       tick(editors.has(key.key), words, `${name}-key-${key.key}`, on => set(key, on), key.locked ? {disabled: "", title: t("Locked; unlock it to let it change")} : {}));
     if (editors.has(key.key)) made.append(editors.get(key.key).node);

@@ -1,5 +1,6 @@
 // English texts in the language of the page.
 
+const TYPED = "--only ";  // what stands behind it is typed as it is
 const MOST = 4000;  // translations kept; running numbers would fill the memory
 
 /**
@@ -38,7 +39,8 @@ export function createWords(store) {
     for (const words of all) {
       for (const {english, shape} of book(words)) {
         const parts = shape.exec(text) || shape.exec(otherCase(text));
-        if (parts) return filled(words[english], parts.slice(1).map(part => known(part, all) ?? part));
+        const before = english.split("*"), told = (part, n) => before[n].endsWith(TYPED) ? part : known(part, all) ?? part;
+        if (parts) return filled(words[english], parts.slice(1).map(told));
       }
     }
     return null;
