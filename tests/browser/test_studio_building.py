@@ -51,7 +51,7 @@ def test_a_pendulum_from_clicks(page):
     page.keyboard.press("Enter")
     after(page, gen)
     until(page, f"{MISSING}.includes('held by no joint')", 60)
-    assert "[bodies.link]" in page.evaluate(f"{STATE}.design.toml")
+    assert "[bodies.link_1]" in page.evaluate(f"{STATE}.design.toml")
     gen = steps(page)
     page.get_by_test_id("tool-pin").click()
     at(page, 0.1, 0.2)

@@ -246,7 +246,7 @@ def without_a_scene(four_bar, monkeypatch):
 def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a_scene):
     told = []
     found = preview.draw(told.append, four_bar, ["motion"])
-    assert json.loads(told[0]) == {"scene": None, "remarks": ["no motion to show: the loop stays open"], "programme": None}
+    assert json.loads(told[0]) == {"scene": None, "remarks": ["the loop stays open"], "programme": None}
     assert found["plots"]["cycle"] is None and found["values"]
     without_a_scene.scene = None
     preview.draw(told.append, four_bar, ())

@@ -131,14 +131,14 @@ def _quick_scene(spec, model):
 
 
 def _scene(spec, model):
-    """(the scene or None, remarks that say why there is none)."""
+    """(the scene or None, the reasons why there is none: that there is none is for the page to say)."""
     mechanism = registry.mechanism(spec.mechanism)
     try:
         return mechanism.scene(model) if mechanism.scene else None, []
     except MemoryError:  # of this process, which may be tried again
         raise
     except Exception as error:  # a drawing that fails must not cost the numbers
-        return None, [f"no motion to show: {runner.failure_reason(spec, error)}"]
+        return None, [runner.failure_reason(spec, error)]
 
 
 def _programme(spec, model):

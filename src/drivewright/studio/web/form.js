@@ -84,6 +84,6 @@ export function createForm(host, {store, say, t}) {
   }
   host.append(element("div", {class: "st-form-pane"}, head, dock.node, strip, panes.form, panes.text));
   const stops = [store.on(["lang"], restart), store.on(["focus"], ({focus}) => { if (focus) { choose("form"); fields.focus(focus); } }),
-    store.on(["design", "refused"], () => { fields.show(); showStrip(); showText(); })];
+    store.on(["hints"], fields.restart), store.on(["design", "refused"], () => { fields.show(); showStrip(); showText(); })];
   return {destroy() { for (const stop of stops) stop(); fields.destroy(); dock.stop(); host.replaceChildren(); }};
 }

@@ -13,7 +13,7 @@ const KEPT = "drivewright-handles";
 export const FACTORS = {m: 1, mm: 1e-3, cm: 1e-2, um: 1e-6, "µm": 1e-6, in: 0.0254, inch: 0.0254, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "": 1};
 
 /** The keys that a handle moves: the two components of a point, or one number. */
-export const keysOf = ({key, direction}) => direction ? [key] : [`${key}.0`, `${key}.1`];
+const keysOf = ({key, direction}) => direction ? [key] : [`${key}.0`, `${key}.1`];
 
 /** The numbers of a handle's keys: [{key, unit, factor, value, whole, low, high}] as the form shows them; null where it has no such fields. */
 export function numbersOf(handle, fields) {

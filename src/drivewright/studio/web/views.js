@@ -54,7 +54,7 @@ function createMotion(host, tools) {
     stage.hidden = !player;
     stage.classList.toggle("is-old", Boolean(player) && !scene?.scene);
     note.hidden = Boolean(scene?.scene);
-    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text.replace(/^no motion to show: /, "")))), ...back);
+    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text))), ...back);
   }
   function update({scene}) {
     if (scene?.scene && scene !== shown) load(scene);
