@@ -4,7 +4,7 @@ import { pressable } from "./parts.js";
 import { element, nice } from "./player.js";
 import { onGrid } from "./snapping.js";
 import { svgPart } from "./svg_parts.js";
-import { refusedText } from "./words.js";
+import { reasonOf, refusedText } from "./words.js";
 
 const NEAR = 9, FINE = 10, STEP = 12;  // px: what a click falls upon, a step of the grid at least, a step of an arrow key
 
@@ -122,7 +122,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     sheet.setAttribute("aria-label", t("Drawing to build on: arrow keys move, the space bar sets a place, Enter ends"));
     words.textContent = refused ? refusedText(refused, t) : current ? t(current.hint) : "";
     words.classList.toggle("is-refused", Boolean(refused));
-    const texts = (store.state.scene?.missing || []).filter(text => text !== refused);
+    const {missing: lacks = [], remarks = []} = store.state.scene || {}, texts = [...lacks, ...remarks.map(reasonOf)].filter(text => text !== refused);
     missing.replaceChildren(...texts.map(text => element("li", {}, t(text))));
     missing.hidden = !texts.length;
     draw();

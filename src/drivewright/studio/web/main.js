@@ -61,7 +61,7 @@ function createEar(store, begin) {
     },
     design: message => {
       if (message.opened) since = message.gen;
-      const afresh = message.opened ? {proposals: null, scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
+      const afresh = message.opened ? {proposals: null, scene: null, result: null, reference: null, jobs: {}, lit: [], notice: ""} : {};
       store.set({design: {toml: state.design?.toml ?? "", ...message, opened: since}, refused: without(message.settled), ...afresh});
     },
     values: ({fields, settled, ...rest}) => {

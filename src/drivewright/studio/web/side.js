@@ -5,6 +5,7 @@ import { createOptimise, createSensitivity, createStudy } from "./jobs.js";
 import { intervalHint, withDifference, withInterval } from "./numbers.js";
 import { button, put, same } from "./parts.js";
 import { element } from "./player.js";
+import { reasonOf } from "./words.js";
 
 const EXPORTS = ["dxf", "svg", "csv", "step", "stl", "gcode", "pdf"];
 const LATE = 150;  // ms of work that nobody needs to be told of
@@ -34,9 +35,9 @@ function createState({store, say, t}) {
   }
   /** What stands there while nothing is under way. */
   function settled() {
-    const {result, work} = store.state;
+    const {result, work, scene} = store.state;
     if (work?.state === "over") return t("* took more than * s and was ended", t(work.text || ""), work.seconds);
-    if (result?.unsolved) return t("shown is the last design that had a solution");
+    if (result?.unsolved) return [t("shown is the last design that had a solution"), ...(scene?.remarks || []).map(text => t(reasonOf(text)))].join(": ");
     return !result ? "" : !result.full || result.verdict.stale ? t("not all checks are up to date") : t("up to date");
   }
   function work({work}) {
@@ -67,6 +68,7 @@ function createState({store, say, t}) {
     put(pill, now);
     before.className = `sd-before is-${given?.state || "none"}`;
     put(before, (busy || old) && given ? t(given.text) : "");
+    node.classList.toggle("is-unsolved", Boolean(result?.unsolved));
     if (!node.classList.contains("is-working")) put(words, settled());
   }
   return {node, stops: [store.on(["work"], work), store.on(["work", "notice"], trouble), store.on(["result", "work", "refused"], verdict), () => clearTimeout(timer)]};
@@ -84,7 +86,7 @@ function createNumbers(host, {store, t}) {
     const values = result?.headline || [], others = new Map((reference?.result?.headline || []).map(value => [value.name, value]));
     if (!same(values.map(value => value.name), [...rows.keys()])) arrange(values);
     host.classList.toggle("is-stale", Boolean(result && !result.full));
-    host.closest(".sd-section").classList.toggle("is-empty", !values.length);
+    host.closest(".sd-section").classList.toggle("is-empty", !values.length && !result?.findings?.length);
     for (const value of values) {
       const row = rows.get(value.name), other = others.get(value.name);
       put(row.name, t(value.label)); put(row.value, withInterval(value, t));

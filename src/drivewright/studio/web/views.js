@@ -10,6 +10,7 @@ import { button, pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
 import { createStudies } from "./studies.js";
+import { reasonOf } from "./words.js";
 
 // -------------------------------------------------------------------------------------------------------------------- motion
 
@@ -48,13 +49,15 @@ function createMotion(host, tools) {
     if (compared) player.compare(compared);
   }
   function remark(scene) {
-    const missing = scene && !scene.scene, words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? scene.remarks : [];
+    const still = Boolean(scene?.scene && scene.remarks?.length), missing = still || scene && !scene.scene, words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? scene.remarks : [];
     const head = missing ? [element("b", {}, t("There is no motion to show"))] : [];
     const back = missing && store.state.design?.undo ? [button(t("Undo"), () => store.state.design.undo && say({what: "undo"}), {testid: "note-undo"})] : [];
     stage.hidden = !player;
     stage.classList.toggle("is-old", Boolean(player) && !scene?.scene);
-    note.hidden = Boolean(scene?.scene);
-    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text.replace(/^no motion to show: /, "")))), ...back);
+    stage.classList.toggle("is-still", still);
+    note.hidden = Boolean(scene?.scene) && (!still || builder.active());  // whoever builds reads it beside the tools
+    note.classList.toggle("is-beside", still);
+    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(reasonOf(text)))), ...back);
   }
   function update({scene}) {
     if (scene?.scene && scene !== shown) load(scene);

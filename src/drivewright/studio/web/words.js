@@ -81,3 +81,6 @@ export function refusedText(text, t) {
     return key && t(line) === line ? key + t(words) : t(line);
   }).join("\n");
 }
+
+/** A remark on a drawing that has no motion, without what its heading says. */
+export const reasonOf = text => text.replace(/^no motion to show: /, "");
