@@ -33,7 +33,7 @@ def fix(design: Design, progress: Progress, check: str = "", longer: bool = Fals
     failed = _check_named(result, check)
     seconds = PATIENCE * (LONGER if longer else 1)
     deadline, free, stopped, found = time.monotonic() + seconds, 0, False, None
-    for asked in _questions(result) if is_advisable(failed) else ():
+    for asked in questions(result) if is_advisable(failed) else ():
         held = {each.key for each in dimensions(asked.spec) if is_locked(design.tables, each.key, locks)}
         here = len(dimensions(asked.spec)) - len(held)
         free += here
@@ -55,7 +55,7 @@ def fix(design: Design, progress: Progress, check: str = "", longer: bool = Fals
     return _fix_found(design, result, failed, found)
 
 
-def _questions(result: Result[Any]) -> tuple[Result[Any], ...]:
+def questions(result: Result[Any]) -> tuple[Result[Any], ...]:
     """What may change, one after the other: the unknowns of the design's own search, then what its kind calls adjustable."""
     if result.spec.optimise is None:
         return (result,)
@@ -90,7 +90,7 @@ def _fix_found(design: Design, result: Result[Any], failed: Check, advice: Advic
     labels = {each.name: check_label(each) for each in result.checks}
     return {
         "check": failed.name,
-        "changes": [_change(design.tables, change) for change in advice.changes],
+        "changes": [changed(design.tables, change) for change in advice.changes],
         "load": {change.key: change.given for change in advice.changes},
         "value": quantity(advice.value, failed.unit),
         "limit": f"{SIGNS[failed.sense]} {quantity(failed.limit, failed.unit)}",
@@ -101,7 +101,8 @@ def _fix_found(design: Design, result: Result[Any], failed: Check, advice: Advic
     }
 
 
-def _change(tables: Mapping[str, Any], change: Change) -> dict[str, str]:
+def changed(tables: Mapping[str, Any], change: Change) -> dict[str, str]:
+    """A change of a key as the page shows it."""
     return {
         "key": change.key,
         "label": label(dict(tables), change.key),

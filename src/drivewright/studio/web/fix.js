@@ -6,7 +6,7 @@ import { element } from "./player.js";
 const NAME = "fix";  // of the job: one at a time
 
 /** "prime radius 36 mm instead of 24 mm and ..." */
-function sentence({changes, value}, t) {
+export function sentence({changes, value}, t) {
   const parts = changes.map(({label, given, before}) => t("* * instead of *", t(label), given, before));
   return t("* gives *", parts.join(t(" and ")), value);
 }

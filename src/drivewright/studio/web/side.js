@@ -5,6 +5,7 @@ import { createOptimise, createSensitivity, createStudy } from "./jobs.js";
 import { intervalHint, withDifference, withInterval } from "./numbers.js";
 import { button, put, same } from "./parts.js";
 import { element } from "./player.js";
+import { createReach } from "./reach.js";
 import { reasonOf } from "./words.js";
 
 const EXPORTS = ["dxf", "svg", "csv", "step", "stl", "gcode", "pdf"];
@@ -76,11 +77,14 @@ function createState({store, say, t}) {
 
 // ---------------------------------------------------------------------------------------------------- key numbers, findings
 
-function createNumbers(host, {store, t}) {
+function createNumbers(host, tools) {
+  const {store, t} = tools, reach = createReach(name => rows.get(name)?.node, tools);
   let rows = new Map();
   function arrange(values) {
     rows = new Map(values.map(({name}) => [name, {name: element("span"), other: element("em"), value: element("b")}]));
-    host.replaceChildren(...[...rows.values()].map(row => element("div", {class: "sd-number"}, row.name, row.other, row.value)));
+    for (const [name, row] of rows) row.node = element("div", {class: "sd-number"}, row.name, row.other, row.value, reach.offer(name));
+    host.replaceChildren(...[...rows.values()].map(({node}) => node));
+    reach.shown();
   }
   function update({result, reference}) {
     const values = result?.headline || [], others = new Map((reference?.result?.headline || []).map(value => [value.name, value]));
@@ -94,7 +98,7 @@ function createNumbers(host, {store, t}) {
       row.name.title = [t(value.meaning), value.convention && t(value.convention), value.name].filter(Boolean).join("\n"); row.value.title = intervalHint(value, t);
     }
   }
-  return [store.on(["result", "reference"], update)];
+  return [store.on(["result", "reference"], update), ...reach.stops];
 }
 
 function createFindings(host, {store, t}) {
