@@ -8,6 +8,7 @@ design_keys  the keys of a design as jobs see them
 fields       fields of an analysis on the deformed solids
 figures      figures for the page
 fix          the smallest change of a dimension or two with which a failed check passes
+other_part   another bought part with which a failed check passes
 reach        the changes of one dimension with which a value is as wanted
 search       the [optimise] of a design: a search for its best, told while it goes on
 sensitivity  which key moves which number: every key of a design a little down and up, one at a time

@@ -15,7 +15,7 @@ from drivewright.studio.jobs.design_keys import is_locked, label
 from drivewright.studio.jobs.fix import changed, questions
 from drivewright.studio.jobs.progress import LONGER, Progress
 from drivewright.units import any_quantity
-from drivewright.view.text import quantity
+from drivewright.view.text import display_unit, quantity
 
 PATIENCE = 30.0  # seconds of the search
 
@@ -56,7 +56,7 @@ def _wanted(result: Result[Any], name: str, text: str) -> float:
     """The number [SI] that is wanted of a value, as it was typed."""
     if name not in result.values:
         raise UnknownName("value", name, result.values)
-    unit = result.values[name].plain().unit
+    unit = display_unit(result.values[name].plain().unit)[1]
     number, kind = any_quantity(text)
     if kind != any_quantity("1" if unit == "-" else f"1 {unit}")[1]:
         raise InputError(f"{text} is no number of this kind; wanted is one in {'no unit' if unit == '-' else unit}")

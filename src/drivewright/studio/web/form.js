@@ -3,7 +3,7 @@
 import { createDock } from "./dock.js";
 import { createFields } from "./fields.js";
 import { icon } from "./icons.js";
-import { pressable } from "./parts.js";
+import { button, pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createText } from "./text.js";
 import { refusedText } from "./words.js";
@@ -75,7 +75,9 @@ export function createForm(host, {store, say, t}) {
     if (strip.dataset.lines === lines.join("\n")) return;
     strip.dataset.lines = lines.join("\n");
     strip.hidden = !lines.length;
-    strip.replaceChildren(...lines.map(line => element("p", {}, refusedText(line, t))));
+    const stands = Object.values(store.state.refused).some(({text}) => text === null) && store.state.design?.undo;  // the design as it is has no solution
+    const back = stands ? [button(t("Undo"), () => say({what: "undo"}), {testid: "strip-undo"})] : [];
+    strip.replaceChildren(...lines.map(line => element("p", {}, refusedText(line, t))), ...back);
   }
   /** All words anew; what was typed into the text stays. */
   function restart() {
