@@ -28,7 +28,7 @@ function createMotion(host, tools) {
   const builder = createBuilder(() => player, tools), diagrams = createDiagrams(host, () => player, tools, () => player?.fit());
   const picked = name => measure.active() || builder.active() || store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
-    const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
+    const labels = scene.scene.labels?.map(label => ({...label, text: t(label.text)})), packed = {...scene.scene, ...(labels ? {labels} : {}), gen: scene.gen}, afresh = drive !== store.state.design?.opened;
     drive = store.state.design?.opened;
     shown = scene;
     measure.expect(afresh);
