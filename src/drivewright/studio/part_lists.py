@@ -44,7 +44,7 @@ def _bearing_text(part: catalogue.Entry) -> str:
 
 
 def _stronger_bearings(name: str) -> list[str]:
-    """Bearings of the same bore with a higher dynamic rating."""
+    """Bearings of the same bore with a higher dynamic rating; a designation that begins alike is of the same type (6: deep groove)."""
     try:
         own = catalogue.entry(name)
     except InputError:
@@ -54,7 +54,7 @@ def _stronger_bearings(name: str) -> list[str]:
         part = catalogue.entry(other)
         rating = part.bearing.dynamic_rating or 0.0
         if part.bore == own.bore and rating > (own.bearing.dynamic_rating or 0.0):
-            found.append((type(part.bearing) is not type(own.bearing), part.outer_diameter or 0.0, rating, other))
+            found.append((other[:1] != name[:1], type(part.bearing) is not type(own.bearing), part.outer_diameter or 0.0, rating, other))
     return [other for *_, other in sorted(found)]
 
 

@@ -57,10 +57,11 @@ def _wanted(result: Result[Any], name: str, text: str) -> float:
     if name not in result.values:
         raise UnknownName("value", name, result.values)
     unit = display_unit(result.values[name].plain().unit)[1]
-    number, kind = any_quantity(text)
-    if kind != any_quantity("1" if unit == "-" else f"1 {unit}")[1]:
-        raise InputError(f"{text} is no number of this kind; wanted is one in {'no unit' if unit == '-' else unit}")
-    return number
+    part = 100.0 if unit in ("-", "") and text.rstrip().endswith("%") else 1.0
+    number, kind = any_quantity(text.rstrip(" %\u00a0") if part > 1 else text)
+    if kind != any_quantity("1" if unit in ("-", "") else f"1 {unit}")[1]:
+        raise InputError(f"{text} is no number of this kind; wanted is one in {'no unit' if unit in ('-', '') else unit}")
+    return number / part
 
 
 def _reason(free: int, stopped: bool, seconds: float) -> str:

@@ -41,10 +41,10 @@ export function createReach(place, {store, say, t}) {
     words.hidden = more.hidden = longer.hidden = true;
   }
   function ask(patient = false) {
-    const [, given] = quantityOf(target.value) || [];
+    const text = target.value.replaceAll("−", "-").trim(), [, given] = quantityOf(text) || [];
     clear();
     asked = true; before = store.state.jobs?.[NAME]; gen = store.state.design?.gen;
-    say({what: "job", name: NAME, options: {value: wanted, target: given === "" ? withUnit(target.value.trim(), unit()) : target.value, longer: patient}});
+    say({what: "job", name: NAME, options: {value: wanted, target: given === "" ? withUnit(text, unit()) : text, longer: patient}});
   }
   function stop() { if (asked && store.state.jobs?.[NAME]?.state === "running") say({what: "cancel", name: NAME}); }
   function close() {
