@@ -4,7 +4,7 @@ import { pressable } from "./parts.js";
 import { element, nice } from "./player.js";
 import { onGrid } from "./snapping.js";
 import { svgPart } from "./svg_parts.js";
-import { reasonOf, refusedText } from "./words.js";
+import { reasonsOf, refusedText } from "./words.js";
 
 const NEAR = 9, FINE = 10, STEP = 12, DRAWN = 12;  // px: what a click falls upon, a step of the grid at least, a step of an arrow key, a press that is a stroke
 const MOVED = "Points are moved when Build is off; here a click sets a place";
@@ -141,7 +141,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     sheet.setAttribute("aria-label", t("Drawing to build on: arrow keys move, the space bar sets a place, Enter ends"));
     words.textContent = refused ? refusedText(refused, t) : current ? t(current.hint) : "";
     words.classList.toggle("is-refused", Boolean(refused));
-    const {missing: lacks = [], remarks = []} = store.state.scene || {}, texts = [...lacks, ...remarks.map(reasonOf)].filter(text => text !== refused);
+    const texts = [...(store.state.scene?.missing || []), ...reasonsOf(store.state)].filter(text => text !== refused);
     missing.replaceChildren(...texts.map(text => element("li", {}, t(text))));
     missing.hidden = !texts.length;
     draw();

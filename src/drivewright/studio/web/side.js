@@ -6,7 +6,7 @@ import { intervalHint, withDifference, withInterval } from "./numbers.js";
 import { button, put, same } from "./parts.js";
 import { element } from "./player.js";
 import { createReach } from "./reach.js";
-import { reasonOf } from "./words.js";
+import { reasonsOf, refusedText } from "./words.js";
 
 const EXPORTS = ["dxf", "svg", "csv", "step", "stl", "gcode", "pdf"];
 const LATE = 150;  // ms of work that nobody needs to be told of
@@ -36,9 +36,9 @@ function createState({store, say, t}) {
   }
   /** What stands there while nothing is under way. */
   function settled() {
-    const {result, work, scene} = store.state;
+    const {result, work} = store.state;
     if (work?.state === "over") return t("* took more than * s and was ended", t(work.text || ""), work.seconds);
-    if (result?.unsolved) return [t("shown is the last design that had a solution"), ...(scene?.remarks || []).map(text => t(reasonOf(text)))].join(": ");
+    if (result?.unsolved) return [t("shown is the last design that had a solution"), ...reasonsOf(store.state).map(text => refusedText(text, t))].join(": ");
     return !result ? "" : !result.full || result.verdict.stale ? t("not all checks are up to date") : t("up to date");
   }
   function work({work}) {

@@ -10,7 +10,7 @@ import { button, pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
 import { createStudies } from "./studies.js";
-import { reasonOf } from "./words.js";
+import { reasonsOf, refusedText } from "./words.js";
 
 // -------------------------------------------------------------------------------------------------------------------- motion
 
@@ -49,7 +49,8 @@ function createMotion(host, tools) {
     if (compared) player.compare(compared);
   }
   function remark(scene) {
-    const still = Boolean(scene?.scene && scene.remarks?.length), missing = still || scene && !scene.scene, words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? scene.remarks : [];
+    const reasons = reasonsOf(store.state), still = Boolean(scene?.scene && reasons.length), missing = still || scene && !scene.scene;
+    const words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? reasons : [];
     const head = missing ? [element("b", {}, t("There is no motion to show"))] : [];
     const back = missing && store.state.design?.undo ? [button(t("Undo"), () => store.state.design.undo && say({what: "undo"}), {testid: "note-undo"})] : [];
     stage.hidden = !player;
@@ -57,7 +58,7 @@ function createMotion(host, tools) {
     stage.classList.toggle("is-still", still);
     note.hidden = Boolean(scene?.scene) && (!still || builder.active());  // whoever builds reads it beside the tools
     note.classList.toggle("is-beside", still);
-    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(reasonOf(text)))), ...back);
+    note.replaceChildren(...head, ...words.map(text => element("p", {}, refusedText(text, t))), ...back);
   }
   function update({scene}) {
     if (scene?.scene && scene !== shown) load(scene);
@@ -71,7 +72,7 @@ function createMotion(host, tools) {
     compared = next;
     player?.compare(next);
   }
-  const stops = [store.on(["scene"], update), store.on(["reference"], reference), store.on(["lit"], ({lit}) => player?.highlight(lit))];
+  const stops = [store.on(["scene"], update), store.on(["refused"], () => remark(store.state.scene)), store.on(["reference"], reference), store.on(["lit"], ({lit}) => player?.highlight(lit))];
   return {
     open() {}, close() {},
     reword() { if (player) { measure.reword(); load(shown); } remark(store.state.scene); },

@@ -83,4 +83,10 @@ export function refusedText(text, t) {
 }
 
 /** A remark on a drawing that has no motion, without what its heading says. */
-export const reasonOf = text => text.replace(/^no motion to show: /, "");
+const reasonOf = text => text.replace(/^no motion to show: /, "");
+
+/** Why the design as it stands has no motion, in sentences; none where it has, or where the drawing is that of an earlier one. */
+export function reasonsOf({scene, design, refused}) {
+  const impossible = scene?.gen === design?.gen ? Object.values(refused || {}).filter(({text}) => text === null).map(({message}) => message) : [];
+  return [...new Set([...(scene?.remarks || []).map(reasonOf), ...impossible])];
+}
