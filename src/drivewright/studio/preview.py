@@ -45,7 +45,8 @@ def draw(
     spec = design.spec_on_screen()
     construction = registry.mechanism(spec.mechanism).construction
     if building and construction:
-        _send_scene(send, design, spec, construction.sketch(spec), [], construction.unfinished(spec))
+        missing = construction.unfinished(spec)
+        _send_scene(send, design, spec, construction.sketch(spec), [] if missing else _why_still(spec), missing)
         return None
     try:
         model = runner.build(spec)
@@ -58,6 +59,7 @@ def draw(
         scene, remarks = construction.sketch(spec), []
     else:
         scene, remarks = (quick, []) if quick else _scene(spec, model)
+        scene = construction.sketch(spec) if construction and scene is None else scene  # what cannot move is drawn at its start
     missing = construction.unfinished(spec) if construction and not moving else None
     _send_scene(send, design, spec, scene, remarks, missing, _programme(spec, model))
     return _quick_result(spec, model, scene, affordable) if affordable else None
@@ -139,6 +141,14 @@ def _scene(spec, model):
         raise
     except Exception as error:  # a drawing that fails must not cost the numbers
         return None, [runner.failure_reason(spec, error)]
+
+
+def _why_still(spec):
+    """Remarks that say why a mechanism that is complete has no motion; none where it moves, or where its analyses say what is wrong."""
+    try:
+        return _scene(spec, runner.build(spec))[1]
+    except DrivewrightError:
+        return []
 
 
 def _programme(spec, model):

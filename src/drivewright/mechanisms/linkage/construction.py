@@ -250,7 +250,7 @@ ACTS = {
     "delete": _delete,
 }
 TOOLS = (
-    Tool("body", "Body", "Click the points of the body; Enter or a double click ends it", 2, 12),
+    Tool("body", "Body", "Draw a bar with one stroke, or click the points of the body; Enter or a double click ends it", 2, 12),
     Tool("pin", "Pin", "Click a place that two bodies share, or a body to pin it to the frame"),
     Tool("slide", "Slide", "Click a point, then a second place in the direction of the slide", 2, 2),
     Tool("drive", "Drive", "Click the pin that the drive turns; each degree of freedom can have a drive of its own", picks=True),

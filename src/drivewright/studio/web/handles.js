@@ -35,10 +35,10 @@ export function createHandles(getPlayer, tools) {
   const bubble = element("output", {class: "hd-bubble", hidden: ""});
   const names = createNames(tools);
   const placed = new WeakMap();  // of each button, where it stands
-  let packed = [], bodies = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
+  let packed = [], bodies = [], buttons = [], spots = [], fields = new Map(), on = recall(), toggle = null;  // spots: pixel of each handle as drawn
   layer.append(guides, bubble);
 
-  const drag = createDrag({layer, guides, bubble, place, others, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
+  const drag = createDrag({layer, guides, bubble, place, others, nearest, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
     frame: handle => getPlayer().poseOf(handle.body, phase()), undrawn: () => Math.max(0, store.state.design.gen - (store.state.scene?.gen ?? 0)), ...tools});
   const phase = () => clock.playing ? 0 : clock.phase;
 
@@ -49,6 +49,12 @@ export function createHandles(getPlayer, tools) {
   }
   /** The other handles that are points, each with its pixel. */
   function others(handle) { return packed.filter((other, n) => other !== handle && !buttons[n].hidden).map(other => ({...other, at: place(other, other.point)})); }
+
+  /** The handle that is drawn nearest to a pixel: the areas of two beside each other overlap. */
+  function nearest([x, y]) {
+    const far = n => buttons[n].hidden ? Infinity : distance(spots[n], [x, y]), n = packed.reduce((best, _, m) => far(m) < far(best) ? m : best, 0);
+    return {button: buttons[n], handleOf: () => packed[n]};
+  }
 
   function load(scene) {
     const next = scene?.handles || [], same = next.length === packed.length && next.every(({key}, n) => key === packed[n].key);
@@ -100,6 +106,7 @@ export function createHandles(getPlayer, tools) {
       buttons[n].hidden = !kept && !(room && getPlayer().shows(handle.body));
       if (buttons[n].hidden) return;
       shown.push(spot);
+      spots[n] = spot;
       stand(buttons[n], `${spot[0].toFixed(1)}px, ${spot[1].toFixed(1)}px`, handle.direction ? `${angleOf(handle).toFixed(3)}rad` : "");
     });
     drag.draw();

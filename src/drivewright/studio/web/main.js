@@ -76,7 +76,7 @@ function createEar(store, begin) {
     },
     design: message => {
       if (message.opened) since = message.gen;
-      const afresh = message.opened ? {proposals: null, scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
+      const afresh = message.opened ? {proposals: null, scene: null, result: null, reference: null, jobs: {}, lit: [], notice: "", ...(state.view === "study" ? {view: "motion"} : {})} : {};
       store.set({design: {toml: state.design?.toml ?? "", ...message, opened: since}, refused: without(message.settled), ...afresh});
     },
     values: ({fields, settled, ...rest}) => {
