@@ -4,7 +4,7 @@ import re
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, own_port, running
+from studio_running import EXAMPLES, drawn, free_port, running
 
 COMPLAINTS, OURS = ("error", "warning"), re.compile("getImageData|ReadPixels")  # reading a canvas is what the tests do
 
@@ -22,7 +22,7 @@ def browser(chromium):
 @pytest.fixture(scope="session")
 def studio():
     """Address of a studio for the tests of one process; every page of it is a design of its own, first the four-bar."""
-    with running(own_port(8400), EXAMPLES / "four_bar.toml") as (address, _):
+    with running(free_port(), EXAMPLES / "four_bar.toml") as (address, _):
         yield address
 
 
@@ -30,6 +30,32 @@ def studio():
 def address(studio):
     """The same."""
     return studio
+
+
+@pytest.fixture
+def open_tab(browser):
+    """Opens tabs of a studio, their drawings at rest, for they keep a core busy; afterwards none may have complained, or asked for
+    anything outside."""
+    contexts, complaints = [], []
+
+    def open_it(address, width=1440, height=900, **settings):
+        settings = {"reduced_motion": "reduce", "accept_downloads": True, **settings}
+        context = browser.new_context(viewport={"width": width, "height": height}, **settings)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+        page.on("pageerror", lambda error: complaints.append(str(error)))
+        own = (address.partition("#")[0], "ws", "data:", "blob:")
+        page.on("request", lambda request: None if request.url.startswith(own) else complaints.append(request.url))
+        page.goto(address)
+        until(page, "window.drivewright !== undefined", 30)
+        drawn(page)
+        return page
+
+    yield open_it
+    for context in contexts:
+        context.close()
+    assert complaints == []
 
 
 @pytest.fixture(scope="session")

@@ -10,7 +10,7 @@ import zipfile
 import ezdxf
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, drawn, enter, field, own_port, running, shared
+from studio_running import EXAMPLES, analysed, drawn, enter, field, free_port, running, shared
 
 from drivewright.spec import load
 
@@ -33,32 +33,14 @@ STATE = "window.drivewright.state"
 
 @pytest.fixture(scope="module")
 def studio():
-    with running(own_port(8500), EXAMPLES / "four_bar.toml") as (address, process):
+    with running(free_port(), EXAMPLES / "four_bar.toml") as (address, process):
         yield address, process
 
 
 @pytest.fixture
-def tab(browser):
-    """Opens tabs, their drawings at rest, for they keep a core busy; afterwards none may have complained, or asked for anything outside."""
-    contexts, complaints = [], []
-
-    def open_it(address, width=1440, height=900, motion="reduce"):
-        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, reduced_motion=motion)
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        own = (address.partition("#")[0], "ws", "data:", "blob:")
-        page.on("request", lambda request: None if request.url.startswith(own) else complaints.append(request.url))
-        page.goto(address)
-        until(page, "window.drivewright !== undefined", 30)
-        drawn(page)
-        return page
-
-    yield open_it
-    for context in contexts:
-        context.close()
-    assert complaints == []
+def tab(open_tab):
+    """Opens tabs, their drawings at rest or in motion."""
+    return lambda address, width=1440, height=900, motion="reduce": open_tab(address, width, height, reduced_motion=motion)
 
 
 @pytest.mark.parametrize("name", ONE_OF_EACH)

@@ -10,22 +10,13 @@ MISSING = f"JSON.stringify({STATE}.scene?.missing)"
 
 
 @pytest.fixture
-def page(studio, browser):
-    """A page in which a person builds; it must not have complained, or asked for anything outside."""
-    context, complaints = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce"), []
-    page = context.new_page()
-    page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-    page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.on("request", lambda request: None if request.url.startswith((studio, "ws", "data:")) else complaints.append(request.url))
-    page.goto(studio)
-    until(page, "window.drivewright !== undefined", 30)
-    drawn(page)
+def page(open_tab, studio):
+    """A page in which a person builds."""
+    page = open_tab(studio)
     page.get_by_test_id("build").click()
     until(page, f"Array.isArray({STATE}.scene?.missing)", 60)
     drawn(page)
-    yield page
-    context.close()
-    assert complaints == []
+    return page
 
 
 def at(page, x, y):

@@ -11,26 +11,15 @@ RADIUS, ROLLER = "follower.prime_radius", "follower.roller_radius"
 
 
 @pytest.fixture
-def opened(browser, studio):
-    """Opens an example; afterwards the page must not have complained."""
-    contexts, complaints = [], []
+def opened(open_tab, studio):
+    """Opens an example, analysed."""
 
     def open_it(name, width=1440, height=900, **settings):
-        context = browser.new_context(viewport={"width": width, "height": height}, reduced_motion="reduce", **settings)
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.goto(shared(studio, name))
-        until(page, "window.drivewright !== undefined", 30)
-        drawn(page)
+        page = open_tab(shared(studio, name), width, height, **settings)
         analysed(page)
         return page
 
-    yield open_it
-    for context in contexts:
-        context.close()
-    assert complaints == []
+    return open_it
 
 
 def toml(page):

@@ -6,7 +6,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 from browsing import until
-from studio_running import analysed, drawn, enter, shared
+from studio_running import analysed, enter, shared
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
@@ -16,28 +16,15 @@ CURVE = "n => document.querySelectorAll('.dw-plot-canvas')[n].toDataURL()"
 
 
 @pytest.fixture
-def tab(browser):
-    """Opens tabs whose drawings are at rest; afterwards none may have complained, or asked for anything outside."""
-    contexts, complaints = [], []
+def tab(open_tab):
+    """Opens tabs, analysed."""
 
     def open_it(address, width=1440, height=900):
-        context = browser.new_context(viewport={"width": width, "height": height}, accept_downloads=True, reduced_motion="reduce")
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        own = (address.partition("#")[0], "ws", "data:", "blob:")
-        page.on("request", lambda request: None if request.url.startswith(own) else complaints.append(request.url))
-        page.goto(address)
-        until(page, "window.drivewright !== undefined", 30)
-        drawn(page)
+        page = open_tab(address, width, height)
         analysed(page)
         return page
 
-    yield open_it
-    for context in contexts:
-        context.close()
-    assert complaints == []
+    return open_it
 
 
 def names(page):

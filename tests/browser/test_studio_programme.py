@@ -4,7 +4,7 @@ import json
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, drawn, shared
+from studio_running import EXAMPLES, shared
 
 from drivewright.studio.opening import packed
 
@@ -15,26 +15,15 @@ POINTS = "[[0, 0], [0.25, 0.1], [0.5, 0.5], [0.75, 0.9], [1, 1]]"
 
 
 @pytest.fixture
-def tab(browser):
-    """Opens tabs on the programme of a design; afterwards none may have complained."""
-    contexts, complaints = [], []
+def tab(open_tab):
+    """Opens tabs on the programme of a design."""
 
     def open_it(address, **more):
-        context = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce", **more)
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.goto(address)
-        until(page, "window.drivewright !== undefined", 30)
-        drawn(page)
+        page = open_tab(address, **more)
         page.get_by_test_id("view-programme").click()
         return page
 
-    yield open_it
-    for context in contexts:
-        context.close()
-    assert complaints == []
+    return open_it
 
 
 def text(page, key):

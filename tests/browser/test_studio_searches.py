@@ -2,7 +2,7 @@
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, drawn
+from studio_running import EXAMPLES, analysed
 
 from drivewright.studio.opening import packed
 
@@ -13,33 +13,19 @@ RADIUS = "follower.prime_radius"
 
 
 @pytest.fixture
-def cam(browser, studio):
-    """Opens the cam, with its text changed; afterwards the page must not have complained, or asked for anything outside."""
-    contexts, complaints = [], []
+def cam(open_tab, studio):
+    """Opens the cam, with its text changed, analysed."""
 
     def open_it(*changes, **settings):
         text = (EXAMPLES / "disc_cam.toml").read_text(encoding="utf-8")
         for before, after in changes:
             assert before in text
             text = text.replace(before, after)
-        context = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce", **settings)
-        contexts.append(context)
-        page = context.new_page()
-        page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on(
-            "request", lambda request: None if request.url.startswith((studio, "ws", "data:", "blob:")) else complaints.append(request.url)
-        )
-        page.goto(f"{studio}/#{packed(text)}")
-        until(page, "window.drivewright !== undefined", 30)
-        drawn(page)
+        page = open_tab(f"{studio}/#{packed(text)}", **settings)
         analysed(page)
         return page
 
-    yield open_it
-    for context in contexts:
-        context.close()
-    assert complaints == []
+    return open_it
 
 
 def value_of(page, key):

@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, drawn, own_port, running
+from studio_running import EXAMPLES, drawn, free_port, running
 
 from drivewright import registry, runner
 from drivewright.spec import load
@@ -47,7 +47,7 @@ def studio(tmp_path_factory):
     folder, patch = tmp_path_factory.mktemp("server"), pytest.MonkeyPatch()
     patch.setenv("TMPDIR", str(folder))
     try:
-        with running(own_port(8530), EXAMPLE) as (address, _):
+        with running(free_port(), EXAMPLE) as (address, _):
             yield address, folder
     finally:
         patch.undo()

@@ -13,19 +13,11 @@ STATE = "window.drivewright.state"
 
 
 @pytest.fixture
-def page(browser, studio):
-    """A page with the worked example of a cam; afterwards it must not have complained."""
-    context, complaints = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce"), []
-    page = context.new_page()
-    page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
-    page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.goto(shared(studio, "disc_cam"))
-    until(page, "window.drivewright !== undefined", 30)
-    drawn(page)
+def page(open_tab, studio):
+    """A page with the worked example of a cam, analysed."""
+    page = open_tab(shared(studio, "disc_cam"))
     analysed(page)
-    yield page
-    context.close()
-    assert complaints == []
+    return page
 
 
 def begin(page, name):

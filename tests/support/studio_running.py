@@ -1,7 +1,6 @@
 """A running studio, and what its tests do with a page of it."""
 
-import os
-import re
+import socket
 import subprocess
 import sys
 import time
@@ -16,9 +15,11 @@ from drivewright.studio.opening import packed
 EXAMPLES = ROOT / "examples"
 
 
-def own_port(first):
-    """A port of its own for every parallel worker of the tests."""
-    return first + int(re.sub(r"\D", "", os.environ.get("PYTEST_XDIST_WORKER", "")) or "0")
+def free_port():
+    """A port that nobody listens at."""
+    with socket.socket() as asking:
+        asking.bind(("127.0.0.1", 0))
+        return asking.getsockname()[1]
 
 
 @contextmanager
