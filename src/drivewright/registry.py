@@ -84,7 +84,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     analyses: tuple[Analysis[SpecT, ModelT], ...]
     folder: Path
     scene: "Callable[[ModelT], Scene] | None" = None
-    programme: "Callable[[ModelT], MotionDiagram] | None" = None  # its motion, where the spec has a list of segments
+    programme: "Callable[[ModelT], MotionDiagram] | None" = None  # its motion, where a person may edit it segment by segment
     before_varying: Callable[[Mapping[str, Any], Collection[str]], dict[str, Any]] | None = None
     quick_scene: "Callable[[ModelT], Scene | None] | None" = None
     plots: "tuple[Plot, ...] | Callable[[Result[Any]], tuple[Plot, ...]]" = ()
@@ -110,7 +110,7 @@ class Mechanism(Generic[SpecT, ModelT]):
         return {path.stem: path for path in sorted((self.folder / "presets").glob("*.toml"))}
 
     def translations(self, language: str) -> dict[str, Any]:
-        """Tables of `<language>.toml` in the folder: `fields`, `tables`, `texts`, `presets`; {} where the kind brings none."""
+        """Tables of `<language>.toml` in the folder: `fields`, `tables`, `hints`, `texts`, `presets`; {} where the kind brings none."""
         path = self.folder / f"{language}.toml"
         try:
             return tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}

@@ -47,7 +47,7 @@ OPTIONS: dict[str, dict[str, type]] = {
     "study": {"theme": str},
     "optimise": {"theme": str},
     "export": {"format": str, "anyway": bool},
-    "report": {"whole": bool},
+    "report": {"whole": bool, "solids": bool, "language": str},
 }
 
 

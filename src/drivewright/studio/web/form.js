@@ -90,6 +90,7 @@ export function createForm(host, {store, say, t}) {
   }
   host.append(element("div", {class: "st-form-pane"}, head, dock.node, strip, panes.form, panes.text));
   const stops = [store.on(["lang"], restart), store.on(["focus"], ({focus}) => { if (focus) { choose("form"); fields.focus(focus); } }),
+    store.on(["hints"], fields.restart),
     store.on(["design"], ({design}) => { if (design?.opened !== drive) { drive = design?.opened; empty(); } }),  // what was looked for belongs to another drive
     store.on(["design", "refused"], () => { fields.show(); showStrip(); showText(); })];
   return {destroy() { for (const stop of stops) stop(); fields.destroy(); dock.stop(); host.replaceChildren(); }};

@@ -33,7 +33,7 @@ const PATHS = {
 };
 
 /** An SVG element with one path for each text of path commands. */
-export function drawing(attributes, ...paths) {
+function drawing(attributes, ...paths) {
   const made = document.createElementNS(SVG, "svg");
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
   for (const commands of paths) made.append(document.createElementNS(SVG, "path"));

@@ -4,7 +4,7 @@ import { createBottom } from "./bottom.js";
 import { createForm } from "./form.js";
 import { createHead } from "./head.js";
 import { createPanes } from "./panes.js";
-import { createClock, createPlayer, element } from "./player.js";
+import { createClock, createPlayer, element, putClass } from "./player.js";
 import { createSide } from "./side.js";
 import { createStore } from "./store.js";
 import { createViews } from "./views.js";
@@ -19,7 +19,7 @@ const PLACES = [["header", "head", createHead], ["aside", "form", createForm], [
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
-    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, setup: null, ...taste()});
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, setup: null, hints: null, ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
   const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside
@@ -36,11 +36,26 @@ export function start(host, page) {
   const socket = joined(page, createEar(store, () => parts.length || begin()), store);
 
   const root = document.documentElement;
-  store.on(["result"], ({result}) => host.firstChild.classList.toggle("st-unsolved", Boolean(result?.unsolved)));
+  store.on(["result"], ({result}) => {
+    putClass(frame, "st-unsolved", Boolean(result?.unsolved));
+    putClass(frame, "st-plotless", !result?.plots);
+    putClass(frame, "st-along", Boolean(result?.plots?.diagrams?.length));  // diagrams stand under the drawing
+  });
   store.on(["theme"], ({theme}) => theme ? root.setAttribute("data-theme", theme) : root.removeAttribute("data-theme"));
   store.on(["lang"], ({lang}) => root.setAttribute("lang", lang === "zh" ? "zh-CN" : "en"));
   store.on(["lang", "theme"], ({lang, theme}) => remember(localStorage, TASTE, {lang, theme}));
-  store.on(["design"], ({design}) => design && remember(sessionStorage, KEPT, {toml: design.toml, files: design.files}));
+  let kept = {};  // while a hand moves the design its text is not written
+  store.on(["design"], ({design}) => {
+    if (!design || design.toml === kept.toml && design.files === kept.files) return;
+    kept = {toml: design.toml, files: design.files};
+    remember(sessionStorage, KEPT, kept);
+  });
+  let hinted = "";  // kind of drive whose hints are here, or on their way
+  store.on(["lang", "design"], ({lang, design}) => {
+    if (lang !== "zh" || !design || design.kind === hinted) return;
+    hinted = design.kind;
+    page.say({what: "hints"});
+  });
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
   return () => { socket.leave(); parts.forEach(part => part.destroy()); };
 }
@@ -91,6 +106,7 @@ function createEar(store, begin) {
       if (name === "save" && news.state === "failed") store.set({notice: news.text});
     },
     proposals: message => store.set({proposals: message}),
+    hints: ({words}) => store.set({hints: words}),
     names: ({list, entries}) => store.set({parts: {...store.state.parts, [list]: entries}}),
     shared: ({fragment}) => store.set({shared: {url: `${location.origin}${location.pathname}#${fragment}`}}),
   };
