@@ -53,6 +53,11 @@ def test_what_is_not_possible_says_what_is_nearest(four_bar):
     assert found["nearest"]["value"].endswith("°") and "crank" in found["nearest"]["label"]
 
 
+def test_a_number_that_is_as_wanted_needs_no_change(four_bar):
+    found = reach_value(four_bar, told, ROCKER, "53.329 deg")
+    assert not found["ways"] and found["reason"] == "this number is already as wanted"
+
+
 @pytest.mark.parametrize(
     ("value", "target", "words"),
     [

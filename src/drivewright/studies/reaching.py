@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Collection
 from typing import Any, NamedTuple
 
-from scipy.optimize import brentq
+from scipy.optimize import root_scalar
 
 from drivewright.advice import Change
 from drivewright.errors import UnknownName
@@ -139,15 +139,16 @@ class _Seeker:
         """The value of a dimension at which the target is met."""
 
         def off(value: float) -> float:
-            found = self.off(number, value)
-            if not math.isfinite(found):
+            miss = self.off(number, value)
+            if not math.isfinite(miss):
                 raise ArithmeticError
-            return 0.0 if abs(found) <= ACCURATE * self.size else found
+            return 0.0 if abs(miss) <= ACCURATE * self.size else miss
 
         try:
-            return float(brentq(off, one, other, maxiter=REFINED, xtol=1e-12 * abs(other - one)))
-        except (ArithmeticError, RuntimeError, ValueError):  # a gap between them, or a jump
+            found = root_scalar(off, bracket=(one, other), method="brentq", maxiter=REFINED, xtol=1e-12 * abs(other - one))
+        except (ArithmeticError, RuntimeError, ValueError):  # a gap between them
             return None
+        return float(found.root) if found.converged else None
 
     def _rounded(self, number: int, exact: float) -> Way | None:
         """The dimension with the fewest digits that are close enough, by a run of all analyses."""

@@ -229,6 +229,8 @@ def merge_results(shown: Mapping[str, Any], update: Mapping[str, Any]) -> dict[s
         return [fresh.get(item[name], {**item, "stale": True}) for item in old] + [item for item in new if item[name] not in known]
 
     checks, values, headline = (renewed(shown[what], update[what], "name") for what in ("checks", "values", "headline"))
+    if first := {item["name"] for item in shown["headline"]}:  # some analyses alone have others first, for want of better ones
+        headline = [item for item in headline if item["name"] in first]
     return {
         **shown,
         "checks": checks,

@@ -9,7 +9,7 @@ from drivewright.report.content import check_label
 from drivewright.result import Result
 from drivewright.steps import detailed
 from drivewright.studies.adjustable import dimensions
-from drivewright.studies.reaching import Reached, Way, reach
+from drivewright.studies.reaching import CLOSE, Reached, Way, reach
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.design_keys import is_locked, label
 from drivewright.studio.jobs.fix import changed, questions
@@ -34,6 +34,8 @@ def reach_value(
     wanted = _wanted(result, value, target)
     if result.outcome != "complete":
         return _none(value, "the run of this design did not end, so no change can be compared with it")
+    if abs(result.values[value].value - wanted) <= CLOSE * abs(wanted):
+        return _none(value, "this number is already as wanted")
     seconds, found, free = PATIENCE * (LONGER if longer else 1), Reached(()), 0
     for asked in questions(result):
         held = {each.key for each in dimensions(asked.spec) if is_locked(design.tables, each.key, locks)}

@@ -44,7 +44,9 @@ export function createFix(place, {store, say, t}) {
     const list = names => names.map(name => t(name)).join(", ");
     const also = answer.also_passes.length ? [t("also passes then: *", list(answer.also_passes))] : [];
     const fails = answer.then_fails.length ? [t("fails then: *", list(answer.then_fails))] : [];
-    return [sentence(answer, t), [...also, ...fails].join("\n")];
+    const left = (store.state.result?.checks || []).filter(({ok, name}) => !ok && name !== answer.check).length - answer.also_passes.length;
+    const all = left || fails.length ? [] : [t("all checks pass then")];
+    return [sentence(answer, t), [...also, ...fails, ...all].join("\n")];
   }
   function update({jobs}) {
     const job = jobs?.[NAME] || {state: "idle"};

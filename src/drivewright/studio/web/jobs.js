@@ -50,8 +50,9 @@ function createJob(host, name, title, meaning, {store, say, t}, shown, options =
     left.hidden = !left.textContent;
     row.hidden = job.state === "running";
     words.hidden = Boolean(job.answer) || job.state === "running";
+    const first = job.state === "running" && job.answer && !answer.childElementCount;
     answer.replaceChildren(...(job.answer ? shown(job.answer, job) : []));
-    if (begun) host.closest(".sd-section").scrollIntoView({block: "start"});  // its form, which was taller, is out of the way
+    if (begun || first) host.closest(".sd-section").scrollIntoView({block: "start"});  // its form, which was taller, is out of the way
   })];
 }
 

@@ -25,6 +25,7 @@ function createMotion(host, tools) {
   let player = null, shown = null, compared = null, late = false, timer = 0, drive = null;
   const handles = createHandles(() => player, tools), measure = createMeasure(() => player, tools);
   host.append(stage, note);
+  note.addEventListener("pointerdown", event => event.stopPropagation());
   const builder = createBuilder(() => player, tools), diagrams = createDiagrams(host, () => player, tools, () => player?.fit());
   const picked = name => measure.active() || builder.active() || store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
@@ -58,6 +59,8 @@ function createMotion(host, tools) {
     stage.classList.toggle("is-still", still);
     note.hidden = Boolean(scene?.scene) && (!still || builder.active());  // whoever builds reads it beside the tools
     note.classList.toggle("is-beside", still);
+    const home = still && player ? player.stage : host;  // above the player's bar, however many rows that has
+    if (note.parentElement !== home) home.append(note);
     note.replaceChildren(...head, ...words.map(text => element("p", {}, refusedText(text, t))), ...back);
   }
   function update({scene}) {
