@@ -84,7 +84,7 @@ class Mechanism(Generic[SpecT, ModelT]):
     analyses: tuple[Analysis[SpecT, ModelT], ...]
     folder: Path
     scene: "Callable[[ModelT], Scene] | None" = None
-    programme: "Callable[[ModelT], MotionDiagram] | None" = None  # its motion, where the spec has a list of segments
+    programme: "Callable[[ModelT], MotionDiagram] | None" = None  # its motion, where a person may edit it segment by segment
     before_varying: Callable[[Mapping[str, Any], Collection[str]], dict[str, Any]] | None = None
     quick_scene: "Callable[[ModelT], Scene | None] | None" = None
     plots: "tuple[Plot, ...] | Callable[[Result[Any]], tuple[Plot, ...]]" = ()

@@ -2,17 +2,11 @@
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, drawn, own_port, running
+from studio_running import drawn
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 STATE = "window.drivewright.state"
 MISSING = f"JSON.stringify({STATE}.scene?.missing)"
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8470), EXAMPLES / "four_bar.toml") as (address, process):
-        yield address, process
 
 
 @pytest.fixture
@@ -22,8 +16,8 @@ def page(studio, browser):
     page = context.new_page()
     page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
     page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.on("request", lambda request: None if request.url.startswith((studio[0], "ws", "data:")) else complaints.append(request.url))
-    page.goto(studio[0])
+    page.on("request", lambda request: None if request.url.startswith((studio, "ws", "data:")) else complaints.append(request.url))
+    page.goto(studio)
     until(page, "window.drivewright !== undefined", 30)
     drawn(page)
     page.get_by_test_id("build").click()
@@ -65,6 +59,42 @@ def test_a_pendulum_from_clicks(page):
     until(page, f"{MISSING}.includes('held by one joint only')", 60)
     page.keyboard.press("Control+z")
     until(page, f"{MISSING}.includes('held by no joint')", 60)
+
+
+def test_a_second_drive_is_placed_and_taken_away_by_clicks(page):
+    page.get_by_test_id("tool-body").click()
+    at(page, 0.1, 0.2)
+    at(page, 0.25, 0.3)
+    page.keyboard.press("Enter")
+    until(page, f"{MISSING}.includes('held by no joint')", 60)
+    for tool, words in (("pin", "held by one joint only"), ("drive", None), ("delete", "held by one joint only")):
+        page.get_by_test_id(f"tool-{tool}").click()
+        at(page, 0.1, 0.2)
+        until(page, f"{MISSING}.includes({words!r})" if words else f"{MISSING} === '[]'", 60)
+        drawn(page)
+        further = page.evaluate(f"({STATE}.design.toml.match(/\\[\\[drives\\]\\]/g) || []).length")
+        marks = page.evaluate(f"{STATE}.scene.scene.bodies.filter(({{name}}) => name.startsWith('drive ')).length")
+        assert (further, marks) == ((1, 2) if tool == "drive" else (0, 1))
+
+
+def test_a_stroke_draws_a_bar_and_moves_no_point(page):
+    box, gen = page.get_by_test_id("build-sheet").bounding_box(), steps(page)
+
+    def stroke():
+        page.mouse.move(box["x"] + 0.1 * box["width"], box["y"] + 0.2 * box["height"])
+        page.mouse.down()
+        page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 0.3 * box["height"], steps=4)
+        page.mouse.up()
+
+    page.get_by_test_id("tool-body").click()
+    stroke()
+    after(page, gen)
+    until(page, f"{MISSING}.includes('held by no joint')", 60)
+    assert "[bodies.link_1]" in page.evaluate(f"{STATE}.design.toml")
+    gen = steps(page)
+    page.get_by_test_id("tool-pin").click()
+    stroke()
+    assert "when Build is off" in page.get_by_test_id("build-words").inner_text() and steps(page) == gen
 
 
 def test_a_refused_click_is_explained_beside_the_tools(page):

@@ -19,7 +19,7 @@ NOT_SHOWN = {
     "cam": {
         SMALL: ("lubricant.roughness",),
         "the drawn walls touch the roller on both sides": ("groove.clearance",),
-        "of a table's points, not of the part": ("programme.*.band",),
+        "of a table's points, not of the part": ("programme.*.band", "programme.*.rows.*.*"),
         **CUT,
     },
     "geneva": {

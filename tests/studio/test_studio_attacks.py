@@ -206,6 +206,9 @@ ODD = [
     '{"what": "construct", "tool": "pin", "places": [[0, 0]], "near": {}}',
     '{"what": "construct", "tool": "__class__", "places": [[0, 0]], "near": 0.001}',
     '{"what": "construct", "tool": "body", "places": [' + ", ".join("[0, 0]" for _ in range(2000)) + '], "near": 0.001}',
+    '{"what": "construct", "tool": "drive", "places": [[1e999, 0]], "near": 0.001}',
+    '{"what": "construct", "tool": "drive", "places": [[0, 0], [0, 0]], "near": 1e5}',
+    '{"what": "construct", "tool": "drive", "places": [[0, 0]], "near": 5e-324}',
     '{"what": "sketch"}',
     '{"what": "sketch", "on": [1], "more": 2}',
     '{"what": "source", "text": "x"}',
@@ -281,6 +284,10 @@ ODD = [
     '{"what": "job", "name": "fix", "options": {"check": "__class__"}}',
     '{"what": "job", "name": "fix", "options": {"check": "SURROGATE"}}',
     '{"what": "job", "name": "fix", "options": {"check": {}, "longer": []}}',
+    '{"what": "job", "name": "reach"}',
+    '{"what": "job", "name": "reach", "options": {"value": "__class__", "target": "1"}}',
+    '{"what": "job", "name": "reach", "options": {"value": "SURROGATE", "target": "1e999 mm"}}',
+    '{"what": "job", "name": "reach", "options": {"value": {}, "target": [], "seconds": 1e9}}',
     '{"what": "job", "name": "timing", "options": {"check": "x"}}',
     '{"what": "job", "name": "figures", "options": {"analyses": [{}]}}',
     '{"what": "job", "name": "figures", "options": {"analyses": ["../../x"]}}',
@@ -370,6 +377,61 @@ def test_odd_arguments_are_answered_in_one_line_and_the_session_lives(server):
 
     loops.run(attack())
     assert "Traceback" not in server.said() and server.said().count("\n") == 1
+
+
+ROWS = "[" + ", ".join(f'["{n / 100} deg", "1 mm"]' for n in range(36_000)) + "]"
+POINTS = {  # texts of the points of a cam's first segment
+    "points": [
+        "[",
+        "[[]]",
+        "[[0, 0]]",
+        "[[0, 0], [1]]",
+        "[[0, 0], [0.5, 1e999], [1, 1]]",
+        '[["0", "0"], [{}, []], [1, 1]]',
+        "[[0, 0], [0, 0], [1, 1]]",
+    ],
+    "rows": [
+        "x",
+        "[[]]",
+        '[["0 deg"]]',
+        '[["0 deg", "0 kg"]]',
+        '[["0 deg", "NaN mm"]]',
+        '[["0 deg", "/etc/passwd"]]',
+        "[" * 900,
+        ROWS,
+        f'"{SURROGATE}"',
+    ],
+    "file": ["/etc/passwd", "../../x", "\0"],
+}
+
+
+@pytest.mark.parametrize("key", POINTS)
+def test_odd_points_of_a_motion_are_answered_briefly(server, key):
+    """Of a spline, of a table in the spec and of one in a file, as a drag, as a text and in another list."""
+
+    async def attack():
+        async with page(server.port) as tab:
+            await tab.say("fresh", kind="cam")
+            await tab.until(lambda message: message["what"] == "design" and message["kind"] == "cam", 60)
+            law, answers = "spline" if key == "points" else "table", []
+            for text in POINTS[key]:
+                tab.heard.clear()
+                changes = {"law": law, "rise": "20 mm" if key == "points" else "", key: text}
+                await tab.say("arrange", list="programme", elements=[{"of": 0, "changes": changes}, {"of": 1, "changes": {}}])
+                await tab.say("drag", changes={f"programme.0.{key}": text}, gesture="g")
+                await tab.say("set", key=f"programme.0.{key}", text=text)
+                await tab.say("again")
+                await tab.until(lambda message: message["what"] == "design", 120)
+                refused = [message["message"] for _, message in tab.heard if message["what"] == "refused"]
+                answers += refused
+                assert all(len(each) < 1500 and each.count("\n") <= 6 and "root:" not in each for each in refused), refused
+            tab.heard.clear()
+            await tab.say("set", key="drive.speed", text="151 rpm")
+            await tab.until(lambda message: message["what"] in ("values", "design"), 60)
+            assert len(answers) > len(POINTS[key])  # some make a spec, and their drawing says what is wrong
+
+    loops.run(attack())
+    assert "Traceback" not in server.said()
 
 
 def test_what_must_be_refused_is(server):

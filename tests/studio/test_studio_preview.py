@@ -206,6 +206,15 @@ def test_a_drawing_is_told_before_the_answers(four_bar):
     assert found["plots"]["cycle"]["unit"] == told[0]["scene"]["cycle"]["unit"]
 
 
+def test_what_is_told_beside_a_moving_drawing_is_what_goes_with_one_at_rest(four_bar):
+    """Nothing of a mechanism with play, whose run the drawing under a hand leaves out."""
+    at_rest, beside = preview.draw(lambda told: None, four_bar, ["motion"]), preview.glance(lambda told: None, four_bar, ["motion"])
+    for found in (at_rest, beside):
+        del found["seconds"], found["timings"]
+    assert beside == at_rest
+    assert preview.glance(lambda told: None, opened(EXAMPLES / "slider_crank_clearance.toml"), ["motion"]) is None
+
+
 def test_a_drawing_follows_the_design(four_bar):
     told = []
     for design in (four_bar, four_bar.changed({"bodies.crank.points.A": ["35 mm", "0 mm"]})):
@@ -219,6 +228,17 @@ def test_a_design_that_is_none_says_so_before_anything_is_told(four_bar):
         with pytest.raises(SpecError, match=r"drive\.speed: wants an angular speed, got '3 kg'"):
             act(four_bar.changed({"drive.speed": "3 kg"}))
     assert told == []
+
+
+@pytest.mark.parametrize("building", [False, True])
+def test_what_cannot_go_round_is_drawn_where_it_begins_with_the_reason(four_bar, building):
+    """A crank of 80 mm comes to a position in which the loop does not close."""
+    told = []
+    assert preview.draw(told.append, four_bar.changed({"bodies.crank.points.A": ["80 mm", "0 mm"]}), (), building) is None
+    drawing = json.loads(told[0])
+    assert drawing["missing"] == [] and "does not close there" in drawing["remarks"][0]
+    bodies = {body["name"] for body in drawing["scene"]["bodies"]}
+    assert bodies >= {"crank", "coupler", "rocker"} and any("crank" in handle["key"] for handle in drawing["scene"]["handles"])
 
 
 @pytest.fixture

@@ -103,6 +103,14 @@ def _build(page):
     until(page, f"Array.isArray({STATE}.scene?.missing)", 60)
 
 
+def _spline(page):
+    """The programme with a spline, and one of its points chosen."""
+    _pane("mechanism", "view-programme")(page)
+    page.get_by_test_id("programme-law").select_option("spline")
+    page.get_by_test_id("programme-point-0-2").wait_for(state="visible")
+    page.get_by_test_id("programme-point").fill("3")
+
+
 def _job(view_or_pane, job, *buttons):
     def act(page):
         view_or_pane(page)
@@ -137,6 +145,7 @@ STATES = (
     State("checks of a cam", "cam", _pane("checks")),
     State("keys", "cam", _bar("keys"), _escape, ".st-popover"),
     State("programme", "cam", _pane("mechanism", "view-programme", "programme-segment-0"), _click("view-motion")),
+    State("points of a spline", "cam", _spline, _click("undo", "view-motion")),
     State("search form", "cam", _form("optimise"), _click("search-close"), ".st-side"),
     State("study form", "cam", _form("study"), _click("study-close"), ".st-side"),
     State("sensitivity", "cam", _job(_pane("checks"), "sensitivity", "job-sensitivity"), scope=".st-side"),
@@ -146,5 +155,6 @@ STATES = (
     State("checks of a shaft", "shaft", _pane("checks")),
     State("plots of a shaft", "shaft", _pane("plots")),
     State("mechanism of the pusher", "pusher", _pane("mechanism")),
+    State("programme of the pusher", "pusher", _pane("mechanism", "view-programme", "programme-segment-0"), _click("view-motion")),
     State("solids of the pusher", "pusher", _job(_pane("mechanism"), "solid", "view-solid"), _click("view-motion")),
 )

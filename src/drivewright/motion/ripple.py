@@ -102,9 +102,11 @@ def rounding(x: Floats, y: Floats, digit: float, function: Piecewise) -> Roundin
     """`Rounding` of rows x, y on 0..1 printed to a digit, against the interpolating `Piecewise` function.
 
     Independent errors of rms q/sqrt(12) make the third derivative of the spline through them wrong by `gain` q/(sqrt(12) h^3) rms, h the
-    spacing of the rows; the motion's own jerk is that of the smoothing spline.
+    spacing of the rows; the motion's own jerk is that of the smoothing spline.  Without a digit there is nothing to compare it with.
     """
     spacing = np.diff(x)
+    if digit == 0:
+        return Rounding(0.0, float(np.mean(spacing)), 0.0, 0.0)
     near = float(np.sqrt(np.average(spacing**-6.0, weights=spacing)))
     wanted = _smoothed(x, y, function.closed)(np.linspace(0, 1, 20 * len(x)), nu=3)
     jerk = digit / np.sqrt(12) * jerk_gain(function.poly.shape[1] - 1) * near

@@ -78,15 +78,15 @@ class Rows(NamedTuple):
 
 
 @register("table")
-def _table(file=None, angle=None, lift=None, degree=5, ends=None, band=None):
-    """Spline through the rows of a CSV file (header "angle [deg],lift [mm]") or of two arrays in SI.
+def _table(file=None, angle=None, lift=None, degree=5, ends=None, band=None, rows=None):
+    """Spline through the rows of a CSV file (header "angle [deg],lift [mm]"), of two arrays in SI, or through rows (angle, lift) in SI.
 
     The angle runs from 0; the lift is absolute.  `ends` unless given: "periodic" over a full turn, otherwise "clamped" (v = a = 0).
     With a `band` [m or rad] the smoothest lift within the band of every row (`numerics.smoothing`) instead of the spline through them.
     """
-    if (file is None) == (angle is None) or (angle is None) != (lift is None):
-        raise InputError("motion law 'table': give either a file, or the arrays angle [rad] and lift [m or rad].")
-    rows = read_table(file) if file is not None else _from_arrays(angle, lift)
+    if sum(given is not None for given in (file, rows, angle)) != 1 or (angle is None) != (lift is None):
+        raise InputError("motion law 'table': give either a file, or the arrays angle [rad] and lift [m or rad], or rows (angle, lift).")
+    rows = read_table(file) if file is not None else _from_rows(rows) if rows is not None else _from_arrays(angle, lift)
     _refuse_rows(rows)
     span = float(rows.angle[-1])
     ends = ends or ("periodic" if math.isclose(span, 2 * math.pi, rel_tol=CLOSURE) else "clamped")
@@ -157,6 +157,17 @@ def _from_arrays(angle, lift):
     if angle.ndim != 1 or angle.shape != lift.shape:
         raise InputError(f"motion law 'table': angle and lift must be two rows of equal length, got shapes {angle.shape} and {lift.shape}.")
     return Rows(angle, lift, None, "motion law 'table'", [f"row {k + 1}" for k in range(len(angle))])
+
+
+def _from_rows(rows):
+    """Rows (angle, lift) as a spec has them: lifts that are angles are `AngleGiven`."""
+    angular = [isinstance(lift, AngleGiven) for _, lift in rows]
+    for k in [k for k, own in enumerate(angular) if own != angular[0]][:1]:
+        first, other = ("an angle", "a length") if angular[0] else ("a length", "an angle")
+        raise InputError(f"motion law 'table', row {k + 1}: the lift is {other}, but that of the first row {first}; give all in one kind.")
+    angle, lift = (np.array([float(row[column]) for row in rows]) for column in (0, 1))
+    unit = ("rad" if angular[0] else "m") if angular else None
+    return Rows(angle, lift, unit, "motion law 'table'", [f"row {k + 1}" for k in range(len(rows))])
 
 
 def _refuse_rows(rows):

@@ -39,14 +39,14 @@ def draw(
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
     building: the mechanism stands still at its start, assembled or not, where its kind has tools to build it.
-    moving: while a hand moves the design, its quick scene is enough where its kind has one; no analysis goes with that, and nothing of
-    what is missing.
+    moving: while a hand moves the design, its quick scene is enough where its kind has one, and nothing is told of what is missing.
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
     construction = registry.mechanism(spec.mechanism).construction
     if building and construction:
-        _send_scene(send, design, spec, construction.sketch(spec), [], construction.unfinished(spec))
+        missing = construction.unfinished(spec)
+        _send_scene(send, design, spec, construction.sketch(spec), [] if missing else _why_still(spec), missing)
         return None
     try:
         model = runner.build(spec)
@@ -59,10 +59,21 @@ def draw(
         scene, remarks = construction.sketch(spec), []
     else:
         scene, remarks = (quick, []) if quick else _scene(spec, model)
+        scene = construction.sketch(spec) if construction and scene is None else scene  # what cannot move is drawn at its start
     missing = construction.unfinished(spec) if construction and not moving else None
     _send_scene(send, design, spec, scene, remarks, missing, _programme(spec, model))
-    if quick or not affordable:
-        return None
+    return _quick_result(spec, model, scene, affordable) if affordable else None
+
+
+def glance(send: Callable[[Any], object], design: Design, affordable: Sequence[str]) -> dict[str, Any] | None:
+    """The page's result of the affordable analyses of a design that a hand is moving, without holding up its drawings; None of a kind
+    whose drawings leave out, while it moves, what the analyses would have to compute first."""
+    spec = design.spec_on_screen()
+    model = runner.build(spec)
+    return None if _quick_scene(spec, model) else _quick_result(spec, model, _scene(spec, model)[0], affordable)
+
+
+def _quick_result(spec, model, scene, affordable):
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable, quick=True)
 
 
@@ -130,6 +141,14 @@ def _scene(spec, model):
         raise
     except Exception as error:  # a drawing that fails must not cost the numbers
         return None, [runner.failure_reason(spec, error)]
+
+
+def _why_still(spec):
+    """Remarks that say why a mechanism that is complete has no motion; none where it moves, or where its analyses say what is wrong."""
+    try:
+        return _scene(spec, runner.build(spec))[1]
+    except DrivewrightError:
+        return []
 
 
 def _programme(spec, model):

@@ -307,7 +307,7 @@ class Session(EditedDesign):
             self._waiting = None
 
 
-TAKE_LOCKS = ("sensitivity", "optimise", "fix")
+TAKE_LOCKS = ("sensitivity", "optimise", "fix", "reach")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
     "hello again set pick names hints drag revert unset construct sketch add drop arrange put take undo redo lock source text load preset "

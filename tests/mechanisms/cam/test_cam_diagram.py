@@ -1,12 +1,14 @@
 """The motion programme as a diagram: its courses are the motion of the model, and every law offered makes a cam."""
 
 import base64
+import json
 
 import numpy as np
 import pytest
 from places import EXAMPLES
 
 from drivewright import registry, runner
+from drivewright.errors import InputError
 from drivewright.mechanisms.cam.diagram import laws
 from drivewright.report.programme import pack_programme
 from drivewright.spec import from_document, load, read_document
@@ -79,6 +81,70 @@ def test_the_packed_diagram_is_plain_data_with_units():
     assert packed["lift"]["factor"] == pytest.approx(1e3) and packed["cycle"]["factor"] == pytest.approx(180 / np.pi)
     swing = pack_programme(diagram_of(model_of("oscillating_cam")))
     assert swing["lift"]["unit"] == "°" and swing["lift"]["angular"] and not packed["lift"]["angular"]
+
+
+def test_rows_of_a_table_come_along_with_the_name_of_their_file():
+    (segment,) = diagram_of(model_of("oscillating_cam")).segments
+    assert segment.file == "lift.csv" and segment.absolute
+    assert np.degrees(segment.rows[:3]) == pytest.approx(np.array([(0, 0.1018), (6, 0.1655), (12, 0.2679)]))
+    first, dwell = pack_programme(diagram_of(model_of("valve_train")))["segments"]
+    assert (
+        first["rowCount"] == len(first["rows"]) == 131 and first["rows"][-1][0] == pytest.approx(np.radians(130)) and dwell["rowCount"] == 0
+    )
+
+
+def rows_of(diagram, angular):
+    """The rows of the first segment as texts of a spec."""
+    factor, unit = (180 / np.pi, "deg") if angular else (1e3, "mm")
+    return [[f"{np.degrees(angle):.12g} deg", f"{lift * factor:.12g} {unit}"] for angle, lift in diagram.segments[0].rows]
+
+
+@pytest.mark.parametrize("name", ["oscillating_cam", "valve_train"])
+def test_rows_in_the_spec_make_the_same_motion_as_those_of_a_file(name):
+    model = model_of(name)
+    cam = Document(Design(read_document(EXAMPLES / f"{name}.toml"), EXAMPLES), "cam")
+    rest = [{"of": n, "changes": {}} for n in range(1, len(cam.design.tables["programme"]))]
+    texts = rows_of(diagram_of(model), model.programme.lift_unit == "rad")
+    cam.arrange("programme", [{"of": 0, "changes": {"rows": json.dumps(texts), "file": ""}}, *rest])
+    other, theta = runner.build(cam.design.spec()), np.linspace(0, 2 * np.pi, 500)
+    assert other.programme.stated(theta).s == pytest.approx(model.programme.stated(theta).s, abs=1e-11)
+    assert diagram_of(other).segments[0].file == "" and len(diagram_of(other).segments[0].rows) == len(texts)
+    cam.undo()
+    assert not cam.can_undo and "rows" not in cam.design.tables["programme"][0]
+
+
+def test_a_long_table_is_counted_and_not_sent():
+    document = read_document(EXAMPLES / "disc_cam.toml")
+    angles = np.linspace(0, 360, 1201)
+    rows = [[f"{angle:.10g} deg", f"{10 - 10 * np.cos(np.radians(angle)):.10g} mm"] for angle in angles]
+    document["programme"] = [{"angle": "360 deg", "law": "table", "rows": rows}]
+    (segment,) = pack_programme(diagram_of(runner.build(from_document(document))))["segments"]
+    assert segment["rows"] == [] and segment["rowCount"] == 1201
+
+
+@pytest.mark.parametrize(
+    ("rows", "more", "words"),
+    [
+        (
+            [["0 deg", "0 mm"], ["60 deg", "3 deg"], ["360 deg", "0 mm"]],
+            {},
+            "row 2: the lift is an angle, but that of the first row a length",
+        ),
+        ([["0 deg", "0 mm"], ["360 deg", "0 mm"]], {}, "2 rows are too few"),
+        ([["0 deg", "0 mm"], ["90 deg", "3 mm"], ["80 deg", "3 mm"], ["360 deg", "0 mm"]], {}, "must increase from row to row"),
+        ([["0 deg", "0 mm"], ["90 deg", "3 mm"], ["360 deg", "1 mm"]], {}, "first and the last row disagree"),
+        ([["0 deg", "0 deg"], ["90 deg", "3 deg"], ["360 deg", "0 deg"]], {}, "programme.0.rows: the lift in its table must be a length"),
+        ([["0 deg", "0 mm"], ["90 deg", "3 mm"], ["360 deg", "0 mm"]], {"file": str(EXAMPLES / "lift.csv")}, "either a file"),
+        ([["0 deg", "0 kg"], ["90 deg", "3 mm"], ["360 deg", "0 mm"]], {}, "programme.0.rows"),
+    ],
+)
+@pytest.mark.error
+def test_rows_that_make_no_motion_are_refused(rows, more, words):
+    document = read_document(EXAMPLES / "disc_cam.toml")
+    document["programme"] = [{"angle": "360 deg", "law": "table", "rows": rows, **more}]
+    with pytest.raises(InputError) as caught:
+        runner.build(from_document(document))
+    assert words in str(caught.value)
 
 
 @pytest.mark.parametrize("kind", KINDS_WITHOUT)

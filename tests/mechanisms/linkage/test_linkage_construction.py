@@ -17,8 +17,8 @@ pytestmark = pytest.mark.interface
 class Building:
     """A document and a hand on its drawing; places in mm."""
 
-    def __init__(self):
-        self.document = Document(preset("linkage"))
+    def __init__(self, name=None):
+        self.document = Document(preset("linkage", name))
 
     def use(self, tool, *places):
         """One use of a tool; what is missing then."""
@@ -47,7 +47,7 @@ def test_a_four_bar_from_clicks_moves():
     hand.use("body", (100, -120), (120, -200))
     for place in ((0, -200), (40, -200), (100, -120), (120, -200)):
         missing = hand.use("pin", place)
-    assert missing == ("remaining degrees of freedom beside the drive: 1; add joints or drives",)
+    assert missing == ("remaining degrees of freedom beside the drive: 1; add a drive on another pin, or joints",)
     assert build(hand.spec).assembly.freedom == 1
     assert [joint["connects"] for joint in hand.tables["joints"][4:]] == [
         ["ground.A", "link_1.A"],
@@ -55,7 +55,8 @@ def test_a_four_bar_from_clicks_moves():
         ["link_2.B", "link_3.A"],
         ["ground.B", "link_3.B"],
     ]
-    assert hand.use("drive", (0, -200)) == ("remaining degrees of freedom beside the drive: 1; add joints or drives",)  # that of the first
+    assert hand.use("drive", (0, -200)) == ()  # beside the drive of the first
+    assert hand.tables["drive"]["joint"] == "O2" and [drive["joint"] for drive in hand.tables["drives"]] == ["A_2"]
     for _ in range(8):
         hand.document.undo()
     assert hand.document.design.tables == before.tables and not hand.document.can_undo
@@ -63,7 +64,11 @@ def test_a_four_bar_from_clicks_moves():
 
 def test_a_body_without_joints_stands_where_it_was_clicked(hand):
     missing = hand.use("body", (-80, 10), (-80, 70), (-120, 70))
-    assert missing[0] == "body link_1 is held by no joint: add a pin or a slide" and not connected(hand.spec)
+    assert missing == (
+        "body link_1 is held by no joint: add a pin or a slide",
+        "remaining degrees of freedom beside the drive: 3; add joints",
+    )
+    assert not connected(hand.spec)
     assert hand.tables["bodies"]["link_1"]["points"]["C"] == ["-120 mm", "70 mm"]
     drawn = {body.name: body for body in sketch(hand.spec).bodies}
     assert drawn["link_1"].poses.tolist() == [[0, 0, 0], [0, 0, 0]] and abs(drawn["coupler"].poses[0, 0] - 0.04) < 1e-9
@@ -81,12 +86,76 @@ def test_a_slide_has_its_direction_in_the_frame_of_the_second_body(hand):
     assert hand.tables["joints"][-1]["axis"] == [0.6, 0.8] and build(hand.spec).assembly.freedom == 1
 
 
-def test_the_drive_goes_with_its_pin_and_comes_back(hand):
+def test_the_drive_goes_before_its_pin_and_comes_back(hand):
+    assert hand.use("delete", (0, 0)) == ("remaining degrees of freedom: 1; add a drive on a pin",)
+    assert "drive" not in hand.tables and "simulate" not in hand.tables and len(hand.tables["joints"]) == 4
     assert hand.use("delete", (0, 0)) == ("remaining degrees of freedom: 3; add a drive on a pin",)
-    assert "drive" not in hand.tables and "simulate" not in hand.tables
     hand.use("pin", (0, 0))
     assert hand.use("drive", (0, 0)) == ()
     assert hand.tables["drive"]["joint"] == "O2" and hand.tables["simulate"]["turns"] > 0
+
+
+LEFT, RIGHT, TOOL = (0, 0), (150, 0), (80, 90)
+BEYOND = "remaining degrees of freedom beside the drive: 1; add a drive on another pin, or joints"
+
+
+@pytest.fixture
+def five_bar():
+    """A hand that has built a five-bar upon a driven crank: two degrees of freedom, one drive."""
+    hand = Building("crank")
+    for ends in (((40, 0), TOOL), (TOOL, (130, 30)), ((130, 30), RIGHT)):
+        hand.use("body", *ends)
+    for place in ((40, 0), TOOL, (130, 30), RIGHT):
+        missing = hand.use("pin", place)
+    assert missing == (BEYOND,)
+    return hand
+
+
+def test_a_second_drive_completes_a_five_bar(five_bar):
+    assert five_bar.use("drive", RIGHT) == ()
+    assert five_bar.tables["drive"]["joint"] == "O2" and five_bar.tables["drives"] == [{"joint": "B", "speed": "60 rpm"}]
+    assert build(five_bar.spec).assembly.freedom == 0
+    five_bar.document.undo()
+    assert "drives" not in five_bar.tables and unfinished(five_bar.spec) == (BEYOND,)
+
+
+def test_drives_are_taken_away_one_by_one(five_bar):
+    five_bar.use("drive", RIGHT)
+    assert five_bar.use("delete", LEFT) == (BEYOND,)  # the other one is the first drive now
+    assert five_bar.tables["drive"]["joint"] == "B" and "drives" not in five_bar.tables and len(five_bar.tables["joints"]) == 5
+    assert five_bar.use("delete", RIGHT) == ("remaining degrees of freedom: 2; add a drive on a pin",)
+    assert "drive" not in five_bar.tables and "simulate" not in five_bar.tables
+
+
+def test_a_third_drive_and_one_on_a_driven_pin_are_refused(five_bar):
+    five_bar.use("drive", RIGHT)
+    before = five_bar.document.design
+    for place, words in (((130, 30), "no degree of freedom is left"), (RIGHT, "has a drive already")):
+        with pytest.raises(InputError, match=words):
+            five_bar.use("drive", place)
+    assert five_bar.document.design is before
+
+
+def test_a_pin_that_the_first_drive_turns_takes_no_further_one(hand):
+    hand.use("body", (-80, 0), (-80, 60))
+    hand.use("pin", (-80, 0))  # a pendulum beside the four-bar
+    with pytest.raises(InputError, match="already set how this pin turns"):
+        hand.use("drive", (120, 0))
+    assert hand.use("drive", (-80, 0)) == () and [drive["joint"] for drive in hand.tables["drives"]] == ["A_2"]
+
+
+def test_a_single_drive_moves_where_nothing_is_free(hand):
+    hand.use("drive", (120, 0))
+    assert hand.tables["drive"]["joint"] == "O4" and "drives" not in hand.tables
+
+
+def test_a_mark_stands_at_each_driven_pin(five_bar):
+    def marks():
+        return {body.name for body in sketch(five_bar.spec).bodies if body.name.startswith("drive ")}
+
+    assert marks() == {"drive O2"}
+    five_bar.use("drive", RIGHT)
+    assert marks() == {"drive O2", "drive B"}
 
 
 def test_loads_and_springs(hand):
@@ -123,7 +192,7 @@ def test_what_does_not_close_is_drawn_as_it_is_stated(hand):
     spec = from_document({**hand.tables, "joints": [*hand.tables["joints"], {"name": "x", "connects": ["coupler.C", "ground.O2"]}]})
     with pytest.raises(DoesNotAssemble):
         build(spec)
-    assert {body.name for body in sketch(spec).bodies} == {"ground", "crank", "coupler", "rocker"}
+    assert {body.name for body in sketch(spec).bodies} == {"ground", "crank", "coupler", "rocker", "drive O2"}
     assert "does not close" in unfinished(spec)[-1] and stated_poses(spec)["coupler"][:2] == pytest.approx((0.04, 0))
 
 

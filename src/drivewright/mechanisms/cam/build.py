@@ -1,7 +1,7 @@
 """Spec -> model: the programme over one turn and the surfaces that touch: cam and follower, conjugate cam, outer wall, second face."""
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache, partial
 from typing import Any
 
@@ -15,7 +15,7 @@ from drivewright.mechanisms.cam.spec import TURN, CamSpec, Groove
 from drivewright.numerics.jets import Jet
 from drivewright.spec.length_or_angle import AngleGiven
 
-LAW_KEYS = ("file", "band", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
+LAW_KEYS = ("file", "rows", "band", "b", "c", "d", "start", "end", "interior", "points", "degree", "ends")
 USED = {  # keys of the follower that each motion and face reads
     "translating": ("offset",),
     "oscillating": ("pivot_distance", "arm_length", "lift_at", "inertia"),
@@ -34,7 +34,11 @@ class CamModel:
     programme: motion.Programme
     tracks: tuple[CamTrack, ...]
     material: materials.Material
-    findings: tuple[str, ...] = field(default=())
+
+    @cached_property
+    def findings(self) -> tuple[str, ...]:
+        """Keys that are not used, and what is found in tables: computed where it is read, for it takes longer than a drawing may."""
+        return tuple(_findings(self.spec, self.programme))
 
     @cached_property
     def cycle(self) -> cams.Cycle:
@@ -201,7 +205,7 @@ def assembled(spec: CamSpec, programme: motion.Programme) -> CamModel:
     """
     follower = _follower(spec)
     tracks = (CamTrack("cam", "", follower, follower.contact), *_closing_tracks(spec, follower, programme))
-    model = CamModel(spec, programme, tracks, _material(spec), tuple(_findings(spec, programme)))
+    model = CamModel(spec, programme, tracks, _material(spec))
     for track in tracks:  # lever past its dead point, lift through the cam's centre: refused here, not in the middle of an analysis
         track.contact(*model.cycle.sampled())
     return model
@@ -263,7 +267,7 @@ def _refuse_rise(spec, segment, law, lengths, key):
     if segment.rise is not None and segment.rise != 0 and isinstance(segment.rise, AngleGiven) == lengths:
         raise SpecError(f"must be {wanted}", key=f"{key}.rise")
     if (getattr(law, "lift_unit", None) or "") == ("rad" if lengths else "m"):
-        raise SpecError(f"the lift in its table must be {wanted}", key=f"{key}.file")
+        raise SpecError(f"the lift in its table must be {wanted}", key=f"{key}.{'file' if segment.rows is None else 'rows'}")
 
 
 def _findings(spec, programme):

@@ -94,6 +94,12 @@ class Segment(Spec):
     file: DataFile | None = Field(
         None, title="Table of lifts", description='CSV file for law = "table": angle [deg],lift [mm] from the start of the segment'
     )
+    rows: tuple[tuple[Angle, LengthOrAngle], ...] | None = Field(
+        None,
+        title="Rows of the table",
+        description='rows (angle, lift) for law = "table", instead of a file, from the start of the segment',
+        examples=[[["0 deg", "0 mm"], ["60 deg", "8 mm"], ["120 deg", "0 mm"]]],
+    )
     b: Number | None = Field(None, title="Sine part b", description='part of the sine ramps, for law = "scca"')
     c: Number | None = Field(None, title="Constant part c", description="part of constant acceleration (scca) or velocity (mcv)")
     d: Number | None = Field(None, title="Cosine part d", description='part of the cosine, for law = "scca"')

@@ -6,7 +6,8 @@ they were clicked, joined or not.  What a click means is found here: a place fal
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from copy import deepcopy
 from itertools import count
 from typing import Any, NamedTuple, TypeAlias
@@ -14,10 +15,11 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 
 from drivewright.construction import Construction, Place, Tool
-from drivewright.errors import InputError
+from drivewright.errors import DrivewrightError, InputError
+from drivewright.mechanisms.linkage.build import build
 from drivewright.mechanisms.linkage.sketch import connected, loose_poses, sketch, unfinished
 from drivewright.mechanisms.linkage.spec import LinkageSpec
-from drivewright.mechanisms.linkage.tables import CENTROID, GROUND, points_of
+from drivewright.mechanisms.linkage.tables import CENTROID, GROUND, LinkageDrive, points_of
 
 Tables: TypeAlias = dict[str, Any]
 SPEED, RUN = "60 rpm", {"turns": 2}
@@ -137,11 +139,45 @@ def _slide(clicked: Clicked, places: Sequence[Place]) -> None:
 
 
 def _drive(clicked: Clicked, places: Sequence[Place]) -> None:
-    """A drive at constant speed on the pin at a place."""
+    """A drive at constant speed on the pin at a place: a further one where something is still free, else the only one moves here."""
+    tables, driven = clicked.tables, _driven(clicked.tables)
     pins = [joint for joint in _at(clicked, places[0]) if joint.get("kind", "revolute") == "revolute"]
+    free = [joint["name"] for joint in pins if joint["name"] not in driven]
     if not pins:
         raise InputError("there is no pin here; click the pin that is to turn")
-    clicked.tables["drive"] = {"joint": pins[0]["name"], "speed": clicked.tables.get("drive", {}).get("speed") or SPEED}
+    if not free:
+        raise InputError("this pin has a drive already; the tool Delete takes it away")
+    speed = tables.get("drive", {}).get("speed") or SPEED
+    if not driven or len(driven) == 1 and "drive" in tables and not _freedom(clicked.spec):
+        tables["drive"] = {"joint": free[0], "speed": speed}
+    elif not _freedom(clicked.spec):
+        raise InputError("no degree of freedom is left for another drive; take one away first, with the tool Delete")
+    else:
+        tables.setdefault("drives", []).append({"joint": _independent(clicked, free), "speed": speed})
+
+
+def _driven(tables: Tables) -> list[str]:
+    """Names of the joints that have a drive."""
+    return [drive["joint"] for drive in (*([tables["drive"]] if "drive" in tables else ()), *tables.get("drives", ()))]
+
+
+def _freedom(spec: LinkageSpec) -> int:
+    """Degrees of freedom beside the drives; 0 where that cannot be said."""
+    try:
+        return build(spec).assembly.freedom
+    except DrivewrightError:
+        return 0
+
+
+def _independent(clicked: Clicked, pins: Sequence[str]) -> str:
+    """The first pin that a drive can turn whatever the other drives do."""
+    spec, before = clicked.spec, _freedom(clicked.spec)
+    for pin in pins:
+        drive = LinkageDrive.model_validate({"joint": pin, "speed": SPEED})
+        with suppress(DrivewrightError):
+            if build(spec.model_copy(update={"drives": (*spec.drives, drive)})).assembly.freedom == before - 1:
+                return pin
+    raise InputError("the other drives already set how this pin turns; click another one")
 
 
 def _force(clicked: Clicked, places: Sequence[Place]) -> None:
@@ -172,9 +208,11 @@ def _output(clicked: Clicked, places: Sequence[Place]) -> None:
 
 
 def _delete(clicked: Clicked, places: Sequence[Place]) -> None:
-    """What is at a place: its joints, else the body."""
-    tables = clicked.tables
-    if joints := _at(clicked, places[0]):
+    """What is at a place: the drive of its pin, else its joints, else the body."""
+    tables, joints = clicked.tables, _at(clicked, places[0])
+    if driven := {joint["name"] for joint in joints} & set(_driven(tables)):
+        _take_drives(tables, driven)
+    elif joints:
         tables["joints"] = [joint for joint in tables["joints"] if joint not in joints]
     else:
         body = _of_body(clicked, places[0])
@@ -191,6 +229,15 @@ def _delete(clicked: Clicked, places: Sequence[Place]) -> None:
         del tables[kind]
 
 
+def _take_drives(tables: Tables, joints: Collection[str]) -> None:
+    """Tables without the drives of some joints; where the first drive goes, the next one takes its place."""
+    kept = [drive for drive in (tables.pop("drive", None), *tables.pop("drives", ())) if drive and drive["joint"] not in joints]
+    if kept:
+        tables["drive"] = kept[0]
+    if kept[1:]:
+        tables["drives"] = kept[1:]
+
+
 ACTS = {
     "body": _body,
     "pin": _pin,
@@ -203,15 +250,15 @@ ACTS = {
     "delete": _delete,
 }
 TOOLS = (
-    Tool("body", "Body", "Click the points of the body; Enter or a double click ends it", 2, 12),
+    Tool("body", "Body", "Draw a bar with one stroke, or click the points of the body; Enter or a double click ends it", 2, 12),
     Tool("pin", "Pin", "Click a place that two bodies share, or a body to pin it to the frame"),
     Tool("slide", "Slide", "Click a point, then a second place in the direction of the slide", 2, 2),
-    Tool("drive", "Drive", "Click the pin that the drive turns", picks=True),
+    Tool("drive", "Drive", "Click the pin that the drive turns; each degree of freedom can have a drive of its own", picks=True),
     Tool("force", "Force", "Click the point of a body where the force acts"),
     Tool("spring", "Spring", "Click both ends of the spring", 2, 2),
     Tool("load", "Load torque", "Click the body that the torque acts on", picks=True),
     Tool("output", "Output", "Click the point whose path, travel and swing are to be shown"),
-    Tool("delete", "Delete", "Click a joint or a body", picks=True),
+    Tool("delete", "Delete", "Click a joint or a body; of a pin with a drive, the drive goes first", picks=True),
 )
 
 
@@ -226,10 +273,8 @@ def build_step(tables: Tables, spec: LinkageSpec, tool: str, places: Sequence[Pl
 def _match_run(tables: Tables) -> None:
     """No drive of a joint that is gone; a run of turns where, and only where, a drive at constant speed counts them."""
     names = {joint.get("name") for joint in tables.get("joints", [])}
-    if "drive" in tables and tables["drive"].get("joint") not in names:
-        del tables["drive"]
-    if "drives" in tables:
-        tables["drives"] = [drive for drive in tables["drives"] if drive.get("joint") in names]
+    if gone := set(_driven(tables)) - names:
+        _take_drives(tables, gone)
     turns = "speed" in tables.get("drive", {}) or any("speed" in drive for drive in tables.get("drives", []))
     run = tables.get("simulate")
     if turns and run is None:

@@ -1,6 +1,7 @@
 """A linkage that is not finished: where its bodies stand without being assembled, how that looks, and what is missing."""
 
 import math
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
 
@@ -17,6 +18,9 @@ from drivewright.multibody.analyses.animation import COLOURS
 from drivewright.multibody.analyses.cycle_poses import start_poses
 from drivewright.multibody.drawing import bar_half_width, rounded
 from drivewright.scene import Body, Frame, Pose, Scene, Shape, circle, polygon
+
+TURN = np.linspace(-0.25 * np.pi, 1.1 * np.pi, 41)
+ARROW = (np.column_stack([np.cos(TURN), np.sin(TURN)]), np.array([(-1.22, -0.02), (-0.951, -0.309), (-0.72, 0.02)]))  # around a driven pin
 
 
 def loose_poses(spec: LinkageSpec) -> dict[str, Pose]:
@@ -62,7 +66,26 @@ def _carried(pose, point):
 
 
 def sketch(spec: LinkageSpec) -> Scene:
-    """The mechanism at its start, without motion; the bodies alone, as they are stated, where it is not assembled."""
+    """The mechanism at its start, without motion, with a mark at each driven pin; the bodies alone, as they are stated, where it is not
+    assembled."""
+    made = _still(spec)
+    return replace(made, bodies=(*made.bodies, *_drive_marks(spec, len(made.cycle))))
+
+
+def _drive_marks(spec: LinkageSpec, frames: int) -> Iterator[Body]:
+    """An arrow around each pin that has a drive, as a body of the machine."""
+    poses, driven = loose_poses(spec), {drive.joint for drive in spec.all_drives.values()}
+    radius = 3.2 * bar_half_width({name: nodes(spec, name) for name in (GROUND, *spec.bodies)})
+    for joint in (joint for joint in spec.joints if joint.name in driven):
+        body, point = place(joint.connects[0])
+        if not point:
+            continue
+        x, y = _carried(poses[body], points_of(spec, body)[point])
+        shapes = tuple(Shape("edge", polygon([(x + radius * a, y + radius * b) for a, b in line], closed=False)) for line in ARROW)
+        yield Body(f"drive {joint.name}", "drive", shapes, np.zeros((frames, 3)), "orange")
+
+
+def _still(spec: LinkageSpec) -> Scene:
     if connected(spec):
         with suppress(DrivewrightError):
             return scene(replace(build(spec), duration=None))
@@ -128,7 +151,8 @@ def unfinished(spec: LinkageSpec) -> tuple[str, ...]:
     if not spec.all_drives and freedom:
         found.append(f"remaining degrees of freedom: {freedom}; add a drive on a pin")
     elif freedom:
-        found.append(f"remaining degrees of freedom beside the drive: {freedom}; {_free_end(spec)}")
+        drives = "drive" if len(spec.all_drives) == 1 else "drives"
+        found.append(f"remaining degrees of freedom beside the {drives}: {freedom}; {'add joints' if found else _free_end(spec)}")
     return tuple(found)
 
 
@@ -139,4 +163,4 @@ def _free_end(spec: LinkageSpec) -> str:
         joints = [joint for joint in spec.joints if name in {place(text)[0] for text in joint.connects}]
         if len(joints) == 1 and joints[0].name not in driven:
             return f"body {name} is held by one joint only"
-    return "add joints or drives"
+    return "add a drive on another pin, or joints"

@@ -6,6 +6,7 @@ from drivewright.mechanisms.seedling_pusher import analyses, dynamics, manufactu
 from drivewright.mechanisms.seedling_pusher.build import build
 from drivewright.mechanisms.seedling_pusher.claims import claims
 from drivewright.mechanisms.seedling_pusher.designs import batch
+from drivewright.mechanisms.seedling_pusher.diagram import diagram
 from drivewright.mechanisms.seedling_pusher.dimensions import SHEETS
 from drivewright.mechanisms.seedling_pusher.spec import SeedlingPusherSpec
 from drivewright.registry import Analysis, Mechanism, oracle
@@ -65,6 +66,7 @@ mechanism = Mechanism(
     analyses=ANALYSES,
     folder=Path(__file__).parent,
     scene=scene.scene,
+    programme=diagram,
     dimensions=SHEETS,
     plots=PLOTS,
     drawings=scene.drawings,

@@ -78,6 +78,7 @@ export function createKeyList(name, {t}, editor, changed) {
     /** The keys of a design; `chosen` are those that its table has, {key: entry}. */
     load(found, chosen) {
       keys = found;
+      list.scrollTop = 0;
       editors = new Map(found.filter(({key}) => key in chosen).map(key => [key.key, editor({...key, entry: chosen[key.key]})]));
       draw();
     },

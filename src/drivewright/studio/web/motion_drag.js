@@ -1,58 +1,75 @@
-// Borders, lifts and spline points of a motion programme under a hand.
+// Borders, lifts and points of a motion programme under a hand.
 
-import { quantityOf } from "./numbers.js";
-import { LEAST, borderMoves, partnerOf } from "./motion_segments.js";
+import { DEGREE, createMotionMoves } from "./motion_moves.js";
+import { liftAt, placeOf, pointMoves, seenPoints } from "./motion_points.js";
+import { borderMoves, partnerOf } from "./motion_segments.js";
 import { put } from "./parts.js";
-import { element, nice } from "./player.js";
+import { element } from "./player.js";
 import { createGesture } from "./slider.js";
-import { onGrid } from "./snapping.js";
 
-const NEAR = 6, FINE = 5;  // px of a snap; px of a step of the grid, at least
-const FREE = 0.01;  // of a degree, where a hand does not want whole ones
-const DEGREE = Math.PI / 180;
+const BORDER = 18, POINTS = {apart: 15, most: 7, reach: 70};  // px between borders; between points that are seen, how many, how far from the hand
+const TAP = {time: 350, far: 24}, ON_CURVE = 20;  // ms and px of a double tap; px
 const tidy = value => Number(value.toPrecision(12));
 
 /**
- * The buttons upon the diagram.  `drawn()` is the programme as drawn, `isCurrent()` whether the design has the same segments, `number(n, name)` a key of a segment, `hold(numbers)` draws what a
- * hand holds, `select(n)` chooses a segment.
+ * The buttons upon the diagram.  `drawn()` is the programme as drawn, `isCurrent()` whether the design has the same segments, `number(n, name)` a key of a segment, `numberAt(key)` any other,
+ * `hold(numbers, texts)` draws what a hand holds, `select(n)` chooses a segment, `choose(n, k)` a point of it, `chosen()` is that point.
  */
-export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, hold, select, tools}) {
-  const {say, t, clock} = tools, bubble = element("output", {class: "hd-bubble", hidden: ""}), nudges = createGesture("programme");
-  let buttons = new Map(), grip = null, pending = 0, swept = false, nudged = null;  // nudged: {id, gesture} of the last arrow key
+export function createMotionDrag(parts) {
+  const {layer, stage, plot, drawn, isCurrent, number, hold, select, choose = () => {}, chosen = () => null, tools} = parts;
+  const {say, t, clock} = tools, bubble = element("output", {class: "hd-bubble", hidden: ""}), nudges = createGesture("programme"), moves = createMotionMoves(parts);
+  let buttons = new Map(), grip = null, pending = 0, swept = false, nudged = null, hover = null, last = null, tapped = null, touched = -Infinity;  // nudged: {id, gesture} of the last arrow key; last: argument of `place`
   layer.append(bubble);
 
   // ---- what each button moves: {kind, n, k}
-  const things = ({segments}) => [
-    ...segments.map((_, n) => ({kind: "segment", n})),
-    ...segments.flatMap((_, n) => borderMoves(segments, n) ? [{kind: "border", n}] : []),
-    ...segments.flatMap((_, n) => partnerOf(segments, n) >= 0 ? [{kind: "lift", n}] : []),
-    ...segments.flatMap(({points}, n) => points.slice(1, -1).map((_, k) => ({kind: "point", n, k: k + 1}))),
-  ];
+  function things() {
+    const {segments} = drawn();
+    return [
+      ...segments.map((_, n) => ({kind: "segment", n})),
+      ...segments.flatMap((_, n) => borderMoves(segments, n) ? [{kind: "border", n}] : []),
+      ...segments.flatMap((_, n) => partnerOf(segments, n) >= 0 ? [{kind: "lift", n}] : []),
+      ...segments.flatMap((segment, n) => points(segment, n).map(k => ({kind: "point", n, k}))),
+    ];
+  }
+  /** The points of a segment that have a handle. */
+  function points(segment, n) {
+    if (!segment.nodes) return [];
+    const xs = segment.nodes.at.map((_, k) => plot.toX(placeOf(segment, k)[0])), own = chosen();
+    const held = grip?.thing.kind === "point" && grip.thing.n === n ? grip.thing.k : null;
+    return held !== null && xs.length > 2 * POINTS.most ? [held] : seenPoints(xs, k => pointMoves(segment, k), {...POINTS, x: hover, chosen: own?.n === n ? own.k : -1});
+  }
   const idOf = ({kind, n, k}) => `programme-${kind}-${n}${k === undefined ? "" : `-${k}`}`;
-  const numbersOf = ({kind, n}) => kind === "border" ? [number(n - 1, "angle"), number(n, "angle")] : kind === "lift" ? [number(n, "rise"), number(partnerOf(drawn().segments, n), "rise")] : [];
-  const can = (n, name) => { const {segments} = drawn(); return name === "angle" ? borderMoves(segments, n + 1) || borderMoves(segments, n) : partnerOf(segments, n) >= 0 || giverOf(segments, n) >= 0; };
-  /** The segment whose lift ends where the rise of `n` begins to count: the one that has `n` as its partner. */
-  const giverOf = (segments, n) => segments.findIndex((_, k) => partnerOf(segments, k) === n);
+  const numbersOf = ({kind, n}) => kind === "border" ? moves.movers(n).map(([own]) => own) : kind === "lift" ? [number(n, "rise"), number(partnerOf(drawn().segments, n), "rise")] : [];
+  const isFree = thing => isCurrent() && (thing.kind === "point" || numbersOf(thing).every(Boolean));
 
-  function place(selected) {
-    const programme = drawn(), wanted = things(programme), seen = new Set(wanted.map(idOf));
-    for (const [id, made] of buttons) if (!seen.has(id)) { made.remove(); buttons.delete(id); }
+  function place(selected = last) {
+    last = selected;
+    const programme = drawn(), wanted = things(), seen = new Set(wanted.map(idOf)), asides = aside(wanted, programme);
+    for (const [id, made] of buttons) if (!seen.has(id)) { const had = document.activeElement === made; made.remove(); buttons.delete(id); if (had) buttons.get(idOf({kind: "segment", n: selected}))?.focus({preventScroll: true}); }
     for (const thing of wanted) {
       const id = idOf(thing), made = buttons.get(id) || create(thing, id), segment = programme.segments[thing.n];
-      if (thing.kind === "segment") strip(made, segment, thing.n, selected);
-      else {
-        const [x, y] = at(thing, segment), free = isCurrent() && (thing.kind === "point" || numbersOf(thing).every(Boolean));
-        made.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
-        made.disabled = !free;
-        describe(made, thing, programme);
-      }
+      if (thing.kind === "segment") { strip(made, segment, thing.n, selected); continue; }
+      const [x, y] = at(thing, segment), own = chosen();
+      made.style.transform = `translate(${(x + (asides.get(id) || 0)).toFixed(1)}px, ${y.toFixed(1)}px)`;
+      made.disabled = !isFree(thing);
+      if (thing.kind === "point") made.classList.toggle("is-chosen", own?.n === thing.n && own.k === thing.k);
+      describe(made, thing, programme);
     }
+  }
+  /** Px that borders stand aside of where they are, so that a hand can tell them apart. */
+  function aside(wanted, {segments}) {
+    const found = wanted.filter(({kind}) => kind === "border").map(thing => ({id: idOf(thing), x: at(thing, segments[thing.n])[0]})).sort((a, b) => a.x - b.x), map = new Map();
+    for (let n = 1; n < found.length; n++) {
+      const short = BORDER - (found[n].x - found[n - 1].x);
+      if (short > 0) { map.set(found[n - 1].id, (map.get(found[n - 1].id) || 0) - short / 2); map.set(found[n].id, short / 2); }
+    }
+    return map;
   }
   function at({kind, k}, segment) {
     if (kind === "border") return [plot.toX(segment.start), 12];
     if (kind === "lift") return [plot.toX(segment.end), plot.toY(segment.to)];
-    const [u, s] = segment.points[k];
-    return [plot.toX(segment.start + u * segment.angle), plot.toY(segment.from + s * segment.rise)];
+    const [angle, lift] = placeOf(segment, k);
+    return [plot.toX(angle), plot.toY(lift)];
   }
   function create(thing, id) {
     const look = {segment: "mf-segment", border: "mf-border", lift: "mf-lift", point: "mf-point"}[thing.kind], role = thing.kind === "segment" ? {} : {role: "slider"};
@@ -61,67 +78,32 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
     else {
       made.addEventListener("pointerdown", event => { if (event.button === 0) press(event, made, thing); });
       made.addEventListener("keydown", event => keys(event, thing));
+      if (thing.kind === "point") made.addEventListener("focus", () => choose(thing.n, thing.k));
     }
     layer.append(made);
     buttons.set(id, made);
     return made;
   }
   function strip(made, segment, n, selected) {
-    const from = plot.toX(segment.start), wide = plot.toX(segment.end) - from;
+    const [from, to] = plot.parts ? plot.parts(segment.start, segment.end).sort((a, b) => b[1] - b[0] - a[1] + a[0])[0] || [0, 0] : [plot.toX(segment.start), plot.toX(segment.end)], wide = to - from;
     made.style.transform = `translate(${from.toFixed(1)}px, 2px)`; made.style.width = `${wide.toFixed(1)}px`;
     made.setAttribute("aria-pressed", String(n === selected));
     put(made, wide > 26 ? t(segment.law) : "");
     made.title = `${t("Segment *", n + 1)}: ${t(segment.law)}`;
     made.setAttribute("aria-label", made.title);
   }
-  const angleText = (value, {cycle}) => `${tidy(Math.round(value * cycle.factor * 1e4) / 1e4)}${cycle.unit}`;
-  const liftText = (value, {lift}) => `${tidy(Math.round(value * lift.factor * 1e4) / 1e4)}${lift.unit.startsWith("°") ? "" : " "}${lift.unit}`;
+  const rounded = value => tidy(Math.round(value * 1e4) / 1e4);
+  const angleText = (value, {cycle}) => `${rounded(value * cycle.factor)}${cycle.unit}`;
+  const liftText = (value, {lift}) => `${rounded(value * lift.factor)}${lift.unit.startsWith("°") ? "" : " "}${lift.unit}`;
+  /** The angle of the cycle where a border is. */
+  const cycleAngle = (angle, {origin, cycle}) => origin == null ? angle : angle + origin - Math.floor((angle + origin) / cycle.span + 1e-9) * cycle.span;
   function describe(made, thing, programme) {
-    const {kind, n, k} = thing, segment = programme.segments[n];
-    const value = kind === "border" ? segment.start : kind === "lift" ? segment.to : segment.points[k][1];
-    const name = kind === "border" ? t("Border between segments * and *", n, n + 1) : kind === "lift" ? t("Lift at the end of segment *", n + 1) : t("Point * of segment *", k, n + 1);
-    const text = kind === "border" ? angleText(value, programme) : kind === "lift" ? liftText(value, programme) : segment.points[k].join(", ");
+    const {kind, n, k} = thing, segment = programme.segments[n], [x, y] = kind === "point" ? segment.nodes.at[k] : [], count = programme.segments.length;
+    const value = kind === "border" ? cycleAngle(segment.start, programme) : kind === "lift" ? segment.to : y;
+    const name = kind === "border" ? t("Border between segments * and *", n || count, n + 1) : kind === "lift" ? t("Lift at the end of segment *", n + 1) : t("Point * of segment *", k + 1, n + 1);
+    const text = kind === "border" ? angleText(value, programme) : kind === "lift" ? liftText(value, programme) : segment.nodes.kind === "spline" ? `${x}, ${y}` : `${angleText(x, programme)}, ${liftText(y, programme)}`;
     for (const [what, said] of Object.entries({"aria-label": name, "aria-valuenow": value, "aria-valuetext": text})) made.setAttribute(what, said);
     made.title = `${name}: ${text}`;
-  }
-
-  // ---- a step of the hand
-  /** Moves border `n` to an angle [rad]; `snap` to whole degrees, and where both segments are equally long; null for exactly there.  Answers the words of the snap. */
-  function moveBorder(n, to, snap, gesture) {
-    const {segments} = drawn(), [before, after] = numbersOf({kind: "border", n}), from = segments[n - 1].start, end = segments[n].end;
-    const equal = (from + end) / 2, same = snap && Math.abs(plot.toX(to) - plot.toX(equal)) < NEAR, step = (snap ? 1 : snap === null ? 0 : FREE) * DEGREE;
-    const kept = Math.min(Math.max(same ? equal : onGrid(to, step), from + LEAST), end - LEAST);
-    const first = tidy(Math.round((kept - from) / before.factor * 1e9) / 1e9), change = first - before.value;
-    const second = tidy(Math.round((after.value - change * before.factor / after.factor) * 1e9) / 1e9);
-    send({[before.key]: `${first} ${before.unit}`, [after.key]: `${second} ${after.unit}`}, gesture,
-      {[`${n - 1} angle`]: first * before.factor, [`${n} angle`]: second * after.factor});
-    return same ? t("equally long") : "";
-  }
-  /** Moves the lift at the end of segment `n`; the next segment that moves takes up the difference. */
-  function moveLift(n, to, snap, gesture) {
-    const {segments} = drawn(), other = partnerOf(segments, n), [own, next] = numbersOf({kind: "lift", n}), step = stepOf(own);
-    const levels = segments.filter((_, k) => k < n || k > other).map(segment => segment.from);  // the others move along
-    const upon = snap && levels.find(level => Math.abs(plot.toY(level) - plot.toY(to)) < NEAR);
-    const onLevel = typeof upon === "number" && Math.abs(upon - segments[n].from) > 1e-9 ? upon : null;
-    const wanted = (onLevel ?? to) - segments[n].from, exact = wanted / own.factor;
-    const rise = tidy(Math.round((onLevel === null ? onGrid(exact, snap ? step : step / 10) : exact) * 1e5) / 1e5);  // courses are single precision
-    const rest = tidy(Math.round((next.value - (rise - own.value) * own.factor / next.factor) * 1e9) / 1e9);
-    if (!rise || !rest) return "";
-    send({[own.key]: `${rise} ${own.unit}`, [next.key]: `${rest} ${next.unit}`}, gesture, {[`${n} rise`]: rise * own.factor, [`${other} rise`]: rest * next.factor});
-    return onLevel === null ? "" : t("level with another");
-  }
-  /** Size of a step of the lift, in the unit of its key. */
-  const stepOf = ({factor}) => nice(Math.max(Math.abs(plot.fromY(0) - plot.fromY(FINE)) / factor, 1e-9) * 1.999);
-  /** Moves point `k` of the spline of segment `n` to (u, s). */
-  function movePoint(n, k, [u, s], gesture) {
-    const {segments, list, keys: names} = drawn(), {points} = segments[n], round = value => tidy(Math.round(value * 1e3) / 1e3);
-    const at = [round(Math.min(Math.max(u, points[k - 1][0] + 0.01), points[k + 1][0] - 0.01)), round(s)];
-    const next = points.map((point, each) => each === k ? at : point);
-    send({[`${list}.${n}.${names.points}`]: JSON.stringify(next)}, gesture, {});
-  }
-  function send(changes, gesture, numbers) {
-    hold(numbers);
-    say({what: "drag", changes, gesture});
   }
 
   // ---- pointer
@@ -146,10 +128,10 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
   function follow() {
     pending = 0;
     if (!grip?.last) return;
-    const {thing: {kind, n, k}, last: [x, y], free, gesture} = grip, segment = drawn().segments[n];
-    if (kind === "border") grip.words = moveBorder(n, plot.fromX(x), !free, gesture);
-    else if (kind === "lift") grip.words = moveLift(n, plot.fromY(y), !free, gesture);
-    else movePoint(n, k, [(plot.fromX(x) - segment.start) / segment.angle, (plot.fromY(y) - segment.from) / segment.rise], gesture);
+    const {thing: {kind, n, k}, last: [x, y], free, gesture} = grip, angle = plot.fromX(x);
+    if (kind === "border") grip.words = moves.border(n, angle, !free, gesture);
+    else if (kind === "lift") grip.words = moves.lift(n, plot.fromY(y), !free, gesture);
+    else grip.words = moves.point(n, k, [angle, plot.fromY(y)], !free, gesture);
     showBubble();
   }
   function showBubble() {
@@ -175,47 +157,68 @@ export function createMotionDrag({layer, stage, plot, drawn, isCurrent, number, 
   }
   const WHILE_HELD = {pointermove: move, pointerup: release, pointercancel: release, lostpointercapture: release};
 
-  // ---- keys and typing
+  // ---- keys
   function keys(event, {kind, n, k}) {
     const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key], times = event.shiftKey ? 10 : 1, segment = drawn().segments[n];
-    if (event.key === "Escape" && grip) { const {gesture} = grip; event.preventDefault(); event.stopPropagation(); end(); hold(null); say({what: "revert", gesture}); return; }
+    const taken = () => { event.preventDefault(); event.stopPropagation(); };
+    if (event.key === "Escape" && grip) { const {gesture} = grip; taken(); end(); hold(null); say({what: "revert", gesture}); return; }
     if (event.key === "Escape" && nudged?.id === idOf({kind, n, k})) {  // the steps of the arrow keys before it
-      event.preventDefault(); event.stopPropagation();
+      taken();
       say({what: "revert", gesture: nudged.gesture});
       nudged = null; nudges.end();
       return;
     }
-    if (!step || !(kind === "point" || numbersOf({kind, n}).every(Boolean))) return;
-    event.preventDefault(); event.stopPropagation();
+    if (kind === "point" && (event.key === "Delete" || event.key === "Backspace")) { taken(); if (!grip) removeHere(n, k); return; }
+    if (!step || !isFree({kind, n, k})) return;
+    taken();
     const [dx, dy] = step, id = idOf({kind, n, k});
     if (nudged?.id !== id) nudges.end();
     nudged = {id, gesture: nudges.next()};
-    if (kind === "border") moveBorder(n, segment.start + (dx + dy) * times * DEGREE, false, nudged.gesture);
-    else if (kind === "lift") { const [own] = numbersOf({kind, n}); moveLift(n, segment.to + (dx + dy) * times * stepOf(own) * own.factor, false, nudged.gesture); }
-    else movePoint(n, k, [segment.points[k][0] + dx * times * 0.01, segment.points[k][1] + dy * times * 0.01], nudged.gesture);
+    if (kind === "border") moves.border(n, segment.start + (dx + dy) * times * DEGREE, false, nudged.gesture);
+    else if (kind === "lift") { const [own] = numbersOf({kind, n}); moves.lift(n, segment.to + (dx + dy) * times * moves.stepOf(own) * own.factor, false, nudged.gesture); }
+    else nudge(segment, n, k, dx * times, dy * times);
     hold(null);
   }
-  /** A typed angle or rise of segment `n`: the border behind it moves, or the one before the last; the lift at its end, or at its start. */
-  function typed(n, name, text) {
-    const [value, unit] = quantityOf(text) || [], own = number(n, name), {segments} = drawn();
-    if (!Number.isFinite(value) || !own) return;
-    if (!isCurrent() || unit && unit !== own.unit && !(unit === "°" && own.unit === "deg")) { say({what: "set", key: own.key, text: unit ? text : `${value} ${own.unit}`}); return; }
-    const wanted = value * own.factor, gesture = createGesture(own.key).current();
-    if (name === "angle") borderMoves(segments, n + 1) ? moveBorder(n + 1, segments[n].start + wanted, null, gesture) : moveBorder(n, segments[n].end - wanted, null, gesture);
-    else if (partnerOf(segments, n) >= 0) exactLift(n, wanted, gesture);
-    else { const giver = giverOf(segments, n); exactLift(giver, segments[giver].rise + segments[n].rise - wanted, gesture); }
-    hold(null);
+  /** Takes a point away; the next one has the keys then, or the one before it. */
+  function removeHere(n, k) {
+    const next = Math.min(k, drawn().segments[n].nodes.at.length - 3);
+    if (!moves.remove(n, k)) return;
+    choose(n, next);
+    buttons.get(idOf({kind: "point", n, k: next}))?.focus({preventScroll: true});
   }
-  function exactLift(n, rise, gesture) {
-    const other = partnerOf(drawn().segments, n), [own, next] = numbersOf({kind: "lift", n}), first = tidy(rise / own.factor);
-    const rest = tidy(next.value - (first - own.value) * own.factor / next.factor);
-    if (first && rest) send({[own.key]: `${first} ${own.unit}`, [next.key]: `${rest} ${next.unit}`}, gesture, {[`${n} rise`]: first * own.factor, [`${other} rise`]: rest * next.factor});
+  function nudge(segment, n, k, dx, dy) {
+    const [angle, lift] = placeOf(segment, k), table = segment.nodes.kind === "table", up = table ? Math.abs(plot.fromY(0) - plot.fromY(2)) : 0.01 * segment.rise;
+    moves.point(n, k, [angle + dx * (table ? 0.1 * DEGREE : 0.01 * segment.angle), lift + dy * up], false, nudged.gesture);
   }
 
-  // ---- the clock, where nothing else is under the hand
-  function sweep(event) { clock.pause(); clock.set(plot.fromX(pixel(event)[0]) / drawn().cycle.span); }
-  stage.addEventListener("pointerdown", event => { if (event.target.tagName === "CANVAS" && drawn()) { swept = true; event.target.setPointerCapture(event.pointerId); sweep(event); } });
-  stage.addEventListener("pointermove", event => { if (swept) sweep(event); });
+  // ---- where nothing else is under the hand: the clock, points that come near, and another point by a double click or tap on the curve
+  function sweep(event) { clock.pause(); clock.set(turns(plot.fromX(pixel(event)[0]))); }
+  const turns = angle => { const {cycle: {span}, origin} = drawn(); return (angle + (origin || 0)) / span; };
+  function lookAt(x) {
+    hover = x;
+    if (drawn().segments.some(({nodes}) => nodes && !nodes.still && nodes.at.length > POINTS.most)) place();
+  }
+  function another(event) {
+    const [x, y] = pixel(event), {segments} = drawn(), angle = plot.fromX(x), n = segments.findIndex(({start, end}) => angle >= start && angle < end);
+    if (n < 0 || Math.abs(plot.toY(liftAt(segments[n], angle)) - y) > ON_CURVE) return;
+    const k = moves.add(n, angle);
+    if (k !== null) choose(n, k);
+  }
+  function tap(event) {
+    const at = pixel(event), now = event.timeStamp, again = tapped && now - tapped.now < TAP.time && Math.hypot(at[0] - tapped.at[0], at[1] - tapped.at[1]) < TAP.far;
+    tapped = again ? null : {at, now}; touched = now;
+    if (again) another(event);
+  }
+  stage.addEventListener("pointerdown", event => {
+    if (event.target.tagName !== "CANVAS" || !drawn()) return;
+    swept = true; event.target.setPointerCapture(event.pointerId); sweep(event); lookAt(pixel(event)[0]);
+  });
+  stage.addEventListener("pointermove", event => { if (swept) sweep(event); if (!grip && drawn()) lookAt(pixel(event)[0]); });
+  stage.addEventListener("pointerup", event => { if (swept && event.pointerType === "touch" && drawn()) tap(event); });
+  stage.addEventListener("dblclick", event => { if (event.target.tagName === "CANVAS" && event.timeStamp - touched > 2 * TAP.time && drawn()) another(event); });
   for (const name of ["pointerup", "pointercancel"]) stage.addEventListener(name, () => { swept = false; });
-  return {place, can, typed, held: () => grip !== null, reword() { buttons.forEach(made => made.remove()); buttons = new Map(); }, destroy() { if (grip) end(); }};
+  return {
+    place, ...moves, held: () => grip !== null,
+    reword() { buttons.forEach(made => made.remove()); buttons = new Map(); }, destroy() { if (grip) end(); },
+  };
 }

@@ -1,12 +1,16 @@
 // The lift diagram with velocity, acceleration and jerk below it, on one axis.
 
-import { fitCanvas, fixed } from "./player.js";
+import { placeOf } from "./motion_points.js";
+import { fitCanvas, fixed, useFont } from "./player.js";
 import { ticks } from "./plotting.js";
 
 const MARGIN = {left: 58, right: 16, top: 30, bottom: 34}, GAP = 22;
 const SHARE = [0.4, 0.2, 0.2, 0.2], ROLES = ["blue", "orange", "green", "violet"], FONT = "11px system-ui, sans-serif";
 
-/** The drawing on a canvas; `changed()` after each change of its size.  `toX(angle)`, `toY(lift)` and back give pixels of the lift diagram. */
+/**
+ * The drawing on a canvas; `changed()` after each change of its size.  `toX(angle)`, `toY(lift)` and back give pixels of the lift diagram, of angles
+ * from the start of the first segment: a programme with an `origin` begins there on the axis, and what reaches over its end goes on at its beginning.
+ */
 export function createMotionPlot(canvas, changed) {
   const surface = fitCanvas(canvas, () => { draw(); changed(); });
   let shown = null, colours = null;  // {programme, jumps, peaks, selected, titles, units: factor of each row, axis}
@@ -18,7 +22,16 @@ export function createMotionPlot(canvas, changed) {
     return [MARGIN.top + above * h + row * GAP, SHARE[row] * h];
   }
   const span = () => shown.programme.cycle.span;
-  const toX = angle => MARGIN.left + angle / span() * inner().w, fromX = x => (x - MARGIN.left) / inner().w * span();
+  const origin = () => shown.programme.origin ?? null, turned = angle => angle - Math.floor(angle / span() + 1e-9) * span();
+  const scaled = angle => MARGIN.left + angle / span() * inner().w;
+  const toX = angle => scaled(origin() === null ? angle : turned(angle + origin())), fromX = x => (x - MARGIN.left) / inner().w * span() - (origin() ?? 0);
+  /** Pixels by which the courses are drawn aside of where they would begin at the left edge: twice where they reach over the right one. */
+  const shifts = () => origin() === null ? [0] : [0, -1].map(turn => (turned(origin()) / span() + turn) * inner().w);
+  /** [from, to] pixels of the visible parts of an interval of angles. */
+  function parts(start, end) {
+    const {w} = inner(), found = shifts().map(shift => [start, end].map(angle => Math.min(Math.max(scaled(angle) + shift, MARGIN.left), MARGIN.left + w)));
+    return found.filter(([from, to]) => to - from > 0.5);
+  }
   function range(row) {
     let low = Infinity, high = -Infinity;
     for (const {course} of shown.programme.segments) for (const value of course[row + 1]) { if (value < low) low = value; if (value > high) high = value; }
@@ -39,7 +52,7 @@ export function createMotionPlot(canvas, changed) {
   function grid(context, row) {
     const [top, tall] = rowAt(row), {w} = inner(), factor = shown.factors[row], [low, high] = ranges[row], {cycle} = shown.programme;
     const up = ticks(low * factor, high * factor, Math.max(2, tall / 26), ""), across = ticks(0, span() * cycle.factor, Math.max(2, Math.min(8, w / 62)), cycle.unit);
-    context.font = FONT; context.textBaseline = "middle"; context.textAlign = "right";
+    useFont(context, FONT); context.textBaseline = "middle"; context.textAlign = "right";
     for (const value of up.values) {
       const y = toYof(row, value / factor);
       rule(context, MARGIN.left, y, MARGIN.left + w, y, value === 0 ? colours["grid-strong"] : colours.grid);
@@ -47,7 +60,7 @@ export function createMotionPlot(canvas, changed) {
       context.fillText(Math.abs(value) >= 1e5 ? value.toExponential(0).replace("e+", "e").replace("-", "−") : fixed(value, up.decimals), MARGIN.left - 7, y);
     }
     for (const value of across.values) {
-      const x = toX(value / cycle.factor);
+      const x = scaled(value / cycle.factor);
       rule(context, x, top, x, top + tall, colours.grid);
       if (row < 3) continue;
       context.textAlign = x > MARGIN.left + w - 12 ? "right" : "center"; context.textBaseline = "top"; context.fillStyle = colours.muted;
@@ -57,19 +70,33 @@ export function createMotionPlot(canvas, changed) {
   }
   function title(context, row) {
     const [top] = rowAt(row), {w} = inner(), [name, peak] = shown.titles[row];
-    context.textBaseline = "alphabetic"; context.font = `600 ${FONT}`; context.fillStyle = colours.ink; context.textAlign = "left";
+    context.textBaseline = "alphabetic"; useFont(context, `600 ${FONT}`); context.fillStyle = colours.ink; context.textAlign = "left";
     if (row) context.fillText(name, MARGIN.left, top - 6);
-    context.textAlign = "right"; context.font = FONT; context.fillStyle = peak.includes("∞") ? colours.bad : colours.muted;
+    context.textAlign = "right"; useFont(context, FONT); context.fillStyle = peak.includes("∞") ? colours.bad : colours.muted;
     if (row) context.fillText(peak, MARGIN.left + w, top - 6);
   }
   function curve(context, row) {
+    const {w} = inner(), [top, tall] = rowAt(row);
     context.strokeStyle = colours[ROLES[row]]; context.lineWidth = 1.8; context.lineJoin = "round";
-    context.beginPath();
-    for (const {course} of shown.programme.segments) {
-      const [theta] = course, values = course[row + 1];
-      for (let i = 0; i < theta.length; i++) context.lineTo(toX(theta[i]), toYof(row, values[i]));
+    context.save();
+    context.beginPath(); context.rect(MARGIN.left, top - GAP, w, tall + 2 * GAP); context.clip();
+    for (const shift of shifts()) {
+      context.beginPath();
+      for (const {course} of shown.programme.segments) {
+        const [theta] = course, values = course[row + 1];
+        for (let i = 0; i < theta.length; i++) context.lineTo(scaled(theta[i]) + shift, toYof(row, values[i]));
+      }
+      context.stroke();
     }
-    context.stroke();
+    context.restore();
+  }
+  /** The points of splines and tables, as dots upon the lift. */
+  function dots(context) {
+    context.fillStyle = colours.ink;
+    for (const segment of shown.programme.segments) for (let k = 0; k < (segment.nodes?.at.length || 0); k++) {
+      const [angle, lift] = placeOf(segment, k);
+      context.beginPath(); context.arc(toX(angle), toYof(0, lift), 1.7, 0, 2 * Math.PI); context.fill();
+    }
   }
   /** A stripe where a derivative jumps: red for the velocity, amber for the acceleration. */
   function jumps(context) {
@@ -86,11 +113,13 @@ export function createMotionPlot(canvas, changed) {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, width, height);
     const [last, tall] = rowAt(3), chosen = shown.programme.segments[shown.selected];
-    if (chosen) { context.fillStyle = colours.raised; context.fillRect(toX(chosen.start), MARGIN.top, toX(chosen.end) - toX(chosen.start), last + tall - MARGIN.top); }
+    context.fillStyle = colours.raised;
+    for (const [from, to] of chosen ? parts(chosen.start, chosen.end) : []) context.fillRect(from, MARGIN.top, to - from, last + tall - MARGIN.top);
     for (const row of [0, 1, 2, 3]) grid(context, row);
-    for (const {start} of shown.programme.segments.slice(1)) rule(context, toX(start), MARGIN.top - 6, toX(start), last + tall, colours.muted);
+    for (const {start} of shown.programme.segments.slice(origin() === null ? 1 : 0)) rule(context, toX(start), MARGIN.top - 6, toX(start), last + tall, colours.muted);
     jumps(context);
     for (const row of [0, 1, 2, 3]) { curve(context, row); title(context, row); }
+    dots(context);
   }
-  return {show, draw, toX, fromX, toY, fromY, rowAt, width: () => surface.width, bottom: () => { const [top, tall] = rowAt(3); return top + tall; }, stop() { surface.stop(); }};
+  return {show, draw, parts, toX, fromX, toY, fromY, rowAt, width: () => surface.width, bottom: () => { const [top, tall] = rowAt(3); return top + tall; }, stop() { surface.stop(); }};
 }

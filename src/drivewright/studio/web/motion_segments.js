@@ -13,7 +13,7 @@ export const unpacked = packed => ({...packed, segments: packed.segments.map(seg
 export function stretched(programme, angles, rises) {
   let start = 0, level = programme.segments[0]?.course[1][0] || 0;
   const segments = programme.segments.map((segment, n) => {
-    const [theta, s, ...rates] = segment.course, wide = angles[n] / segment.angle, tall = segment.absolute || !segment.rise ? 1 : rises[n] / segment.rise;
+    const [theta, s, ...rates] = segment.course, wide = segment.angle ? angles[n] / segment.angle : 1, tall = segment.absolute || !segment.rise ? 1 : rises[n] / segment.rise;
     const base = segment.absolute ? s[0] : level, own = s[0];
     const course = [theta.map(part => part * wide + start), s.map(part => base + (part - own) * tall), ...rates.map((rate, order) => rate.map(part => part * tall / wide ** (order + 1)))];
     const made = {...segment, angle: angles[n], rise: rises[n], start, end: start + angles[n], from: course[1][0], to: course[1].at(-1), course};
@@ -34,7 +34,7 @@ export function peaksOf(programme, jumps) {
 
 /** Where velocity (order 1) or acceleration (2) jumps: [{at, order}], the lowest order only. */
 export function jumpsOf(programme) {
-  const {segments} = programme, found = [];
+  const segments = programme.segments.filter(({start, end}) => end > start), found = [];
   const peaks = [1, 2].map(order => Math.max(...segments.map(({course}) => course[order + 1].reduce((peak, value) => Math.max(peak, Math.abs(value)), 0))));
   const look = (at, before, after) => {
     const order = [1, 2].find(n => Math.abs(after[n] - before[n]) > JUMP * peaks[n - 1]);
@@ -51,8 +51,8 @@ export function jumpsOf(programme) {
 
 // ---------------------------------------------------------------------------------------------------------------- what can move
 
-/** Whether the border before segment `n` can move: there is one, and no table stands beside it. */
-export const borderMoves = (segments, n) => n > 0 && n < segments.length && !segments[n - 1].absolute && !segments[n].absolute;
+/** Whether the border before segment `n` can move: its keys say so, or it is one of a list and no table stands beside it. */
+export const borderMoves = (segments, n) => segments[n]?.fixed ? Object.keys(segments[n].fixed.border).length > 0 : n > 0 && n < segments.length && !segments[n - 1].absolute && !segments[n].absolute;
 
 const moves = ({absolute, rise}) => !absolute && Math.abs(rise) > STILL;
 

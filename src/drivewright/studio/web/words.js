@@ -84,3 +84,12 @@ export function refusedText(text, t) {
     return key && t(line) === line ? key + t(words) : t(line);
   }).join("\n");
 }
+
+/** A remark on a drawing that has no motion, without what its heading says. */
+const reasonOf = text => text.replace(/^no motion to show: /, "");
+
+/** Why the design as it stands has no motion, in sentences; none where it has, or where the drawing is that of an earlier one. */
+export function reasonsOf({scene, design, refused}) {
+  const impossible = scene?.gen === design?.gen ? Object.values(refused || {}).filter(({text}) => text === null).map(({message}) => message) : [];
+  return [...new Set([...(scene?.remarks || []).map(reasonOf), ...impossible])];
+}
