@@ -193,6 +193,25 @@ def test_export_downloads_a_dxf_that_audits_clean(studio, tab, tmp_path):
         assert not ezdxf.readfile(file).audit().errors
 
 
+def test_a_chinese_page_tells_what_keys_mean_and_downloads_its_report_with_solids(studio, tab, tmp_path):
+    page = tab(studio[0])
+    name = page.locator('[data-testid="field-bodies.crank.mass"] .st-name').first
+    assert name.get_attribute("title") == "bodies.crank.mass\nmass" and page.evaluate(f"{STATE}.hints === null")
+    page.get_by_test_id("language").click()
+    until(page, f"{STATE}.hints !== null")
+    assert name.get_attribute("title") == "bodies.crank.mass\n质量"
+    page.get_by_test_id("dock-drawing").click()
+    drawing = page.locator(".st-dock img").first
+    until(page, "document.querySelector('.st-dock img').naturalWidth > 0")
+    assert drawing.get_attribute("src") == "/web/drawing.linkage.zh.svg"
+    page.get_by_test_id("report-menu").click()
+    with page.expect_download(timeout=60_000) as coming:
+        page.get_by_role("menuitem", name="含实体运动的报告").click()
+    coming.value.save_as(tmp_path / "report.html")
+    report = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert '"solids":{' in report and "设计校核" in report
+
+
 def test_a_reload_keeps_the_design(studio, tab):
     page = tab(studio[0])
     enter(page, "drive.speed", "277 rpm")
