@@ -77,7 +77,7 @@ DRAG = """async ([key, seconds]) => {
     const now = performance.now();
     gaps.push(now - last);
     last = now;
-    send('pointermove', 12 * Math.sin(n / 20), 8 * Math.sin(n / 15));
+    send('pointermove', 20 * Math.sin(n / 7), 20 * (1 - Math.cos(n / 7)));  // 3 px a frame: another number in every frame
     n += 1;
     gens.add(stage.dataset.gen);
   }

@@ -4,6 +4,7 @@ import re
 
 import pytest
 from browsing import until
+from studio_running import EXAMPLES, own_port, running
 
 COMPLAINTS, OURS = ("error", "warning"), re.compile("getImageData|ReadPixels")  # reading a canvas is what the tests do
 
@@ -16,6 +17,19 @@ def browser(chromium):
         running = playwright.chromium.launch(executable_path=path, args=[*flags, "--disable-gpu"])
         yield running
         running.close()
+
+
+@pytest.fixture(scope="session")
+def studio():
+    """Address of a studio for the tests of one process; every page of it is a design of its own, first the four-bar."""
+    with running(own_port(8400), EXAMPLES / "four_bar.toml") as (address, _):
+        yield address
+
+
+@pytest.fixture(scope="session")
+def address(studio):
+    """The same."""
+    return studio
 
 
 @pytest.fixture(scope="session")

@@ -151,8 +151,10 @@ def test_a_drawing_tells_its_generation(page):
     call(page, "start", packed(gen=7))
     assert page.evaluate("host.dataset.gen") == "7"
     before = page.evaluate(PIXELS)
-    page.evaluate("next => { live.player.load(next); window.early = host.dataset.gen; }", packed(0.9, gen=8))
-    assert page.evaluate("early") == "8" and page.evaluate(PIXELS) != before, "drawn at once: a person waits for it"
+    draw = "next => { live.player.load(next); requestAnimationFrame(() => { window.early = host.dataset.gen; }); }"
+    page.evaluate(draw, packed(0.9, gen=8))
+    until(page, "window.early")
+    assert page.evaluate("early") == "8" and page.evaluate(PIXELS) != before, "drawn in the next frame: a person waits for it"
 
 
 def test_outlines_with_the_same_text_are_not_decoded_again(page):

@@ -33,7 +33,7 @@ STATE = "window.drivewright.state"
 
 @pytest.fixture(scope="module")
 def studio():
-    with running(own_port(8400), EXAMPLES / "four_bar.toml") as (address, process):
+    with running(own_port(8500), EXAMPLES / "four_bar.toml") as (address, process):
         yield address, process
 
 

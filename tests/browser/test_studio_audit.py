@@ -5,7 +5,7 @@ import re
 import pytest
 from browsing import until
 from places import ROOT
-from studio_running import EXAMPLES, analysed, own_port, running
+from studio_running import analysed
 from studio_states import SPECS, STATES, address_of
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
@@ -13,12 +13,6 @@ pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_
 AUDIT = (ROOT / "tests" / "support" / "page_audit.js").read_text(encoding="utf-8")
 SIZES = {390: 844, 820: 1180, 1440: 900}
 FEW = [pytest.param(spec, marks=[] if spec == "failing_cam" else [pytest.mark.slow]) for spec in SPECS]  # one of them in the short run
-
-
-@pytest.fixture(scope="module")
-def address():
-    with running(own_port(8610), EXAMPLES / "four_bar.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

@@ -2,17 +2,11 @@
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, drawn, own_port, running
+from studio_running import drawn
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 STATE = "window.drivewright.state"
 MISSING = f"JSON.stringify({STATE}.scene?.missing)"
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8470), EXAMPLES / "four_bar.toml") as (address, process):
-        yield address, process
 
 
 @pytest.fixture
@@ -22,8 +16,8 @@ def page(studio, browser):
     page = context.new_page()
     page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
     page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.on("request", lambda request: None if request.url.startswith((studio[0], "ws", "data:")) else complaints.append(request.url))
-    page.goto(studio[0])
+    page.on("request", lambda request: None if request.url.startswith((studio, "ws", "data:")) else complaints.append(request.url))
+    page.goto(studio)
     until(page, "window.drivewright !== undefined", 30)
     drawn(page)
     page.get_by_test_id("build").click()

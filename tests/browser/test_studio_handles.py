@@ -2,7 +2,7 @@
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, drawn, own_port, running
+from studio_running import drawn
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
@@ -10,12 +10,6 @@ STATE = "window.drivewright.state"
 KEY = "bodies.crank.points.A"
 VALUES = f"""key => {STATE}.design.form.groups.flatMap(g => g.fields).find(f => f.key === key).parts.map(p => p.value)"""
 START = [40, 0]
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8610), EXAMPLES / "four_bar.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

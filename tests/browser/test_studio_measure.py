@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, drawn, enter, own_port, running, shared
+from studio_running import EXAMPLES, drawn, enter, shared
 
 from drivewright import registry, runner
 from drivewright.spec import load
@@ -13,12 +13,6 @@ from drivewright.spec import load
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
 TEXTS = "window.drivewright.state.design.form.groups.flatMap(g => g.fields).filter(f => /^programme.*{}$/.test(f.key)).map(f => f.text)"
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8460), EXAMPLES / "four_bar.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

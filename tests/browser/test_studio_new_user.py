@@ -2,18 +2,12 @@
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, drawn, field, own_port, running, shared
+from studio_running import analysed, drawn, field, shared
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
 STATE = "window.drivewright.state"
 RADIUS, ROLLER = "follower.prime_radius", "follower.roller_radius"
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8480), EXAMPLES / "disc_cam.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

@@ -4,7 +4,7 @@ import subprocess
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, ROOT, analysed, drawn, enter, own_port, running, shared
+from studio_running import ROOT, analysed, drawn, enter, shared
 
 pytestmark = [pytest.mark.browser, pytest.mark.slow, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
@@ -14,12 +14,6 @@ TASTE = "localStorage.setItem('drivewright-taste', JSON.stringify({{lang: '{lang
 COLOURS = """async () => {
   const c = document.querySelector('.dw-canvas'), d = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
   const seen = new Set(); for (let i = 0; i < d.length; i += 4) seen.add(d[i] << 16 | d[i + 1] << 8 | d[i + 2]); return seen.size; }"""
-
-
-@pytest.fixture(scope="module")
-def address():
-    with running(own_port(8490), EXAMPLES / "four_bar.toml") as (found, _):
-        yield found
 
 
 @pytest.fixture

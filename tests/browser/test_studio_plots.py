@@ -6,19 +6,13 @@ import xml.etree.ElementTree as ET
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, drawn, enter, own_port, running, shared
+from studio_running import analysed, drawn, enter, shared
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
 STATE = "window.drivewright.state"
 KEY = "bodies.crank.points.A.0"
 CURVE = "n => document.querySelectorAll('.dw-plot-canvas')[n].toDataURL()"
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8700), EXAMPLES / "four_bar.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

@@ -5,7 +5,7 @@ import re
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, drawn, enter, field, own_port, running
+from studio_running import EXAMPLES, analysed, drawn, enter, field
 
 from drivewright.studio.opening import packed
 
@@ -47,12 +47,6 @@ FAINT = """() => {
   }
   return [...found];
 }"""
-
-
-@pytest.fixture(scope="module")
-def address():
-    with running(own_port(8473), EXAMPLES / "four_bar.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

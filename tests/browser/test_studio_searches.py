@@ -2,7 +2,7 @@
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, drawn, own_port, running
+from studio_running import EXAMPLES, analysed, drawn
 
 from drivewright.studio.opening import packed
 
@@ -10,12 +10,6 @@ pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_
 
 STATE = "window.drivewright.state"
 RADIUS = "follower.prime_radius"
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8440), EXAMPLES / "disc_cam.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, own_port, running
+from studio_running import analysed
 from studio_states import STATE, address_of
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
@@ -12,12 +12,6 @@ TEXT = f"{STATE}.design.form.groups.flatMap(group => group.fields).find(({{key}}
 PLACES = """(() => {
   const scrolled = [document.scrollingElement, ...document.querySelectorAll('.st, .st *')].map(one => one.scrollTop + one.scrollLeft);
   return JSON.stringify([scrolled.filter(Boolean), scrollX, scrollY, visualViewport.scale]); })()"""
-
-
-@pytest.fixture(scope="module")
-def address():
-    with running(own_port(8630), EXAMPLES / "four_bar.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

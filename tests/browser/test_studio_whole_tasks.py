@@ -5,17 +5,11 @@ import re
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, drawn, own_port, running
+from studio_running import analysed, drawn, shared
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
 STATE = "window.drivewright.state"
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8650), EXAMPLES / "disc_cam.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture
@@ -25,7 +19,7 @@ def page(browser, studio):
     page = context.new_page()
     page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
     page.on("pageerror", lambda error: complaints.append(str(error)))
-    page.goto(studio)
+    page.goto(shared(studio, "disc_cam"))
     until(page, "window.drivewright !== undefined", 30)
     drawn(page)
     analysed(page)

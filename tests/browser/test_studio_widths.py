@@ -2,7 +2,7 @@
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, analysed, own_port, running, shared
+from studio_running import analysed, shared
 
 pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_studio]
 
@@ -37,12 +37,6 @@ OVERLAPS = """() => {
   boxes.forEach((box, n) => { if (leaves(box)) found.push(`${places[n].className} leaves the screen`); });
   return found;
 }"""
-
-
-@pytest.fixture(scope="module")
-def address():
-    with running(own_port(8477), EXAMPLES / "four_bar.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture

@@ -141,7 +141,7 @@ async def test_the_newest_design_wins(bench):
     assert bench.asked == [("quick", "draw", 1), ("quick", "draw", 6)]
     await bench.calls[1].answer(None)
     assert bench.asked[2:] == [("heavy", "analyse", 6)]
-    assert [message["gen"] for message in bench.told("possible")] == [1, 6]
+    assert bench.told("possible") == [], "nothing was impossible, so there is nothing to take back"
 
 
 @story
@@ -169,7 +169,6 @@ async def test_a_lost_worker_is_told_and_the_design_drawn_once_more(bench):
     assert bench.said == [{"what": "work", "state": "lost", "text": "in words: the process has gone"}]
     assert bench.asked == [("quick", "draw", 1)] * 2
     await bench.calls[1].answer(None)
-    assert bench.told("possible") == [{"what": "possible", "gen": 1}]
     assert bench.asked[2:] == [("heavy", "analyse", 1)]
 
 
@@ -202,6 +201,16 @@ async def test_an_impossible_design_is_told_with_its_key(bench):
     await bench.look(5)
     await bench.calls[-1].fail(SpecError("nowhere"))
     assert bench.said[-1]["key"] == ""
+
+
+@story
+async def test_the_first_design_with_a_solution_takes_the_complaint_back(bench):
+    await bench.look(1)
+    await bench.calls[0].fail(DoesNotAssemble("the loop stays open"))
+    for gen in (2, 3):
+        await bench.look(gen)
+        await bench.calls[-1].answer(None)
+    assert bench.told("possible") == [{"what": "possible", "gen": 2}]
 
 
 @story
@@ -352,6 +361,46 @@ async def test_what_a_hand_moves_is_drawn_quickly_and_drawn_in_full_when_it_rest
     assert bench.asked[-1] == ("heavy", "analyse", 2)
     await bench.look(3)
     assert bench.calls[-1].arguments[3] is False
+
+
+async def moved(bench, gen):
+    """The drawing of a design that a hand moves, drawn."""
+    bench.computing.update(gen, SimpleNamespace(kind=KIND, gen=gen), moving=True)
+    await settled()
+    drawing = bench.calls[-1]
+    await drawing.answer(None)
+    return drawing
+
+
+@story
+async def test_analyses_of_what_a_hand_moves_run_beside_its_drawings(bench):
+    bench.computing._seconds = {"motion": 0.001, "forces": 0.002}
+    computations.registry.mechanism(KIND).quick_scene = None
+
+    def rounds():
+        return [call for call in bench.calls if call.function == "glance"]
+
+    assert list((await moved(bench, 1)).arguments[1]) == []
+    (beside,) = rounds()
+    assert (beside.pool, beside.arguments[0].gen, list(beside.arguments[1])) == ("heavy", 1, ["motion", "forces"])
+    for gen in (2, 3):
+        await moved(bench, gen)
+    assert rounds() == [beside], "one round at a time"
+    await beside.answer(found("motion", "forces"))
+    assert bench.told("result") == [{"what": "result", "gen": 1, "full": False, "result": found("motion", "forces")}]
+    await moved(bench, 4)
+    assert [call.arguments[0].gen for call in rounds()] == [1, 4]
+
+
+@story
+async def test_analyses_beside_a_drawing_that_fail_say_nothing(bench):
+    """The drawing does, or the analyses of the design at rest."""
+    bench.computing._seconds = {"motion": 0.001}
+    computations.registry.mechanism(KIND).quick_scene = None
+    await moved(bench, 1)
+    before = list(bench.said)
+    await next(call for call in bench.calls if call.function == "glance").fail(DoesNotAssemble("the loop stays open"))
+    assert bench.said == before and bench.computing._glance_task is None
 
 
 def test_of_drawings_in_quick_succession_only_some_come_with_analyses(bench, monkeypatch):

@@ -206,6 +206,15 @@ def test_a_drawing_is_told_before_the_answers(four_bar):
     assert found["plots"]["cycle"]["unit"] == told[0]["scene"]["cycle"]["unit"]
 
 
+def test_what_is_told_beside_a_moving_drawing_is_what_goes_with_one_at_rest(four_bar):
+    """Nothing of a mechanism with play, whose run the drawing under a hand leaves out."""
+    at_rest, beside = preview.draw(lambda told: None, four_bar, ["motion"]), preview.glance(lambda told: None, four_bar, ["motion"])
+    for found in (at_rest, beside):
+        del found["seconds"], found["timings"]
+    assert beside == at_rest
+    assert preview.glance(lambda told: None, opened(EXAMPLES / "slider_crank_clearance.toml"), ["motion"]) is None
+
+
 def test_a_drawing_follows_the_design(four_bar):
     told = []
     for design in (four_bar, four_bar.changed({"bodies.crank.points.A": ["35 mm", "0 mm"]})):

@@ -21,7 +21,7 @@ DRAG = """
     const others = () => (data.others || []).map(other => ({...other, at: place(other, other.point)}));
     const numbers = () => data.numbers && data.numbers.map(number => ({...number}));
     const drag = createDrag({layer, guides, bubble, place, frame: handle => poses[handle.body], others, nameOf: () => "A", numbers,
-      view: () => view, say: message => said.push(message), t, clock});
+      view: () => view, undrawn: () => data.undrawn || 0, say: message => said.push(message), t, clock});
     layer.append(button);
     drag.attach(button, () => data.handle);
     const at = place(data.handle, data.handle.point), grip = data.grip || [2, -1];
@@ -70,6 +70,37 @@ def test_alt_takes_the_place_itself_and_limits_hold():
     first, second = dragged(body, POINT)
     assert numbers_of(first) == pytest.approx([30.1234, 12.3456], rel=1e-9) and numbers_of(second)[1] == 25
     assert first["gesture"] == second["gesture"] != ""
+
+
+def test_a_step_waits_while_drawings_are_on_their_way_and_is_the_newest_place_then():
+    """Three steps may be under way; the end of the drag waits for nothing."""
+    body = """
+    down();
+    for (const x of [0.031, 0.032, 0.033, 0.034]) to([x, 0.01]);
+    const full = said.length;
+    drag.answered(); to([0.035, 0.01]);
+    const next = said.at(-1).changes["crank.A.0"], under = said.length;
+    to([0.036, 0.01]); to([0.037, 0.01]);
+    const still = said.length;
+    button.fire("pointerup");
+    return [full, under, next, still, said.length, said.at(-1).changes["crank.A.0"]];
+    """
+    full, under, following, still, ended, last = dragged(body, POINT)
+    assert (full, under, still, ended) == (3, 4, 4, 5)
+    assert float(following.split()[0]) == pytest.approx(35, abs=0.3) and float(last.split()[0]) == pytest.approx(37, abs=0.3)
+
+
+def test_steps_that_the_server_has_taken_and_not_drawn_count_too():
+    """Two of them leave room for one; a drawing that is the newest makes room again."""
+    body = """
+    down();
+    for (const x of [0.031, 0.032, 0.033]) to([x, 0.01]);
+    const before = said.length;
+    data.undrawn = 0; drag.drawn();
+    for (const x of [0.034, 0.035, 0.036, 0.037]) to([x, 0.01]);
+    return [before, said.length];
+    """
+    assert dragged(body, POINT, undrawn=2) == [1, 3]
 
 
 def test_a_hand_that_shakes_moves_nothing_and_opens_the_box():

@@ -29,7 +29,10 @@ export class Part {
   contains(other) { return this === other || this.children.some(each => each instanceof Part && each.contains(other)); }
   get textContent() { return this.children.map(each => each instanceof Part ? each.textContent : each).join(""); }
   set textContent(text) { this.children = [text]; }
-  get firstChild() { const [first] = this.children; return typeof first === "string" ? {data: first} : first || null; }
+  get firstChild() {
+    const {children} = this;
+    return typeof children[0] === "string" ? {get data() { return children[0]; }, set data(text) { children[0] = text; }} : children[0] || null;
+  }
   addEventListener(name, act) { (this.listeners[name] ||= new Set()).add(act); }
   removeEventListener(name, act) { this.listeners[name]?.delete(act); }
   /** Tells an event to this part and those around it. */

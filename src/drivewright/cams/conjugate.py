@@ -155,9 +155,10 @@ class ConjugatePair:
 
     def pitch_outline(self, cam: ConjugateCam) -> Outline:
         """The pitch curve once round: true arcs while the lever rests, splines with exact end tangents while it swings."""
-        pieces = []
-        for low, high, phase, k in self.pieces:
-            jet = self.pitch(cam, np.linspace(low, high, SAMPLES), k)
+        pieces, ends = [], np.array([(low, high) for low, high, _, _ in self.pieces])
+        whole = self.pitch(cam, np.linspace(*ends.T, SAMPLES), np.array([k for _, _, _, k in self.pieces]))
+        for n, (low, high, phase, _) in enumerate(self.pieces):
+            jet = whole[:, n]
             if phase == "dwell":
                 sweep = self.orbit * float(np.diff(self.orbit_angle(np.array([low, high])).d0)[0])
                 pieces.append(Arc((0.0, 0.0), float(abs(jet.d0[0])), float(np.angle(jet.d0[0])), sweep))

@@ -99,16 +99,18 @@ class CircleFamily:
         numbers = np.arange(len(self.path))
         stops, starts = (np.array([getattr(piece, end) for piece in self.path], float) for end in ("stop", "start"))
         after = np.concatenate([np.roll(loop, -1) for loop in np.split(numbers, self._first[1:])])
-        return gather(self.path, numbers, stops), gather(self.path, after, starts[after])
+        jets = gather(self.path, np.concatenate([numbers, after]), np.concatenate([stops, starts[after]]))
+        return jets[: len(numbers)], jets[len(numbers) :]
 
     @cached_property
     def _shrunk(self):
-        """By side the arcs whose envelope is their centre: the circle is as wide as the arc that its own centre runs on."""
+        """By side that bounds the part, the arcs whose envelope is their centre: the circle is as wide as the arc that it runs on."""
         arcs = np.array([number for number, piece in enumerate(self.path) if piece.shape == "arc"], dtype=int)
+        sides = (1.0, -1.0) if self.both else (self.side,)
         if not len(arcs):
-            return {1.0: (), -1.0: ()}
+            return dict.fromkeys(sides, ())
         centre = gather(self.path, arcs, np.array([0.5 * (self.path[k].start + self.path[k].stop) for k in arcs]))
-        slow = {side: np.abs(envelope_of_circle(centre, self.radius, side).d1) < _CORNER * np.abs(centre.d1) for side in (1.0, -1.0)}
+        slow = {side: np.abs(envelope_of_circle(centre, self.radius, side).d1) < _CORNER * np.abs(centre.d1) for side in sides}
         return {side: arcs[shortest] for side, shortest in slow.items()}
 
     def _corner(self, piece, before, after, side):

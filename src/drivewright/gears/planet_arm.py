@@ -4,7 +4,6 @@ World: sun axis at the origin, y up; the carrier turns clockwise by t [rad], 0 a
 jets in it.  `elliptic_track` states the same for many designs of elliptic gears at once.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -61,12 +60,24 @@ class PlanetArm:
     @cached_property
     def lowest(self) -> float:
         """Carrier angle in [0, 2 pi) where the point is lowest."""
-        return extreme_angle(lambda t: self.point(t).imag, -1)
+        angles, heights = self._extremes
+        return float(angles[np.argmin(heights)])
 
     @cached_property
     def highest(self) -> float:
         """Carrier angle in [0, 2 pi) where the point is highest."""
-        return extreme_angle(lambda t: self.point(t).imag, +1)
+        angles, heights = self._extremes
+        return float(angles[np.argmax(heights)])
+
+    @cached_property
+    def _extremes(self):
+        """(carrier angles in [0, 2 pi) where the height of the point is an extreme, the heights [m]), from the roots of its exact
+        derivative."""
+        turning = bracketed_roots(lambda t: self.point(t).imag.d1, GRID)
+        if not len(turning):
+            raise InputError("the height of the point on the planet is constant over the turn: lengthen its arm or change the train")
+        angles = np.unique(np.mod(turning, TURN))
+        return angles, self.point(angles).d0.imag
 
     @property
     def track_height(self) -> float:
@@ -103,12 +114,3 @@ class PlanetArm:
             return 0.0
         x = [self.point(t).d0.real + advance * t / TURN for t in crossings]
         return float(abs(x[1] - x[0]))
-
-
-def extreme_angle(height: Callable[[ArrayLike], Jet], sign: int) -> float:
-    """Carrier angle in [0, 2 pi) of the greatest sign * height over a turn, from the roots of its exact derivative."""
-    turning = bracketed_roots(lambda t: height(t).d1, GRID)
-    if not len(turning):
-        raise InputError("the height of the point on the planet is constant over the turn: lengthen its arm or change the train")
-    candidates = np.unique(np.mod(turning, TURN))
-    return float(candidates[np.argmax(sign * height(candidates).d0)])

@@ -95,10 +95,35 @@ export function fitCanvas(canvas, resized) {
     surface.ratio = window.devicePixelRatio || 1;
     surface.width = canvas.clientWidth; surface.height = canvas.clientHeight;
     canvas.width = Math.round(surface.width * surface.ratio); canvas.height = Math.round(surface.height * surface.ratio);
+    fonts.delete(surface.context);  // a canvas of another size has forgotten everything
     resized();
   });
   observer.observe(canvas);
   return surface;
+}
+
+// What differs is set, what is the same is left alone: the browser styles and lays out anew whatever is touched.
+
+/** The text of a node that has nothing else in it. */
+export function put(node, text) {
+  const own = node.firstChild;
+  if (own?.data === undefined || own.nextSibling) node.textContent = text;
+  else if (own.data !== text) own.data = text;
+}
+
+/** An attribute of a node. */
+export function putAttribute(node, name, value) { if (node.getAttribute(name) !== String(value)) node.setAttribute(name, value); }
+
+/** A class of a node, there or not. */
+export function putClass(node, name, on) { if (node.classList.contains(name) !== on) node.classList.toggle(name, on); }
+
+const fonts = new WeakMap();  // of each context, as it was last given
+
+/** The font of a context.  Giving it one has the whole page laid out, even where it is the same. */
+export function useFont(context, font) {
+  if (fonts.get(context) === font) return;
+  context.font = font;
+  fonts.set(context, font);
 }
 
 export function watchVisible(element, tell) {

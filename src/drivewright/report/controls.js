@@ -1,6 +1,6 @@
 // The player's controls: buttons, sliders, choices, and what is read off beside them.
 
-import { element, fixed } from "./clock.js";
+import { element, fixed, putAttribute, put } from "./clock.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 export const MOST = 3;  // largest exaggeration over the drawn one
@@ -25,7 +25,7 @@ export function button(text, act, name) {
   return made;
 }
 
-export const press = (made, on) => made.setAttribute("aria-pressed", String(on));
+export const press = (made, on) => putAttribute(made, "aria-pressed", on);
 
 /** Row of choices, one pressed: [[key, label], ...] -> {node, choose(key)}. */
 export function segments(title, choices, picked) {
@@ -39,21 +39,36 @@ export function segments(title, choices, picked) {
   return {node, choose(key) { for (const b of buttons) press(b, b.dataset.key === String(key)); }};
 }
 
-/** Slider over the cycle with a tick for every mark. */
+/** The marks of a cycle, [[u, label], ...], by their label: one may overtake another while a design changes. */
+export const byLabel = ({marks}) => [...marks].sort(([u, one], [v, other]) => one === other ? u - v : one < other ? -1 : 1);
+
+/** Slider over the cycle with a tick for every mark; `follow(cycle)` puts the same marks where they are in another cycle. */
 export function scrubber(clock, cycle, text) {
   const input = element("input", {type: "range", min: 0, max: 1, step: 0.0001, value: 0, "aria-label": text(TEXT.scrub), class: "dw-range"});
-  const node = element("div", {class: "dw-scrub"}, input);
-  for (const [u, label] of cycle.marks) {
-    const tick = element("button", {type: "button", class: "dw-mark", title: text(label), "aria-label": text(label), style: `--u:${u}`, tabindex: -1});
-    tick.addEventListener("click", () => clock.set(u));
-    node.append(tick);
-  }
+  let marks = byLabel(cycle);
+  const ticks = marks.map(([, label], n) => {
+    const tick = element("button", {type: "button", class: "dw-mark", title: text(label), "aria-label": text(label), tabindex: -1});
+    tick.addEventListener("click", () => clock.set(marks[n][0]));
+    return tick;
+  });
+  const node = element("div", {class: "dw-scrub"}, input, ...ticks);
   input.addEventListener("input", () => {
     const wanted = +input.value;  // pausing shows the old phase in the slider
     clock.pause();
     clock.set(wanted);
   });
-  return {node, show(phase) { input.value = phase; input.style.setProperty("--part", phase); }};
+  let shown = null;
+  function show(phase) {
+    if (phase === shown) return;
+    shown = input.value = phase;
+    input.style.setProperty("--part", phase);
+  }
+  function follow(next) {
+    marks = byLabel(next);
+    ticks.forEach((tick, n) => tick.style.setProperty("--u", marks[n][0]));
+  }
+  follow(cycle);
+  return {node, show, follow};
 }
 
 /** Choice of speed; "real time" stays chosen when a change of the design changes the period. */
@@ -64,7 +79,7 @@ export function speedBox(clock, text) {
   return {node, follow(period) {
     const chosen = real.isConnected && real.selected;
     if (!period) real.remove(); else if (!real.parentNode) node.append(real);
-    real.value = period ? clock.duration / period : "";
+    putAttribute(real, "value", period ? clock.duration / period : "");
     if (chosen || !SPEEDS.includes(clock.speed)) clock.speed = period ? clock.duration / period : 1;
     if (chosen && period) real.selected = true; else node.value = String(clock.speed);
   }};
@@ -79,7 +94,7 @@ export function exaggerator(most, text, changed) {
   input.addEventListener("dblclick", () => changed(1));
   return {node, show(scale, magnified) {
     input.value = scale; input.style.setProperty("--part", scale / most);
-    factor.textContent = times(magnified);
+    put(factor, times(magnified));
   }};
 }
 

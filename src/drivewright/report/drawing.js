@@ -1,6 +1,6 @@
 // The drawing of one scene on a canvas, the window onto it, and how a hand moves that window.
 
-import { locate, nice } from "./clock.js";
+import { locate, nice, useFont } from "./clock.js";
 import { STILL, boxOf, carry, pathOf, poseAt, poseOf, seenFrom } from "./scene.js";
 
 // -------------------------------------------------------------------------------------------------------------- drawing
@@ -12,7 +12,7 @@ const PLAIN = [1.8, []];
 const NORMAL = {alpha: 1, fill: 0.24}, LIT = {alpha: 1, fill: 0.5, width: 3.2}, DIM = {alpha: 0.35, fill: 0.24};
 const GHOST = {alpha: 0.28, fill: 0, width: 1, bare: true}, COMPARED = {alpha: 0.6, fill: 0.14, width: 1, bare: true, colour: "muted"};
 const TRACES = ["violet", "orange", "green", "blue", "steel"];
-const PAST = 4, GHOSTS = 8;
+const PAST = 4, GHOSTS = 8, WORDS = "11.5px system-ui, sans-serif";
 
 /** All drawing of one scene: `paint(context, view, observer, clock, colours, switches, reference)`; sizes in pixels, poses in metres. */
 export function createPainter(scene) {
@@ -169,7 +169,7 @@ export function createPainter(scene) {
   function labels(context, view, observer, phase, colours, {hidden, scale}) {
     const [low, part] = locate(scene.u, phase), eye = poseAt(observer.motion, low, part), taken = [];
     context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
-    context.font = "11.5px system-ui, sans-serif"; context.textAlign = "center"; context.textBaseline = "middle";
+    useFont(context, WORDS); context.textAlign = "center"; context.textBaseline = "middle";
     for (const {text, body, point, above} of scene.labels || []) {
       const carrier = scene.bodies[body];
       if (carrier && hidden.has(carrier.title)) continue;
@@ -221,7 +221,7 @@ export function createPainter(scene) {
     context.setTransform(view.ratio, 0, 0, view.ratio, 0, 0);
     context.strokeStyle = colours.muted; context.lineWidth = 1.5;
     context.beginPath(); context.moveTo(x, y - 4); context.lineTo(x, y); context.lineTo(end, y); context.lineTo(end, y - 4); context.stroke();
-    context.fillStyle = colours.muted; context.font = "11px system-ui, sans-serif";
+    context.fillStyle = colours.muted; useFont(context, WORDS);
     context.fillText(unit ? `${+size.toPrecision(3)} ${unit}` : lengthText(length), x + 5, y - 6);
   }
 

@@ -5,12 +5,12 @@
 //
 // Lengths arrive in metres, angles in radians, y up.  Colours are the custom properties --blue, --ink ... of the host's style.
 
-import { createClock, element, fitCanvas, fixed, locate, watchTheme, watchVisible } from "./clock.js";
-import { MOST, TEXT, button, exaggerator, icon, magnifiedBy, pace, press, scrubber, segments, sinceMark, speedBox, times } from "./controls.js";
+import { createClock, element, fitCanvas, fixed, locate, putAttribute, put, watchTheme, watchVisible } from "./clock.js";
+import { MOST, TEXT, button, byLabel, exaggerator, icon, magnifiedBy, pace, press, scrubber, segments, sinceMark, speedBox, times } from "./controls.js";
 import { createPainter, createView, steer } from "./drawing.js";
 import { STILL, boxOf, poseAt, poseOf, seenFrom, unpack } from "./scene.js";
 
-export { createClock, element, fitCanvas, fixed, floats, locate, nice, pressable, same, watchTheme } from "./clock.js";
+export { putClass, createClock, element, fitCanvas, fixed, floats, locate, putAttribute, nice, pressable, put, same, useFont, watchTheme } from "./clock.js";
 
 /**
  * A player inside `host`.  Options: clock (shared with plots; it outlives the player), autoplay, duration [s per cycle at speed 1],
@@ -48,8 +48,8 @@ export function createPlayer(host, packed, options = {}) {
     if (!state.scene || view.width < 2) return;
     state.painter.paint(surface.context, view, state.observer, clock, theme.colours, switches, state.reference);
     options.drawn?.();
-    host.dataset.phase = clock.phase.toFixed(4);
-    if (state.scene.gen !== undefined) host.dataset.gen = state.scene.gen;
+    putAttribute(host, "data-phase", clock.phase.toFixed(4));
+    if (state.scene.gen !== undefined) putAttribute(host, "data-gen", state.scene.gen);
   }
   function redraw() {
     if (!state.pending && state.visible) state.pending = requestAnimationFrame(draw);
@@ -76,7 +76,7 @@ export function createPlayer(host, packed, options = {}) {
     state.observer = among(state.scene.observers, name);
     if (state.reference) state.reference.observer = among(state.reference.scene.observers, state.observer.name);
     state.controls.frames.choose(state.observer.name);
-    host.dataset.frame = state.observer.name;
+    putAttribute(host, "data-frame", state.observer.name);
   }
   function setGhosts(on) { switches.ghosts = on; pressed(); }
   function setTraces(on) { switches.traces = on; pressed(); }
@@ -95,11 +95,11 @@ export function createPlayer(host, packed, options = {}) {
     const wanted = wording();
     if (state.controls.wording !== wanted) state.controls = {...build(), wording: wanted};
     observe(before);
+    state.controls.scrub.follow(state.scene.cycle);
     state.controls.speed.follow(state.scene.period);
     magnify();
     if (first || state.observer.name !== (before ?? state.observer.name)) fit(); else if (!options.held?.()) keepInSight();
     show();
-    if (state.visible) draw();  // at once: a person waits for it
   }
 
   /** Another scene, drawn grey behind this one; null for none. */
@@ -116,8 +116,8 @@ export function createPlayer(host, packed, options = {}) {
   /** Everything that the controls say; where it is the same they stay. */
   function wording() {
     const {bodies, observers, cycle, traces} = state.scene;
-    return JSON.stringify([bodies.map(b => [text(b.title), b.colour]), observers.map(o => [o.name, text(o.label)]), cycle, traces.length > 0, furthest(),
-      text(TEXT.play)]);
+    return JSON.stringify([bodies.map(b => [text(b.title), b.colour]), observers.map(o => [o.name, text(o.label)]), cycle.label, cycle.unit, byLabel(cycle).map(([, label]) => label),
+      traces.length > 0, furthest(), text(TEXT.play)]);
   }
 
   function build() {
@@ -175,9 +175,9 @@ export function createPlayer(host, packed, options = {}) {
     }
     scrub.show(clock.phase);
     const at = cycle.start + clock.phase * cycle.span, digits = Math.abs(cycle.span) >= 50 ? 1 : Math.max(0, 3 - Math.floor(Math.log10(Math.abs(cycle.span) || 1)));
-    value.textContent = fixed(at, digits) + (cycle.unit.startsWith("°") ? cycle.unit : " " + cycle.unit);
-    phase.textContent = sinceMark(cycle, clock.phase, digits, text);
-    rate.textContent = pace(clock, period, text);
+    put(value, fixed(at, digits) + (cycle.unit.startsWith("°") ? cycle.unit : " " + cycle.unit));
+    put(phase, sinceMark(cycle, clock.phase, digits, text));
+    put(rate, pace(clock, period, text));
     redraw();
   }
 

@@ -1,6 +1,6 @@
 // Drawing of one panel of a plot on a canvas, or on whatever has the same methods: axes, limits, curves, points, bars.
 
-import { fixed, floats, locate } from "./clock.js";
+import { fixed, floats, locate, useFont } from "./clock.js";
 
 export const MARGIN = {left: 52, right: 14, top: 6, bottom: 36};
 const FONT = "11px system-ui, sans-serif", BAR = 0.72;  // of the room that a bar has
@@ -99,7 +99,7 @@ function across(axis, {from, to, w}) {
 function axes(context, panel, axis, at, colours, foot) {
   const {w, h, margin, low, high, toX, toY} = at;
   const up = panel.log ? powers(low, high) : ticks(low, high, Math.max(h < 60 ? 3 : 2, h / 23), panel.series[0].unit);
-  context.font = FONT; context.lineWidth = 1;
+  useFont(context, FONT); context.lineWidth = 1;
   phases(context, axis, at, colours);
   context.fillStyle = colours.line;
   for (const [start, stop] of panel.shade) context.fillRect(toX(start), margin.top, Math.max(toX(stop) - toX(start), 0.5), h);
@@ -134,7 +134,7 @@ function phases(context, {marks}, {margin, h, toX}, colours) {
 /** Names of what stands along the axis, each on its line; one that has no room is left out. */
 function places(context, axis, {margin, h, toX}, colours, named) {
   let free = -Infinity;
-  context.font = FONT; context.textAlign = "left"; context.textBaseline = "top"; context.lineWidth = 1;
+  useFont(context, FONT); context.textAlign = "left"; context.textBaseline = "top"; context.lineWidth = 1;
   for (const [at, name] of axis.places) {
     const x = toX(at);
     context.setLineDash([2, 3]);
@@ -148,7 +148,7 @@ function places(context, axis, {margin, h, toX}, colours, named) {
 }
 
 function limits(context, panel, {w, margin, toY}, colours) {
-  context.font = FONT; context.textAlign = "right";
+  useFont(context, FONT); context.textAlign = "right";
   for (const [value, text] of panel.limits) {
     const y = toY(value), above = y > margin.top + 18;
     context.setLineDash([6, 4]); context.lineWidth = 1.2;

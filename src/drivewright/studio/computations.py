@@ -19,9 +19,9 @@ Message: TypeAlias = Mapping[str, Any]  # to the page: {"what": its name, ...}
 REST = 0.25  # seconds without a change after which the analyses follow
 SLOW = 3.0  # seconds after which a drawing says that it is under way
 PATIENCE = 120.0  # seconds after which it is given up: enough to compile what it needs
-BUDGET = 0.02  # seconds of analyses that go with a drawing
-PACE = 0.12  # seconds at least between two drawings with analyses: those between are only drawn, and are the faster for it
-SHARE = 4  # times as long as it took with them, at least, where that is more
+BUDGET = 0.02  # seconds of analyses that go with a drawing, or beside it
+PACE = 0.2  # seconds at least between two rounds of such analyses: as fast as numbers are read
+SHARE = 4  # times as long as a round took, at least, where that is more
 ANALYSIS = 120.0  # seconds that one analysis may take: enough to compile what it needs
 
 
@@ -38,11 +38,13 @@ class TabComputations:
         self._moving = -1  # generation of the newest design that a hand is moving
         self._since = 0  # generation of the first design of this drive
         self.building = False  # while a person builds on the drawing: the mechanism stands still at its start
+        self._refused = False  # whether the page shows that the newest design has no solution
         self._fresh = False  # whether what is shown is the full result of the newest design
         self._draw_loop: asyncio.Task[None] | None = None
         self._draw_task: asyncio.Task[bool] | None = None
         self._analyse_task: asyncio.Task[None] | None = None
-        self._quick_from = -math.inf  # when a drawing may come with analyses again [s], by the loop's clock
+        self._glance_task: asyncio.Task[None] | None = None
+        self._quick_from = -math.inf  # when the next round of quick analyses may begin [s], by the loop's clock
         self._seconds: dict[str, float] = {}  # of each analysis, as last measured with this drive
         self._jobs: dict[str, asyncio.Task[None]] = {}
 
@@ -96,7 +98,7 @@ class TabComputations:
 
     def close(self) -> None:
         """The tab has gone."""
-        for task in (self._draw_loop, self._draw_task, self._analyse_task):
+        for task in (self._draw_loop, self._draw_task, self._analyse_task, self._glance_task):
             if task:
                 task.cancel()
         for name in self._jobs:
@@ -147,18 +149,41 @@ class TabComputations:
         def on_message(text):
             self.send({"what": "scene", "gen": gen, "json": text})
 
+        moving = gen == self._moving
         async with self.resources.quick.worker(self) as worker:
-            quick, began = self._affordable(design), asyncio.get_running_loop().time()
+            quick, began = [] if moving else self._affordable(design), asyncio.get_running_loop().time()
             with self._limited():
-                result = await worker.call(preview.draw, design, quick, self.building, gen == self._moving, on_message=on_message)
-        self.send({"what": "possible", "gen": gen})
+                result = await worker.call(preview.draw, design, quick, self.building, moving, on_message=on_message)
+        if self._refused:
+            self._refused = False
+            self.send({"what": "possible", "gen": gen})
         if result:
-            took = asyncio.get_running_loop().time() - began
-            self._quick_from = max(self._quick_from, began + SHARE * took)
+            self._rest_from(began)
             self._show(gen, result, quick)
+        if moving and not self._glance_task and (beside := self._affordable(design)):
+            self._glance_task = asyncio.create_task(self._glance(gen, design, beside))
+
+    async def _glance(self, gen, design, quick):
+        """The analyses that cost next to nothing, beside the drawings of a design that a hand is moving."""
+        began = asyncio.get_running_loop().time()
+        try:
+            async with self.resources.heavy.worker(self) as worker:
+                result = await worker.call(preview.glance, design, quick, limit=self._limit)
+            if result:
+                self._show(gen, result, quick)
+        except (DrivewrightError, WorkerFault):
+            pass  # the drawing, or the analyses when the design rests, say what is wrong
+        finally:
+            self._rest_from(began)
+            self._glance_task = None
+
+    def _rest_from(self, began):
+        """Quick analyses that began then have ended: the next ones leave the processor to others for a while."""
+        took = asyncio.get_running_loop().time() - began
+        self._quick_from = max(self._quick_from, began + SHARE * took)
 
     def _affordable(self, design: Design) -> list[str]:
-        """Analyses that go with the drawing: none while others wait for theirs, a person builds, or too soon after those before."""
+        """Analyses that go with a drawing, or beside it: none while others wait, a person builds, or too soon after those before."""
         now = asyncio.get_running_loop().time()
         if self.building or self.resources.quick.crowded or now < self._quick_from:
             return []
@@ -184,6 +209,7 @@ class TabComputations:
 
     def _impossible(self, gen, error):
         """A design that is a proper spec, but has no solution: the page keeps what it showed and says so."""
+        self._refused = True
         self.send({"what": "impossible", "gen": gen, "key": getattr(error, "key", None) or "", "message": self.describe(error)})
 
     def _show(self, gen, result, quick=None, full=True):

@@ -81,7 +81,8 @@ class EditedDesign:
     # -- telling ----------------------------------------------------------------------------------------------------------------
 
     def _show(self, edited: Edited, settled: Sequence[str] = (), opened: bool = False, moving: bool = False) -> None:
-        """The form; only the fields that differ, where nothing else does; with the text of the spec unless a hand moves it."""
+        """The form; only the fields that differ, where nothing else does; unless a hand moves it, with the text of the spec and the
+        names of its dimension drawings."""
         document, design = self.document, self.document.design
         common = {
             "gen": self.gen,
@@ -89,10 +90,9 @@ class EditedDesign:
             "redo": document.can_redo,
             "locks": sorted(document.locks),
             "changed": document.changed,
-            **({} if moving else {"toml": design.text()}),
             "files": self.files,
             "settled": list(settled),
-            "drawings": fitting_drawings(design.kind, design.tables),
+            **({} if moving else {"toml": design.text(), "drawings": fitting_drawings(design.kind, design.tables)}),
         }
         if edited.fields is not None:
             self.send({"what": "values", "fields": edited.fields, **common})

@@ -136,10 +136,26 @@ def fragment(send: object, design: Design) -> str:
 def _edited(document, kept, text=True):
     if text:
         document.design.text()  # made here, where it does not hold up the loop
-    design, (kind, before) = document.design, pickle.loads(kept) if kept else ("", None)
+    design, (kind, before) = document.design, _form_before(kept)
     before = before if kind == design.kind else None
     made = form(design, translations.fields(design.kind) | translations.tables(design.kind), before)
     if sum(len(group["fields"]) for group in made["groups"]) > TALLEST:
         raise InputError(f"a form of more than {TALLEST:,} fields is too much for a page; run this design on the command line")
     fields = changed_fields(before, made) if before else None
-    return Edited(document, pickle.dumps((design.kind, made)), made if fields is None else None, fields)
+    return Edited(document, _kept(design.kind, made), made if fields is None else None, fields)
+
+
+_newest: dict[bytes, tuple[str, Form | None]] = {}  # the form that this process has made last, which the next change mostly begins with
+
+
+def _kept(kind, made):
+    """What the server keeps of a form for the next change."""
+    kept = pickle.dumps((kind, made))
+    _newest.clear()
+    _newest[kept] = kind, made
+    return kept
+
+
+def _form_before(kept):
+    """(kind, form) of what the server has kept; ("", None) where it has nothing."""
+    return _newest.get(kept) or (pickle.loads(kept) if kept else ("", None))

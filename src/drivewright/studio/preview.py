@@ -39,8 +39,7 @@ def draw(
     """Send the packed scene; answer the page's result of the affordable analyses, None where there are none.
 
     building: the mechanism stands still at its start, assembled or not, where its kind has tools to build it.
-    moving: while a hand moves the design, its quick scene is enough where its kind has one; no analysis goes with that, and nothing of
-    what is missing.
+    moving: while a hand moves the design, its quick scene is enough where its kind has one, and nothing is told of what is missing.
     `affordable` names analyses of which an earlier run has shown that a person does not notice the wait.
     """
     spec = design.spec_on_screen()
@@ -61,8 +60,18 @@ def draw(
         scene, remarks = (quick, []) if quick else _scene(spec, model)
     missing = construction.unfinished(spec) if construction and not moving else None
     _send_scene(send, design, spec, scene, remarks, missing, _programme(spec, model))
-    if quick or not affordable:
-        return None
+    return _quick_result(spec, model, scene, affordable) if affordable else None
+
+
+def glance(send: Callable[[Any], object], design: Design, affordable: Sequence[str]) -> dict[str, Any] | None:
+    """The page's result of the affordable analyses of a design that a hand is moving, without holding up its drawings; None of a kind
+    whose drawings leave out, while it moves, what the analyses would have to compute first."""
+    spec = design.spec_on_screen()
+    model = runner.build(spec)
+    return None if _quick_scene(spec, model) else _quick_result(spec, model, _scene(spec, model)[0], affordable)
+
+
+def _quick_result(spec, model, scene, affordable):
     return page_result(runner.run(spec, only=tuple(affordable), model=model), scene, affordable, quick=True)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from drivewright._typing import Floats
 from drivewright.labels import in_words
-from drivewright.multibody.analyses.cycle_poses import FINE, CyclePoses, cycle_poses
+from drivewright.multibody.analyses.cycle_poses import CyclePoses, cycle_poses
 from drivewright.multibody.analyses.magnified_play import bearing_shapes, journal_body, magnify_play
 from drivewright.multibody.analyses.simulation_model import SimulationModel
 from drivewright.multibody.drawing import bar_half_width, coil_symbol, positions_of, rounded
@@ -90,7 +90,7 @@ def _spring_bodies(springs: Iterable[PointSpring], cycle: CyclePoses, half_width
     """Every spring as a coil on one end and a rod on the other that slide along each other."""
     for spring in springs:
         ends = [positions_of(marker[1:], cycle.poses[marker.body]) for marker in (spring.first, spring.second)]
-        between = (ends[1] - ends[0])[::FINE]
+        between = (ends[1] - ends[0])[:: cycle.fine]
         lengths = np.hypot(*between.T)
         if lengths.min() < 2 * half_width:
             continue  # no room for a coil
@@ -100,7 +100,7 @@ def _spring_bodies(springs: Iterable[PointSpring], cycle: CyclePoses, half_width
         label = name if name.startswith("spring ") else f"spring {in_words(name)}"
         shapes = coil_symbol(coil, 0.8 * half_width), polygon([(0, 0), (-rod, 0)], closed=False)
         for part, shape, end in zip(("coil", "rod"), shapes, ends, strict=True):
-            yield Body(f"{part} {name}", label, (Shape("body", shape),), np.column_stack([end[::FINE], angle]), "steel")
+            yield Body(f"{part} {name}", label, (Shape("body", shape),), np.column_stack([end[:: cycle.fine], angle]), "steel")
 
 
 def _force_bodies(forces: Iterable[AppliedForce], cycle: CyclePoses, half_width: float) -> Iterator[Body]:
@@ -118,7 +118,7 @@ def _force_bodies(forces: Iterable[AppliedForce], cycle: CyclePoses, half_width:
         ]
     )
     for force in forces:
-        poses, name = cycle.poses[force.point.body][::FINE], in_words(force.name)
+        poses, name = cycle.frames(force.point.body), in_words(force.name)
         tip = positions_of(force.point[1:], poses)
         angle = np.arctan2(force.direction[1], force.direction[0]) + (poses[:, 2] if force.follows else np.zeros(len(poses)))
         label = name if name.startswith("force") else f"force {name}"

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from drivewright._typing import Floats
-from drivewright.multibody.analyses.cycle_poses import FINE, CyclePoses
+from drivewright.multibody.analyses.cycle_poses import CyclePoses
 from drivewright.multibody.drawing import positions_of, rotate
 from drivewright.multibody.joints.revolute import Revolute
 from drivewright.scene import Body, Shape, circle, polygon
@@ -40,7 +40,7 @@ def magnify_play(joint: Revolute, cycle: CyclePoses, half_width: float) -> Magni
     # Where steel gives way the journal is a little outside its play; magnified, it would lie in the wall.
     away *= np.minimum(1.0, factor * real / np.maximum(np.hypot(*away.T), 1e-300))[:, None]
     turn, own = (cycle.poses[marker.body][:, 2] for marker in (joint.first, joint.second))
-    poses, rest = (np.column_stack([place, own])[::FINE] for place in (bearing + away, bearing))
+    poses, rest = (np.column_stack([place, own])[:: cycle.fine] for place in (bearing + away, bearing))
     return MagnifiedPlay(joint, radius, factor * real, factor, rotate(away, -turn), poses, rest)
 
 

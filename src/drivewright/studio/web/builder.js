@@ -1,6 +1,6 @@
 // Building a mechanism on its drawing: tools that the kind of drive offers, each used by clicking places.  What it makes of them the server says.
 
-import { pressable } from "./parts.js";
+import { pressable, put, putAttribute } from "./parts.js";
 import { element, nice } from "./player.js";
 import { onGrid } from "./snapping.js";
 import { svgPart } from "./svg_parts.js";
@@ -109,9 +109,9 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   function show() {
     const tools = offered(), current = chosen(), refused = refusal() === heard ? "" : refusal()?.message;  // what another tool was told is over
     button.hidden = !tools.length;
-    button.textContent = t("Build");
-    button.title = t("Build the mechanism by clicking");
-    button.setAttribute("aria-pressed", String(on));
+    put(button, t("Build"));
+    putAttribute(button, "title", t("Build the mechanism by clicking"));
+    putAttribute(button, "aria-pressed", on);
     if (!on) return;
     if (![...buttons.keys()].every((name, n) => tools[n]?.name === name) || buttons.size !== tools.length) {
       buttons = new Map(tools.map(({name}) => [name, pressable({class: "bd-tool", "data-testid": `tool-${name}`}, () => choose(name))]));

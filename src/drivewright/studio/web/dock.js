@@ -2,7 +2,7 @@
 
 import { drawingsOf } from "./designs.js";
 import { icon } from "./icons.js";
-import { pressable, same } from "./parts.js";
+import { putAttribute, pressable, same } from "./parts.js";
 import { element } from "./player.js";
 
 /** {button(), node, stop()}: the button for the head of the form, and the place of the drawing, hidden until it is asked for. */
@@ -14,7 +14,7 @@ export function createDock({store, t}) {
     const drawn = drawingsOf(store), names = drawn.map(({name}) => name);
     if (made) {
       made.hidden = !drawn.length;
-      made.setAttribute("aria-pressed", String(on));
+      putAttribute(made, "aria-pressed", on);
     }
     node.hidden = !on || !drawn.length;
     if (node.hidden || same(names, shown)) return;

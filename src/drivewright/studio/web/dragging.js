@@ -9,14 +9,16 @@ import { svgPart } from "./svg_parts.js";
 
 const SHAKE = 3, FINE = 1, COARSE = 6;  // px of a hand that presses without moving; px of a step of the grid, of an arrow key, at least
 const SEEN = 2500;  // ms that the numbers stay after an arrow key
+const AHEAD = 3, PATIENCE = 120;  // steps of a drag that may wait for their drawing; ms after which one without a drawing counts no more
 
 /**
  * The drag of a handle.  `place(handle, point)` is the pixel of a point in the frame of its body, `frame(handle)` the pose of that frame,
  * `others(handle)` the other handles with their pixels, `nameOf(handle)` its name, `numbers(handle)` the numbers of its keys.
  */
-export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, say, t, clock}) {
+export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, undrawn, say, t, clock}) {
   const nudges = createGesture("nudge");
   let hold = null, pointed = null, box = null, pending = 0, fading = 0, bubbleSize = {length: 0, wide: 0, high: 0};
+  let unanswered = 0, asked = -Infinity;  // steps of which the server has said nothing yet; when the last one was sent
   let nudged = null;  // {button, handleOf, start, now, gesture, seen} of the last arrow key
 
   function attach(button, handleOf) {
@@ -68,16 +70,24 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
     Object.assign(hold, {last: at, free: event.altKey});
     if (!pending) pending = requestAnimationFrame(follow);  // once a frame, however many moves the mouse tells
   }
+  /** The newest place of the hand, as soon as its drawing would not have to wait: what is drawn late is not worth computing. */
   function follow() {
     pending = 0;
     if (!hold?.last) return;
+    if (behind() >= AHEAD && performance.now() - asked < PATIENCE) { pending = requestAnimationFrame(follow); return; }
     const wanted = [hold.last[0] - hold.grip[0], hold.last[1] - hold.grip[1]], handle = hold.handleOf();
     const values = handle.direction ? along(handle, wanted) : freely(handle, wanted);
     send(values);
   }
+  /** Steps on their way to a drawing: to the server, and from there to the page. */
+  const behind = () => unanswered + undrawn();
+  /** The server has taken a step. */
+  function answered() { unanswered = Math.max(0, unanswered - 1); }
+  /** A drawing has come.  Steps that the server took together have one answer: those that it has not told of are few by now. */
+  function drawn() { if (!undrawn()) unanswered = Math.min(1, unanswered); }
   function release() {
     if (!hold) return;
-    if (pending) { cancelAnimationFrame(pending); follow(); }
+    if (pending) { cancelAnimationFrame(pending); asked = -Infinity; follow(); }
     const {button, handleOf, travelled} = hold;
     end();
     if (travelled < SHAKE) type(button, handleOf);
@@ -133,6 +143,8 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
   function send(values) {
     if (values.every((value, n) => value === hold.now[n]) || !values.every(Number.isFinite)) { show(); return; }
     hold.now = values;
+    unanswered = performance.now() - asked < PATIENCE ? unanswered + 1 : 1;
+    asked = performance.now();
     say({what: "drag", changes: texts(hold.start, values), gesture: hold.gesture});
     show();
   }
@@ -229,7 +241,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nameOf,
 
   /** Whether a hand holds a handle, or that of a button. */
   const held = button => hold !== null && (!button || hold.button === button);
-  return {attach, held, end, draw: show, destroy() { end(); settle(); box?.remove(); }};
+  return {attach, held, end, answered, drawn, draw: show, destroy() { end(); settle(); box?.remove(); }};
 }
 
 /** Lengths in pixels between neighbouring handles of every body. */

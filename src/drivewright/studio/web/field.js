@@ -285,14 +285,16 @@ export function createPair(field, context) {
     element("div", {class: "st-pair-parts"}, ...rows.map(row => row.root)), message);
   const pair = {key: field.key, field, name, root, refusal: null, update, held: () => rows.some(row => row.held()), rows};
   function update(now, refusal, locked) {
+    const before = pair.field;
     pair.field = now;
-    offerReset(reset, now, t);
-    if (now.value !== null) root.classList.remove("st-unset");
+    if (now.given !== before.given || now.default !== before.default) offerReset(reset, now, t);
+    if (now.value !== null && before.value === null) root.classList.remove("st-unset");
     rows.forEach((row, index) => row.update(now.parts[index], context.refusal(row.key), locked || context.locked(row.key)));
     if (refusal?.message === pair.refusal?.message) return;
     pair.refusal = refusal;
     tell(message, root, refusal, t);
     if (refusal) context.reveal(pair);
   }
+  offerReset(reset, field, t);
   return pair;
 }

@@ -3,6 +3,7 @@
 import { createDrag } from "./dragging.js";
 import { createNames } from "./handle_names.js";
 import { icon } from "./icons.js";
+import { putClass, putAttribute } from "./parts.js";
 import { element } from "./player.js";
 import { svgPart } from "./svg_parts.js";
 
@@ -33,11 +34,12 @@ export function createHandles(getPlayer, tools) {
   const layer = element("div", {class: "hd-layer", role: "group"}), guides = svgPart("svg", {class: "hd-guides", "aria-hidden": "true"});
   const bubble = element("output", {class: "hd-bubble", hidden: ""});
   const names = createNames(tools);
+  const placed = new WeakMap();  // of each button, where it stands
   let packed = [], bodies = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
   layer.append(guides, bubble);
 
   const drag = createDrag({layer, guides, bubble, place, others, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
-    frame: handle => getPlayer().poseOf(handle.body, phase()), ...tools});
+    frame: handle => getPlayer().poseOf(handle.body, phase()), undrawn: () => Math.max(0, store.state.design.gen - (store.state.scene?.gen ?? 0)), ...tools});
   const phase = () => clock.playing ? 0 : clock.phase;
 
   /** Pixel of a point in the frame of a handle's body. */
@@ -66,16 +68,17 @@ export function createHandles(getPlayer, tools) {
   }
   /** What each is called, with its numbers. */
   function name() {
-    layer.setAttribute("aria-label", t("Handles of the drawing: arrow keys move, with Shift further, Enter types numbers, Esc takes back"));
+    putAttribute(layer, "aria-label", t("Handles of the drawing: arrow keys move, with Shift further, Enter types numbers, Esc takes back"));
     packed.forEach((handle, n) => {
       const numbers = numbersOf(handle, fields), button = buttons[n], called = names.of(handle);
       const locked = Boolean(numbers?.some(({key}) => isLocked(key)));
       button.disabled = !numbers || locked;
-      button.setAttribute("aria-label", `${called}: ${(numbers || []).map(({value, unit}) => `${value} ${unit}`.trim()).join(", ")}`);
-      button.title = locked ? `${called} (${t("locked")})` : "";  // what can be moved says its name beside it
-      button.style.setProperty("--of", colourOf(handle));
+      putAttribute(button, "aria-label", `${called}: ${(numbers || []).map(({value, unit}) => `${value} ${unit}`.trim()).join(", ")}`);
+      putAttribute(button, "title", locked ? `${called} (${t("locked")})` : "");  // what can be moved says its name beside it
+      colour(button, colourOf(handle));
     });
   }
+  function colour(button, value) { if (button.style.getPropertyValue("--of") !== value) button.style.setProperty("--of", value); }
   /** The colour of the body that a handle belongs to, so that two on one joint can be told apart. */
   function colourOf({body}) {
     const role = bodies[body]?.colour;
@@ -89,7 +92,7 @@ export function createHandles(getPlayer, tools) {
     layer.hidden = !on || !packed.length;
     if (layer.hidden) return;
     const at = packed.map(handle => place(handle, handle.point)), middles = middlesOf(at), shown = [];
-    layer.classList.toggle("is-playing", clock.playing);
+    putClass(layer, "is-playing", clock.playing);
     packed.forEach((handle, n) => {
       const same = packed.some((other, m) => m < n && !buttons[m].hidden && distance(at[m], at[n]) < SAME);
       const spot = same ? towards(at[n], middles.get(handle.body)) : at[n], kept = drag.held(buttons[n]) || document.activeElement === buttons[n];
@@ -97,10 +100,16 @@ export function createHandles(getPlayer, tools) {
       buttons[n].hidden = !kept && !(room && getPlayer().shows(handle.body));
       if (buttons[n].hidden) return;
       shown.push(spot);
-      buttons[n].style.transform = `translate(${spot[0].toFixed(1)}px, ${spot[1].toFixed(1)}px)`;
-      if (handle.direction) buttons[n].style.setProperty("--turn", `${angleOf(handle).toFixed(3)}rad`);
+      stand(buttons[n], `${spot[0].toFixed(1)}px, ${spot[1].toFixed(1)}px`, handle.direction ? `${angleOf(handle).toFixed(3)}rad` : "");
     });
     drag.draw();
+  }
+  function stand(button, place, turn) {
+    const {style} = button, now = `${place} ${turn}`;
+    if (placed.get(button) === now) return;
+    placed.set(button, now);
+    style.transform = `translate(${place})`;
+    if (turn) style.setProperty("--turn", turn);
   }
   function isInside([x, y]) {
     const {width, height} = getPlayer().view;
@@ -133,12 +142,15 @@ export function createHandles(getPlayer, tools) {
     return new Map([...sums].map(([body, [x, y, count]]) => [body, [x / count, y / count]]));
   }
 
+  const undrawn = store.on(["scene"], ({design}) => design && drag.drawn());
   const stop = store.on(["design", "lang"], ({design}) => {
     fields = new Map((design?.form?.groups || []).flatMap(group => group.fields.flatMap(withParts).map(field => [field.key, field])));
     names.learn(design?.form?.groups || []);
-    if (design) name();
+    if (!design) return;
+    drag.answered();
+    name();
   });
-  return {layer, load, draw, bar, held: () => drag.held(), destroy() { stop(); drag.destroy(); layer.remove(); }};
+  return {layer, load, draw, bar, held: () => drag.held(), destroy() { stop(); undrawn(); drag.destroy(); layer.remove(); }};
 }
 
 const withParts = field => [field, ...(field.parts || []).flatMap(withParts)];

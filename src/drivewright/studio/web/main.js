@@ -4,7 +4,7 @@ import { createBottom } from "./bottom.js";
 import { createForm } from "./form.js";
 import { createHead } from "./head.js";
 import { createPanes } from "./panes.js";
-import { createClock, createPlayer, element } from "./player.js";
+import { createClock, createPlayer, element, putClass } from "./player.js";
 import { createSide } from "./side.js";
 import { createStore } from "./store.js";
 import { createViews } from "./views.js";
@@ -36,11 +36,20 @@ export function start(host, page) {
   const socket = joined(page, createEar(store, () => parts.length || begin()), store);
 
   const root = document.documentElement;
-  store.on(["result"], ({result}) => host.firstChild.classList.toggle("st-unsolved", Boolean(result?.unsolved)));
+  store.on(["result"], ({result}) => {
+    putClass(frame, "st-unsolved", Boolean(result?.unsolved));
+    putClass(frame, "st-plotless", !result?.plots);
+    putClass(frame, "st-along", Boolean(result?.plots?.diagrams?.length));  // diagrams stand under the drawing
+  });
   store.on(["theme"], ({theme}) => theme ? root.setAttribute("data-theme", theme) : root.removeAttribute("data-theme"));
   store.on(["lang"], ({lang}) => root.setAttribute("lang", lang === "zh" ? "zh-CN" : "en"));
   store.on(["lang", "theme"], ({lang, theme}) => remember(localStorage, TASTE, {lang, theme}));
-  store.on(["design"], ({design}) => design && remember(sessionStorage, KEPT, {toml: design.toml, files: design.files}));
+  let kept = {};  // while a hand moves the design its text is not written
+  store.on(["design"], ({design}) => {
+    if (!design || design.toml === kept.toml && design.files === kept.files) return;
+    kept = {toml: design.toml, files: design.files};
+    remember(sessionStorage, KEPT, kept);
+  });
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
   return () => { socket.leave(); parts.forEach(part => part.destroy()); };
 }

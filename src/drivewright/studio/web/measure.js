@@ -6,7 +6,7 @@ import { icon } from "./icons.js";
 import { dimension } from "./measure_lines.js";
 import { createMeasureList } from "./measure_list.js";
 import { courseOf, isComplete, nextWanted, textOf, valueOf } from "./measures.js";
-import { pressable, put } from "./parts.js";
+import { pressable, put, putAttribute } from "./parts.js";
 import { element } from "./player.js";
 import { svgPart } from "./svg_parts.js";
 
@@ -99,7 +99,7 @@ export function createMeasure(getPlayer, tools) {
     }
   }
   function tell() {
-    button.setAttribute("aria-pressed", String(on));
+    putAttribute(button, "aria-pressed", on);
     stage?.classList.toggle("is-measuring", on);
     list.show({on, kind, picked, wanted: nextWanted(kind, picked), features, measures, cycle});
     draw();

@@ -43,6 +43,7 @@ export function createMeasureList(tools, acts, nameOfHandle) {
   function show(next) {
     state = next;
     const {on, kind, picked, measures} = state;
+    if (!on && !measures.length && node.hidden) return;
     node.hidden = !on && !measures.length;
     parts.tool.hidden = !on;
     for (const made of parts.kinds.children) made.setAttribute("aria-pressed", String(made.dataset.kind === kind));

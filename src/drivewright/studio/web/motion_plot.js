@@ -1,7 +1,7 @@
 // The lift diagram with velocity, acceleration and jerk below it, on one axis.
 
 import { placeOf } from "./motion_points.js";
-import { fitCanvas, fixed } from "./player.js";
+import { fitCanvas, fixed, useFont } from "./player.js";
 import { ticks } from "./plotting.js";
 
 export const MARGIN = {left: 58, right: 16, top: 30, bottom: 34}, GAP = 22;
@@ -52,7 +52,7 @@ export function createMotionPlot(canvas, changed) {
   function grid(context, row) {
     const [top, tall] = rowAt(row), {w} = inner(), factor = shown.factors[row], [low, high] = ranges[row], {cycle} = shown.programme;
     const up = ticks(low * factor, high * factor, Math.max(2, tall / 26), ""), across = ticks(0, span() * cycle.factor, Math.max(2, Math.min(8, w / 62)), cycle.unit);
-    context.font = FONT; context.textBaseline = "middle"; context.textAlign = "right";
+    useFont(context, FONT); context.textBaseline = "middle"; context.textAlign = "right";
     for (const value of up.values) {
       const y = toYof(row, value / factor);
       rule(context, MARGIN.left, y, MARGIN.left + w, y, value === 0 ? colours["grid-strong"] : colours.grid);
@@ -70,9 +70,9 @@ export function createMotionPlot(canvas, changed) {
   }
   function title(context, row) {
     const [top] = rowAt(row), {w} = inner(), [name, peak] = shown.titles[row];
-    context.textBaseline = "alphabetic"; context.font = `600 ${FONT}`; context.fillStyle = colours.ink; context.textAlign = "left";
+    context.textBaseline = "alphabetic"; useFont(context, `600 ${FONT}`); context.fillStyle = colours.ink; context.textAlign = "left";
     if (row) context.fillText(name, MARGIN.left, top - 6);
-    context.textAlign = "right"; context.font = FONT; context.fillStyle = peak.includes("∞") ? colours.bad : colours.muted;
+    context.textAlign = "right"; useFont(context, FONT); context.fillStyle = peak.includes("∞") ? colours.bad : colours.muted;
     if (row) context.fillText(peak, MARGIN.left + w, top - 6);
   }
   function curve(context, row) {

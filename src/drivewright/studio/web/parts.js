@@ -1,12 +1,9 @@
 // Small parts that several modules are made of: buttons, lists that hang below a button, progress and outcome of a job.
 
 import { icon } from "./icons.js";
-import { element, pressable } from "./player.js";
+import { element, putAttribute, pressable, put } from "./player.js";
 
-export { pressable, same } from "./player.js";
-
-/** Set a text only where it differs: layout costs more than comparing. */
-export function put(node, text) { if (node.firstChild?.data !== text) node.textContent = text; }
+export { putClass, putAttribute, pressable, put, same } from "./player.js";
 
 /** The theme that is seen: the chosen one, else the reader's. */
 export const themeOf = ({theme}) => theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
@@ -35,7 +32,7 @@ export function progress(name, {say, t}) {
     if (!running) return;
     node.classList.toggle("pn-vague", !known);
     part.style.transform = known ? `scaleX(${Math.min(job.done / job.total, 1)})` : "";
-    if (known) { node.setAttribute("aria-valuemax", job.total); node.setAttribute("aria-valuenow", job.done); }
+    if (known) { putAttribute(node, "aria-valuemax", job.total); putAttribute(node, "aria-valuenow", job.done); }
     const counted = known && !/\d/.test(job.text) ? t("* of *", job.done, job.total) : "";
     put(words, [job.text ? t(job.text) : "", counted].filter(Boolean).join(" · ") || t("starting"));
   }

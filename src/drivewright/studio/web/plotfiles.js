@@ -1,6 +1,6 @@
 // A plot as a file: SVG for paper, CSV of its numbers.
 
-import { element } from "./player.js";
+import { element, useFont } from "./player.js";
 import { layout, paintPanel } from "./plotting.js";
 
 const SIZE = {width: 720, height: 400}, HEAD = 46, ROW = 18, DIGITS = 7;  // px; digits of a float32
@@ -51,9 +51,9 @@ export function svgText({panel, axis, behind}, design) {
   const colours = paperColours(), context = createSvgContext(), entries = legend({panel, behind});
   const head = HEAD + ROW * Math.ceil(entries.length / 3), margin = {left: 62, right: 20, top: head, bottom: 40}, height = SIZE.height + head;
   context.fillStyle = colours.surface; context.fillRect(0, 0, SIZE.width, height);
-  context.textBaseline = "top"; context.fillStyle = colours.ink; context.font = "600 15px sans-serif";
+  context.textBaseline = "top"; context.fillStyle = colours.ink; useFont(context, "600 15px sans-serif");
   context.fillText(panel.title, margin.left, 10);
-  context.font = "11px sans-serif"; context.fillStyle = colours.muted; context.textAlign = "right";
+  useFont(context, "11px sans-serif"); context.fillStyle = colours.muted; context.textAlign = "right";
   context.fillText(design || "", SIZE.width - margin.right, 13);
   context.textAlign = "left";
   entries.forEach(([role, dash, label], n) => {

@@ -6,7 +6,7 @@ import { createFigures } from "./figures.js";
 import { createHandles } from "./handles.js";
 import { createMeasure } from "./measure.js";
 import { createMotionForm } from "./motion_form.js";
-import { button, pressable } from "./parts.js";
+import { button, pressable, putAttribute } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
 import { createStudies } from "./studies.js";
@@ -120,7 +120,7 @@ export function createViews(host, tools) {
     for (const name of names) {
       const on = name === view;
       places[name].hidden = !on;
-      tabs[name].setAttribute("aria-selected", String(on)); tabs[name].tabIndex = on ? 0 : -1;
+      putAttribute(tabs[name], "aria-selected", on); tabs[name].tabIndex = on ? 0 : -1;
       if (on) views[name].open(); else views[name].close();
     }
   }
