@@ -4,7 +4,7 @@ import json
 
 import pytest
 from browsing import until
-from studio_running import EXAMPLES, drawn, own_port, running, shared
+from studio_running import EXAMPLES, drawn, shared
 
 from drivewright.studio.opening import packed
 
@@ -12,12 +12,6 @@ pytestmark = [pytest.mark.browser, pytest.mark.needs_browser, pytest.mark.needs_
 FIELD = "window.drivewright.state.design.form.groups.flatMap(group => group.fields).find(({{key}}) => key === {!r})?.text"
 CURRENT = "window.drivewright.state.scene.gen === window.drivewright.state.design.gen"
 POINTS = "[[0, 0], [0.25, 0.1], [0.5, 0.5], [0.75, 0.9], [1, 1]]"
-
-
-@pytest.fixture(scope="module")
-def studio():
-    with running(own_port(8490), EXAMPLES / "four_bar.toml") as (address, _):
-        yield address
 
 
 @pytest.fixture
@@ -66,7 +60,9 @@ def pull(page, name, dx, dy):
 
 
 def changed(page, key, before):
+    """The text of a field that a hand has changed, when the design has what it left."""
     until(page, f"{FIELD.format(key)} !== {before!r}")
+    until(page, "document.querySelector('[data-testid=programme]').getAttribute('aria-busy') === 'false'")
     until(page, CURRENT)
     return text(page, key)
 
