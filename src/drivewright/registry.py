@@ -110,7 +110,7 @@ class Mechanism(Generic[SpecT, ModelT]):
         return {path.stem: path for path in sorted((self.folder / "presets").glob("*.toml"))}
 
     def translations(self, language: str) -> dict[str, Any]:
-        """Tables of `<language>.toml` in the folder: `fields`, `tables`, `texts`, `presets`; {} where the kind brings none."""
+        """Tables of `<language>.toml` in the folder: `fields`, `tables`, `hints`, `texts`, `presets`; {} where the kind brings none."""
         path = self.folder / f"{language}.toml"
         try:
             return tomllib.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}

@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from drivewright._typing import ArrayLike, Floats
+from drivewright._typing import ArrayLike, Bools, Floats
 
 FINEST = 1e-9  # of its radius that a chord of an arc keeps at most: 70 000 points of a circle
 
@@ -164,6 +164,7 @@ class Body:
 
     Where play or deflection is drawn `magnified` times its real size, `rest` (frames, 3) is where the body would be without it, and the
     label ends in the factor ("deflection × 2000"); a viewer may draw  rest + k (poses - rest)  for k from 0 up to `most`.
+    `shown` (frames,) tells where in the cycle it is drawn; None: always.
     """
 
     name: str
@@ -174,6 +175,7 @@ class Body:
     rest: Floats | None = None
     most: float = np.inf
     magnified: float = 1.0
+    shown: Bools | None = None
 
 
 @dataclass(frozen=True)

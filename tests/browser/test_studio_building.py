@@ -51,7 +51,7 @@ def test_a_pendulum_from_clicks(page):
     page.keyboard.press("Enter")
     after(page, gen)
     until(page, f"{MISSING}.includes('held by no joint')", 60)
-    assert "[bodies.link]" in page.evaluate(f"{STATE}.design.toml")
+    assert "[bodies.link_1]" in page.evaluate(f"{STATE}.design.toml")
     gen = steps(page)
     page.get_by_test_id("tool-pin").click()
     at(page, 0.1, 0.2)
@@ -75,6 +75,26 @@ def test_a_second_drive_is_placed_and_taken_away_by_clicks(page):
         further = page.evaluate(f"({STATE}.design.toml.match(/\\[\\[drives\\]\\]/g) || []).length")
         marks = page.evaluate(f"{STATE}.scene.scene.bodies.filter(({{name}}) => name.startsWith('drive ')).length")
         assert (further, marks) == ((1, 2) if tool == "drive" else (0, 1))
+
+
+def test_a_stroke_draws_a_bar_and_moves_no_point(page):
+    box, gen = page.get_by_test_id("build-sheet").bounding_box(), steps(page)
+
+    def stroke():
+        page.mouse.move(box["x"] + 0.1 * box["width"], box["y"] + 0.2 * box["height"])
+        page.mouse.down()
+        page.mouse.move(box["x"] + 0.25 * box["width"], box["y"] + 0.3 * box["height"], steps=4)
+        page.mouse.up()
+
+    page.get_by_test_id("tool-body").click()
+    stroke()
+    after(page, gen)
+    until(page, f"{MISSING}.includes('held by no joint')", 60)
+    assert "[bodies.link_1]" in page.evaluate(f"{STATE}.design.toml")
+    gen = steps(page)
+    page.get_by_test_id("tool-pin").click()
+    stroke()
+    assert "when Build is off" in page.get_by_test_id("build-words").inner_text() and steps(page) == gen
 
 
 def test_a_refused_click_is_explained_beside_the_tools(page):

@@ -96,6 +96,20 @@ def test_the_other_views(tab, view):
     page.screenshot(path=FOLDER / f"studio-view-{view}.png")
 
 
+def test_the_solid_in_motion(tab):
+    page = tab("roller_gear_indexer")
+    page.get_by_test_id("view-solid").click()
+    until(page, "['done', 'failed'].includes(window.drivewright.state.jobs.solid?.state)", 120)
+    page.locator(".so-canvas").first.wait_for(state="visible", timeout=20_000)
+    page.get_by_test_id("solid-explode").evaluate("e => { e.value = 0.1; e.dispatchEvent(new Event('input')); }")
+    box = page.locator(".so-canvas").first.bounding_box()
+    page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    page.mouse.wheel(0, -300)
+    page.get_by_test_id("solid-play").click()
+    page.wait_for_timeout(2500)
+    page.screenshot(path=FOLDER / "studio-solid.png")
+
+
 # -- what hands do: the pictures of docs/studio.md, which are copied from here into docs/img ---------------------------------------
 
 
@@ -110,7 +124,7 @@ def test_measured(tab):
         for feature in features:
             page.get_by_test_id("measure-point").select_option(feature)
             page.get_by_test_id("measure-pick").click()
-    assert page.get_by_test_id("measure-list").inner_text().startswith("Distance: frame · O2 – coupler · C")
+    assert page.get_by_test_id("measure-list").inner_text().startswith("Distance: ground · O2 – coupler · C")
     keep(page, "studio-measured")
 
 

@@ -195,6 +195,15 @@ def test_a_four_bar_is_built_from_a_crank_by_clicks(page):
     swing = value(page, "output.swing")
     assert 20 < swing < 120
     assert [value(page, f"joints.{name}.max_force") > 0 for name in page.evaluate(JOINTS)] == [True] * 4
+    page.get_by_test_id("reach-output.swing").click()
+    page.get_by_test_id("reach-target").fill("60")
+    page.keyboard.press("Enter")
+    page.locator("[data-testid^='reach-apply-']").first.wait_for(timeout=60_000)
+    gen = page.evaluate(f"{STATE}.design.gen")
+    page.locator("[data-testid^='reach-apply-']").first.click()
+    until(page, f"{STATE}.design.gen > {gen}")
+    analysed(page)
+    assert value(page, "output.swing") == pytest.approx(60, abs=0.1) and page.get_by_test_id("reach").count() == 0
 
 
 JOINTS = f"{STATE}.result.values.map(each => each.name).filter(name => /^joints[.].*max_force$/.test(name)).map(name => name.split('.')[1])"
@@ -209,6 +218,9 @@ def test_a_drag_too_far_leaves_plots_and_checks_in_place(page):
     until(page, f"{STATE}.result?.unsolved", 60)
     page.wait_for_timeout(400)
     assert plots.bounding_box() == box and page.locator(".sd-card").count() == checks
+    reason = page.evaluate(f"Object.values({STATE}.refused)[0].message")[:30]  # drawn as it is stated, with the reason
+    assert reason in page.locator(".vw-note.is-beside").inner_text() and reason in page.locator(".sd-top").inner_text()
+    assert page.locator(".vw-player .dw-canvas").evaluate("e => getComputedStyle(e).opacity") == "1"
     gen = page.evaluate(f"{STATE}.design.gen")
     page.keyboard.press("Control+z")
     until(page, f"{STATE}.design.gen > {gen}")

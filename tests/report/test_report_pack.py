@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from in_node import in_node
 from sample_designs import FRAMES, PLOTS, four_bar_result, four_bar_scene
 
 from drivewright.report.pack import MOST_ROWS, envelope_rows, pack_plot_groups, pack_plots, pack_scene
@@ -158,6 +159,16 @@ def test_what_is_drawn_larger_tells_where_it_would_rest():
     plain = pack_scene(SCENE)["bodies"][1]
     assert not {"rest", "most", "magnified"} & set(plain)
     json.dumps(free, allow_nan=False)
+
+
+def test_what_is_drawn_for_a_part_of_the_cycle_tells_its_frames():
+    frames = len(SCENE.cycle)
+    shown = np.isin(np.arange(frames), [0, 1, 5, frames - 2, frames - 1])
+    (sent,) = pack_scene(replace(SCENE, bodies=(replace(SCENE.bodies[1], shown=shown),), traces=()))["bodies"]
+    assert sent["shown"] == [[0, 1], [5, 5], [frames - 2, frames - 1]]
+    body = "return [0.0, 1.4, 1.6, 4.6, 5.4].map(at => isDrawn(data, Math.floor(at), at % 1)).concat(isDrawn({}, 0, 0));"
+    assert in_node(body, sent, scene="isDrawn") == [True, True, False, True, True, True]
+    assert "shown" not in pack_scene(SCENE)["bodies"][1]
 
 
 def test_groups_hold_the_same_panels_plot_by_plot():

@@ -13,7 +13,7 @@ from sample_designs import PLOTS, SPEC_TEXT, all_views, four_bar_result
 from drivewright import registry
 from drivewright.errors import InputError
 from drivewright.report.content import Picture, Views, content, headline, pictures, verdict, views
-from drivewright.report.html import player_data, scripts, write_report
+from drivewright.report.html import data_text, packed_views, scripts, write_report
 from drivewright.result import Check, Value
 
 pytestmark = pytest.mark.interface
@@ -105,10 +105,10 @@ def test_text_of_the_user_stays_text(tmp_path):
 
 
 def test_the_data_holds_no_way_out_of_its_script_and_no_nan():
-    data = player_data(four_bar_result(), SEEN)
+    data = data_text(packed_views(four_bar_result(), SEEN))
     assert "<" not in data and "NaN" not in data and "Infinity" not in data
     assert set(json.loads(data)) == {"scene", "plots"}
-    assert player_data(four_bar_result(), Views()) is None
+    assert packed_views(four_bar_result(), Views()) is None
 
 
 def test_the_scripts_are_one_module_without_imports():

@@ -7,9 +7,13 @@ from dataclasses import replace
 import pytest
 from sample_designs import PLOTS, all_views, four_bar_result
 
+from drivewright import registry
 from drivewright.errors import MissingExtra
+from drivewright.report import pdf
 from drivewright.report.content import Picture, Views
+from drivewright.report.export import export
 from drivewright.report.pdf import write_pdf
+from drivewright.spec import load
 
 pytestmark = pytest.mark.interface
 
@@ -52,3 +56,12 @@ def test_text_of_the_user_is_no_markup(tmp_path):
 def test_a_result_with_nothing_but_a_title(tmp_path):
     bare = replace(four_bar_result(), values={}, checks=(), tables={}, arrays={}, findings=(), provenance={})
     assert write_pdf(bare, tmp_path / "r.pdf", Views(), ()).read_bytes().startswith(b"%PDF")
+
+
+@pytest.mark.parametrize("solids", [False, True])
+def test_the_parts_are_shown_where_solids_are_asked_for(tmp_path, monkeypatch, solids):
+    seen = []
+    monkeypatch.setattr(pdf, "write_pdf", lambda result, path, **given: seen.append(given["seen"]))
+    export(load(registry.mechanism("linkage").presets()["crank"]), ("pdf",), tmp_path, solids=solids)
+    (shown,) = seen
+    assert shown.scene is not None and bool(shown.solids) is solids

@@ -448,5 +448,19 @@ def test_the_report_is_a_page_or_the_whole_run_folder():
     assert json.loads(files[f"{stem}/result.json"])["digest"] == cam.spec().digest()
 
 
+def test_the_report_has_solids_in_motion_and_the_language_where_they_are_asked_for():
+    bar = design("four_bar")
+    answer, told = asked("report", bar, solids=True, language="zh")
+    page = one_file(answer)[1].decode()
+    assert '"solids":{' in page and 'lang="zh' in page and "设计校核" in page
+    shares = [(done, total) for done, total, *_ in told]
+    assert shares[-1] == (shares[-1][1] - 1, shares[-1][1]) and all(done < total for done, total in shares)  # the figures are to come
+    plain = one_file(asked("report", bar)[0])[1].decode()
+    assert '"solids":{' not in plain and 'lang="en' in plain
+    with pytest.raises(UnknownName, match="language of reports"):
+        asked("report", bar, language="../zh")
+
+
 def test_the_jobs_are_those_of_the_page():
-    assert list(JOBS) == ["sensitivity", "fix", "timing", "study", "optimise", "solid", "fields", "figures", "export", "report", "save"]
+    named = "sensitivity fix reach timing study optimise solid fields figures export report save"
+    assert list(JOBS) == named.split()

@@ -230,6 +230,17 @@ def test_a_design_that_is_none_says_so_before_anything_is_told(four_bar):
     assert told == []
 
 
+@pytest.mark.parametrize("building", [False, True])
+def test_what_cannot_go_round_is_drawn_where_it_begins_with_the_reason(four_bar, building):
+    """A crank of 80 mm comes to a position in which the loop does not close."""
+    told = []
+    assert preview.draw(told.append, four_bar.changed({"bodies.crank.points.A": ["80 mm", "0 mm"]}), (), building) is None
+    drawing = json.loads(told[0])
+    assert drawing["missing"] == [] and "does not close there" in drawing["remarks"][0]
+    bodies = {body["name"] for body in drawing["scene"]["bodies"]}
+    assert bodies >= {"crank", "coupler", "rocker"} and any("crank" in handle["key"] for handle in drawing["scene"]["handles"])
+
+
 @pytest.fixture
 def without_a_scene(four_bar, monkeypatch):
     """The mechanism, whose motion cannot be shown."""
@@ -246,7 +257,7 @@ def without_a_scene(four_bar, monkeypatch):
 def test_what_cannot_be_shown_is_remarked_and_still_computed(four_bar, without_a_scene):
     told = []
     found = preview.draw(told.append, four_bar, ["motion"])
-    assert json.loads(told[0]) == {"scene": None, "remarks": ["no motion to show: the loop stays open"], "programme": None}
+    assert json.loads(told[0]) == {"scene": None, "remarks": ["the loop stays open"], "programme": None}
     assert found["plots"]["cycle"] is None and found["values"]
     without_a_scene.scene = None
     preview.draw(told.append, four_bar, ())

@@ -76,7 +76,7 @@ def test_a_tool_is_one_step_of_undo_and_the_drawing_stands_still_while_a_person_
     said = tab.say("sketch", on=True)
     assert tab.quiet.building is True and said and tab.quiet.asked[-1][0] == "update"
     (design,) = tab.say("construct", tool="body", places=[[-0.08, 0], [-0.08, 0.06]], near=0.001)
-    assert "[bodies.link]" in design["toml"] and "# A four-bar" in design["toml"] and design["undo"]
+    assert "[bodies.link_1]" in design["toml"] and "# A four-bar" in design["toml"] and design["undo"]
     (back,) = tab.say("undo")
     assert "link" not in back["toml"].partition("[bodies")[2] and not back["undo"]
     assert tab.say("sketch", on=False) and tab.quiet.building is False

@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -15,6 +16,10 @@ from drivewright.report.content import content
 from drivewright.spec import load
 from drivewright.spec.fields import containers_of, has_user_keys, table_of
 from drivewright.studio import translations
+from drivewright.studio.field_info import field_infos
+from drivewright.studio.form import form, group_hint, values
+from drivewright.studio.jobs.design_keys import label
+from drivewright.studio.opening import opened
 from drivewright.view.panels import drawable, known_plots, panels
 from drivewright.view.text import sentence
 
@@ -38,6 +43,16 @@ def keys(model, path=""):
         yield ("tables" if inner else "fields"), key
         if inner:
             yield from keys(inner, key + ".*" * len(containers_of(field.annotation)) + ".")
+
+
+def meanings(model, told):
+    """What the form says of each key and each table below a table class: {text}."""
+    told.add(" ".join((model.__doc__ or "").split()) if not told else "")
+    for info in field_infos(model).values():
+        told.add(" ".join(group_hint(info).split()) if info.table or info.kind == "names" else info.hint)
+        if info.table:
+            meanings(info.table, told)
+    return told - {""}
 
 
 def in_node(body, data):
@@ -140,6 +155,24 @@ def test_every_key_has_a_label_and_every_label_a_key(kind, part):
 
 
 @pytest.mark.parametrize("kind", KINDS)
+def test_every_meaning_is_chinese_and_no_other_is_kept(kind):
+    wanted, kept = meanings(registry.mechanism(kind).spec, set()), translations.hints(kind)
+    assert len(wanted) > 80 and set(kept) == wanted
+    assert [text for text in kept.values() if not CHINESE.search(text)] == []
+    shared = set(tomllib.loads((SOURCE / "studio" / "zh.toml").read_text(encoding="utf-8"))["hints"])
+    assert not shared & set(registry.mechanism(kind).translations("zh")["hints"])
+
+
+def test_the_meanings_that_a_form_shows_are_translated_by_the_page():
+    shown = form(opened(registry.mechanism("linkage").presets()["default"]))
+    asked = sorted({each["hint"] for group in shown["groups"] for each in (group, *group["fields"])} - {""})
+    state = {"lang": "zh", "words": translations.texts(None), "design": {"words": translations.texts("linkage")}}
+    body = "const t = createWords({state: data.state}); console.log(JSON.stringify(data.asked.map(text => t(text))));"
+    told = in_node(body, {"state": {**state, "hints": translations.hints("linkage")}, "asked": asked})
+    assert len(asked) > 60 and told == [translations.hints("linkage")[text] for text in asked]
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_every_preset_has_a_name_and_names_no_other(kind):
     mechanism = registry.mechanism(kind)
     assert set(mechanism.translations("zh")["presets"]) == set(mechanism.presets())
@@ -147,7 +180,7 @@ def test_every_preset_has_a_name_and_names_no_other(kind):
 
 @pytest.mark.parametrize("kind", [None, *KINDS])
 def test_values_are_chinese_and_keep_the_parts_that_vary(kind):
-    patterns = translations.texts(kind)
+    patterns = translations.texts(kind) | ({} if kind is None else translations.hints(kind))
     labels = {} if kind is None else {**translations.fields(kind), **translations.tables(kind)}
     assert [text for text in (*patterns.values(), *labels.values()) if not CHINESE.search(text) and text not in SAME] == []
     assert [english for english, text in patterns.items() if english.count("*") != text.count("*")] == []
@@ -180,6 +213,24 @@ def test_every_analysis_has_a_name_and_a_meaning(kind):
     analyses = registry.mechanism(kind).analyses
     asked = [text for each in analyses for text in (each.name, each.meaning)]
     assert [(english, text) for english, text in zip(asked, translated([(kind, asked)])[0], strict=True) if not CHINESE.search(text)] == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_keys_that_a_search_may_vary_are_named_in_chinese(kind):
+    path = registry.mechanism(kind).presets()["default"]
+    design, spec = opened(path), load(path)
+    asked = [label(design.tables, key) for key, field in values(form(design)).items() if not field.get("parts") and field["kind"] != "list"]
+    own = {part for name in names(type(spec), spec) for part in re.findall("[A-Za-z]{2,}", name)} | LATIN | {"kxx", "kyy", "kxy", "kyx"}
+    told = translated([(kind, asked)])[0]
+    left = [(english, text) for english, text in zip(asked, told, strict=True) if set(re.findall("[A-Za-z]{2,}", text)) - own]
+    assert len(asked) > 30 and [pair for pair in left if not re.search("c[xy][xy]|eC", pair[1])] == []
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_a_run_leaves_out_is_told_in_chinese(kind):
+    found = runner.run(load(registry.mechanism(kind).presets()["default"])).findings
+    told = translated([(kind, found)])[0]
+    assert [text for text in told if not CHINESE.search(text)] == []
 
 
 # -- words.js ----------------------------------------------------------------------------------------------------------------------

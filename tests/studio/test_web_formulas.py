@@ -456,6 +456,19 @@ def test_typed_quantities():
     assert found == [[45, "mm"], [-0.035, "m"], [-3, "mm"], [0.5, ""], [12, ""], [11, "mm"], None, None, None, None, [5, ",5 mm"], None]
 
 
+def test_a_quantity_too_long_for_its_box_is_shown_to_six_digits():
+    pairs = {
+        "36.62853743027 mm": "36.6285 mm",
+        "-0.000123456789 kg": "-0.000123457 kg",
+        "12345678.8912": "12345700",
+        "0.1 mm": "0.1 mm",
+        "123.4567 mm": "123.4567 mm",
+        "1e-5 kg m^2 and more": "1e-5 kg m^2 and more",
+        "a name that is long": "a name that is long",
+    }
+    assert in_node("return data.map(text => shortened(text, 12));", list(pairs), numbers="shortened") == list(pairs.values())
+
+
 STORE = """
     const store = {state: {design: {opened: 1}, result: {timings: data.timings, needs: data.needs, sources: data.sources}}};
     learn(store);

@@ -20,7 +20,8 @@ DRAG = """
     };
     const others = () => (data.others || []).map(other => ({...other, at: place(other, other.point)}));
     const numbers = () => data.numbers && data.numbers.map(number => ({...number}));
-    const drag = createDrag({layer, guides, bubble, place, frame: handle => poses[handle.body], others, nameOf: () => "A", numbers,
+    const other = new Part("button"), nearest = () => ({button: data.beside ? other : button, handleOf: () => data.handle});
+    const drag = createDrag({layer, guides, bubble, place, frame: handle => poses[handle.body], others, nearest, nameOf: () => "A", numbers,
       view: () => view, undrawn: () => data.undrawn || 0, say: message => said.push(message), t, clock});
     layer.append(button);
     drag.attach(button, () => data.handle);
@@ -63,6 +64,13 @@ def test_a_point_goes_where_the_hand_goes_in_the_frame_of_its_body(target):
     assert all(text.endswith(" mm") for text in message["changes"].values()) and words.startswith("A  x ")
     for number in numbers_of(message):
         assert number * 2 == pytest.approx(round(number * 2))  # on the grid of half a millimetre
+
+
+def test_of_two_handles_beside_each_other_the_nearest_is_taken():
+    """The press falls upon the area of one, and the hand is nearer to another."""
+    body = "down(); return [drag.held(button), drag.held(other)];"
+    assert dragged(body, POINT, beside=True) == [False, True] and dragged(body, POINT) == [True, False]
+    assert dragged(f"button.disabled = true; {body}", POINT) == [False, False]
 
 
 def test_alt_takes_the_place_itself_and_limits_hold():

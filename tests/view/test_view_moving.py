@@ -37,6 +37,14 @@ def test_a_whole_cycle_fits_into_the_picture_and_fills_it():
     assert columns[0] >= 2 and columns[-1] <= SIZE[0] - 3
 
 
+def test_what_is_shown_for_a_part_of_the_cycle_is_left_out_of_the_rest():
+    scene = _scene()
+    still = replace(scene.bodies[0], name="still", poses=0 * ROUND)
+    half = replace(scene, bodies=(still, replace(scene.bodies[0], shown=np.arange(13) < 6)))
+    early, late = (_ink(image(draw_view(half, view_of(scene, 1.6), phase, SIZE))).sum() for phase in (0.2, 0.8))
+    assert early > 1.5 * late > 0
+
+
 def test_a_part_of_the_picture_is_drawn_larger():
     whole, part = (view_of(_scene(), 1.6, part=part) for part in ((0, 0, 1, 1), (0, 0, 0.5, 0.5)))
     np.testing.assert_allclose(part.high - part.low, (whole.high - whole.low) / 2)

@@ -215,6 +215,7 @@ def export(
     lang: LanguageOption = "en",
     advice: AdviceOption = None,
     anyway: Annotated[bool, typer.Option("--anyway", help="manufacturing files also with a failed geometry check")] = False,
+    solids: Annotated[bool, typer.Option("--solids", help="show the parts as solids in the PDF report")] = False,
 ) -> None:
     """Write manufacturing files and the PDF report."""
     from drivewright.report.export import export as write
@@ -226,7 +227,7 @@ def export(
     with show.progress(spec.name, loaded.mechanism) as step, show.located(spec):
         folder = _folder(spec, out)
         recover_run_folder(folder)
-        files = write(loaded, _names(to), folder / "cad", anyway, step, form, partial(_advised, advice=advice))
+        files = write(loaded, _names(to), folder / "cad", anyway, step, form, partial(_advised, advice=advice), solids)
     for file in files:
         print(file)
 

@@ -50,7 +50,7 @@ export function matrixOf([x, y, angle], [px, py, pz]) {
 }
 
 /** The same of a turn by an angle about `direction` through `point`. */
-export function turnMatrix({point, direction}, angle, pull) {
+function turnMatrix({point, direction}, angle, pull) {
   const size = Math.hypot(...direction), [x, y, z] = direction.map(part => part / size), c = Math.cos(angle), s = Math.sin(angle), d = 1 - c;
   const columns = [[c + x * x * d, y * x * d + z * s, z * x * d - y * s], [x * y * d - z * s, c + y * y * d, z * y * d + x * s],
     [x * z * d + y * s, y * z * d - x * s, c + z * z * d]];

@@ -1,7 +1,7 @@
 // The drawing of one scene on a canvas, the window onto it, and how a hand moves that window.
 
 import { locate, nice, useFont } from "./clock.js";
-import { STILL, boxOf, carry, pathOf, poseAt, poseOf, seenFrom } from "./scene.js";
+import { STILL, boxOf, carry, isDrawn, pathOf, poseAt, poseOf, seenFrom } from "./scene.js";
 
 // -------------------------------------------------------------------------------------------------------------- drawing
 
@@ -109,7 +109,7 @@ export function createPainter(scene) {
   function* standing(view, observer, phase, {hidden, scale}) {
     const [low, part] = locate(scene.u, phase), eye = poseAt(observer.motion, low, part), [x0, y0, x1, y1] = view.window();
     for (const body of scene.bodies) {
-      if (hidden.has(body.title)) continue;
+      if (hidden.has(body.title) || !isDrawn(body, low, part)) continue;
       const pose = seenFrom(poseOf(body, low, part, scale), eye), [x, y] = pose, reach = body.reach;
       if (x + reach > x0 && x - reach < x1 && y + reach > y0 && y - reach < y1) yield [body, pose];
     }

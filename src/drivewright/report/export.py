@@ -9,6 +9,7 @@ from drivewright import registry, runner
 from drivewright.errors import GeometryCheckFailed, InputError, UnknownName
 from drivewright.registry import Mechanism
 from drivewright.report import dxf, gcode, svgout, tabular
+from drivewright.report.content import views
 from drivewright.report.form import ReportForm
 from drivewright.report.letterhead import read_letterhead
 from drivewright.report.names import file_name
@@ -29,13 +30,14 @@ def export(
     progress: Callable[[int, int, str], object] | None = None,
     form: ReportForm = ReportForm(),
     advise: Callable[[Result[Any]], Result[Any]] = lambda result: result,
+    solids: bool = False,
 ) -> list[Path]:
     """Write the formats of a design into `folder`; returns the paths.  What is checked, and what tables there are, is that of the
     default analyses and of those for manufacture.
 
     GeometryCheckFailed where a geometry check fails, unless `anyway`, or only the PDF report is wanted, which says so itself, in the
     `form` given; a solid format needs the extra 'fe', the PDF the extra 'pdf'.  `advise` adds to the result of the PDF what to change
-    where a check fails (`studies.advise`).
+    where a check fails (`studies.advise`); `solids` shows the parts in it.
     """
     _refuse_unknown(formats)
     read_letterhead(spec)
@@ -49,7 +51,7 @@ def export(
     files = []
     for number, name in enumerate(formats):
         step(number, len(formats), name)
-        files += _pdf(advise(result), folder, form) if name in REPORTS else WRITERS[name](mechanism, model, result, folder)
+        files += _pdf(advise(result), folder, form, model, solids) if name in REPORTS else WRITERS[name](mechanism, model, result, folder)
     return files
 
 
@@ -138,10 +140,10 @@ def _gcode(mechanism, model, result, folder):
     return [_written(lambda d, path: gcode.write_gcode(d, path, **settings), d, folder / f"{file_name(d.name)}.nc") for d in milled]
 
 
-def _pdf(result: Result[Any], folder: Path, form: ReportForm) -> list[Path]:
+def _pdf(result: Result[Any], folder: Path, form: ReportForm, model: object, solids: bool) -> list[Path]:
     from drivewright.report import pdf
 
-    return [_written(partial(pdf.write_pdf, form=form), result, folder / "report.pdf")]
+    return [_written(partial(pdf.write_pdf, seen=views(result, model, solids), form=form), result, folder / "report.pdf")]
 
 
 def _written(write, what, path):

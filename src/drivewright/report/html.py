@@ -105,12 +105,6 @@ def _named_solids(packed: dict[str, Any], words: Words) -> dict[str, Any]:
     return {**packed, "parts": [{**part, "label": words(part["name"].replace("_", " "))} for part in packed["parts"]]}
 
 
-def player_data(result: Result[Any], seen: Views, language: str = "en") -> str | None:
-    """The player's and the plots' data as JSON that cannot end a script element; None without a scene."""
-    packed = packed_views(result, seen, language)
-    return data_text(packed) if packed else None
-
-
 def data_text(packed: Mapping[str, Any]) -> str:
     """JSON that cannot end a script element."""
     plots = packed["plots"] and {

@@ -55,6 +55,7 @@ def pack_scene(scene: Scene, system: System = "mm") -> dict[str, Any]:
             "motion": _pooled(b.poses, motions),
             "shapes": _pooled_shapes(b.shapes, pool, tolerance),
             **_magnified(b, motions),
+            **_shown(b),
         }
         for b in scene.bodies
     ]
@@ -115,6 +116,14 @@ def _magnified(body: Body, motions: dict[str, int]) -> dict[str, float]:
         return {}
     limit = {"most": float(body.most)} if np.isfinite(body.most) else {}
     return {"rest": _pooled(body.rest, motions), "magnified": float(body.magnified), **limit}
+
+
+def _shown(body: Body) -> dict[str, list[list[int]]]:
+    """First and last frame of every stretch of the cycle in which a body is drawn; nothing of one that always is."""
+    if body.shown is None or body.shown.all():
+        return {}
+    ends = np.flatnonzero(np.diff(np.pad(body.shown.astype(int), 1)))
+    return {"shown": [[int(first), int(last) - 1] for first, last in ends.reshape(-1, 2)]}
 
 
 def pack_cycle(scene: Scene, system: System) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 import { fixed, floats, locate, useFont } from "./clock.js";
 
-export const MARGIN = {left: 52, right: 14, top: 6, bottom: 36};
+const MARGIN = {left: 52, right: 14, top: 6, bottom: 36};
 const FONT = "11px system-ui, sans-serif", BAR = 0.72;  // of the room that a bar has
 
 /** Ticks at round values, about `count` of them; angles at 10, 15, 30, 45, 90 ... degrees. */

@@ -18,6 +18,12 @@ export function poseOf({motion, rest, most}, low, part, scale = 1) {
   return poseAt(rest, low, part).map((from, n) => from + Math.min(scale, most) * (drawn[n] - from));
 }
 
+/** Whether a body {shown} is drawn at frame `low` + `part`: shown are the first and last frames of the stretches where it is, else always. */
+export function isDrawn({shown}, low, part) {
+  const frame = Math.round(low + part);
+  return !shown || shown.some(([first, last]) => frame >= first && frame <= last);
+}
+
 /** Pose of a body in the frame of an observer. */
 export function seenFrom(pose, eye) {
   const dx = pose[0] - eye[0], dy = pose[1] - eye[1], c = Math.cos(eye[2]), s = Math.sin(eye[2]);

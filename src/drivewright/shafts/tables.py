@@ -15,11 +15,12 @@ from drivewright.shafts.strength import LimitLoad
 from drivewright.shafts.unit_loads import SAMPLES, flexibility_on_rigid_bearings, unit_deflection
 from drivewright.shafts.vibration import Modes
 
+UNIT_LOADS = ("along the unit loads", "across the unit loads, 90° clockwise from them")
 PARTS = ("bending", "shear", "tension")  # of a flexibility; the others are bearings
 
 
-def diagram_table(along: Diagram, direction: Floats) -> Table:
-    """The loaded shaft along its length: vectors along the unit loads and square to them, forces and stresses."""
+def diagram_table(along: Diagram, direction: Floats, named: tuple[str, str] = UNIT_LOADS) -> Table:
+    """The loaded shaft along its length: vectors along `direction` and 90° clockwise from it, as `named`; forces and stresses."""
     columns = [Column("z", "m", "distance from the left end", along.z)]
     for name, data, unit, meaning in (
         ("deflection", along.deflection, "m", "deflection"),
@@ -27,9 +28,9 @@ def diagram_table(along: Diagram, direction: Floats) -> Table:
         ("shear", along.shear, "N", "shear force"),
         ("moment", along.moment, "N m", "bending moment"),
     ):
-        columns.append(Column(name, unit, f"{meaning} along the unit loads", data @ direction))
+        columns.append(Column(name, unit, f"{meaning} {named[0]}", data @ direction))
         across = data @ [direction[1], -direction[0]]
-        columns.append(Column(f"{name}_across", unit, f"{meaning} across the unit loads, 90° clockwise from them", across))
+        columns.append(Column(f"{name}_across", unit, f"{meaning} {named[1]}", across))
     columns += [
         Column("axial", "N", "axial force, tension positive", along.axial),
         Column("torque", "N m", "torque", along.torque),

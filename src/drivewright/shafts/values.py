@@ -38,16 +38,16 @@ def station_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str
     return values
 
 
-def support_values(equilibrium: ShaftEquilibrium, direction: Floats) -> dict[str, Value]:
-    """Reaction [N, N m] of every support on the shaft, displacement [m] and slope [rad] of the shaft in it."""
+def support_values(equilibrium: ShaftEquilibrium, direction: Floats, along: str = "along unit loads") -> dict[str, Value]:
+    """Reaction [N, N m] of every support on the shaft, displacement [m] and slope [rad] of the shaft in it; `along` names the direction."""
     values = {}
     supports = equilibrium.model.beam.shaft.supports
     for support, reaction, moved in zip(supports, equilibrium.reactions, equilibrium.relative, strict=True):
         name, at, inside = f"bearings.{support.name}", f"of bearing {support.name!r}", f"of the shaft in bearing {support.name!r}"
-        slope, along = float(np.hypot(*equilibrium.slope_at(support.position))), f"of {support.name!r} along unit loads"
+        slope, words = float(np.hypot(*equilibrium.slope_at(support.position))), f"reaction of {support.name!r} {along}, on the shaft"
         radial, displacement = -float(np.dot(direction, reaction[:2])), float(np.dot(direction, moved[:2]))
         values |= {
-            f"{name}.reaction": Value(radial, "N", f"reaction {along}, on the shaft", convention="positive against the load"),
+            f"{name}.reaction": Value(radial, "N", words, convention="positive against the load"),
             f"{name}.reaction_x": Value(reaction[0], "N", f"reaction {at} along x, on the shaft"),
             f"{name}.reaction_y": Value(reaction[1], "N", f"reaction {at} along y, on the shaft"),
             f"{name}.radial_force": Value(float(np.hypot(*reaction[:2])), "N", f"radial force {at}, magnitude"),

@@ -17,6 +17,7 @@ pareto            designs that no other design beats in every objective
 plan              the plan of a study: every case, known before the first one runs
 points            cases from a file
 random_points     points of the random keys, many of them made where they are read
+reaching          what to change in a design so that a value becomes the number that is wanted
 relations         a key that follows another one: its text, read by hand
 retry             cases without a whole answer, computed once more
 search            a search for the best design

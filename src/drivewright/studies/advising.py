@@ -57,7 +57,7 @@ def advise(
     stopped = False
     if failed and result.outcome == "complete":
         try:
-            designs = _Designs(result, math.inf if seconds is None else time.monotonic() + seconds, held, tried)
+            designs = Designs(result, math.inf if seconds is None else time.monotonic() + seconds, held, tried)
             for group in designs.by_analysis(failed):
                 slopes = _slopes(designs, group)
                 for check in group:
@@ -77,8 +77,8 @@ def is_advisable(check: Check) -> bool:
 # -- designs -------------------------------------------------------------------------------------------------------------------
 
 
-class _Designs:
-    """Margins of the checks of a design in which some dimensions have moved."""
+class Designs:
+    """Margins of the checks, and other numbers, of a design in which some dimensions have moved."""
 
     def __init__(
         self, result: Result[Any], deadline: float, held: Collection[str] = (), tried: Callable[[int], object] | None = None
@@ -90,15 +90,15 @@ class _Designs:
         self.keys = tuple(each.key for each in self.dimensions)
         self.nominal = np.array([each.value for each in self.dimensions])
         self.analyses = tuple(result.provenance["analyses"])
-        self._owner, self._seconds = result.check_sources, result.timings
+        self.owner, self._seconds = result.check_sources, result.timings
         self._evaluations: dict[tuple[str, ...], Callable[[Floats], Mapping[str, float]]] = {}
-        self._run_all = self._by_runs(self.analyses)
+        self._run_all = self.by_runs(self.analyses)
 
     def by_analysis(self, failed: Sequence[Check]) -> list[list[Check]]:
         """Those of one analysis together, those of quick analyses first."""
         groups: dict[str, list[Check]] = {}
         for check in failed:
-            groups.setdefault(self._owner[check.name], []).append(check)
+            groups.setdefault(self.owner[check.name], []).append(check)
         return [groups[name] for name in sorted(groups, key=lambda name: self._seconds[name])]
 
     def moved(self, moves: Mapping[int, float]) -> Floats:
@@ -112,15 +112,15 @@ class _Designs:
         """{check: margin} of a design (d,), nan where it has none; by the analyses that give these checks alone, or by the compiled route
         of the kind where that has them."""
         names = tuple(check.name for check in checks)
-        self._begin_design()
+        self.begin_design()
         if names not in self._evaluations:
-            self._evaluations[names] = self._compiled(names) or self._by_runs(tuple(dict.fromkeys(self._owner[name] for name in names)))
+            self._evaluations[names] = self._compiled(names) or self.by_runs(tuple(dict.fromkeys(self.owner[name] for name in names)))
         found = self._evaluations[names](design)
         return {name: found.get(f"{CHECK}{name}", math.nan) for name in names}
 
     def run(self, design: Floats) -> dict[str, float]:
         """{check: margin} of all checks by a run."""
-        self._begin_design()
+        self.begin_design()
         found = self._run_all(design)
         return {name: found.get(f"{CHECK}{name}", math.nan) for name in self.checks}
 
@@ -129,7 +129,8 @@ class _Designs:
         batch = offer(self.spec, self.keys, tuple(f"{CHECK}{name}" for name in names)) if offer else None
         return (lambda design: {name: float(column[0]) for name, column in batch(design[None]).items()}) if batch else None
 
-    def _by_runs(self, analyses: tuple[str, ...]) -> Callable[[Floats], Mapping[str, float]]:
+    def by_runs(self, analyses: tuple[str, ...]) -> Callable[[Floats], Mapping[str, float]]:
+        """What gives {name: number} of a design (d,) by a run of some analyses; empty where that does not end."""
         asking = self.spec.model_copy(update={"study": Study(analyses=analyses), "optimise": None})
         task = PreparedTask(case_task(asking, self.keys))
 
@@ -139,7 +140,7 @@ class _Designs:
 
         return evaluate
 
-    def _begin_design(self) -> None:
+    def begin_design(self) -> None:
         """Another design is to be computed: OutOfTime where the time is over."""
         if time.monotonic() > self.deadline:
             raise OutOfTime
@@ -148,7 +149,7 @@ class _Designs:
             self._tried(self._count)
 
 
-def _slopes(designs: _Designs, checks: Sequence[Check]) -> dict[str, Floats]:
+def _slopes(designs: Designs, checks: Sequence[Check]) -> dict[str, Floats]:
     """{check: d margin / d move (d,)} by one step of each dimension, 0 where it does nothing or has no number."""
     base = designs.margins(designs.nominal, checks)
     slopes = {check.name: np.zeros(len(designs.dimensions)) for check in checks}
@@ -187,7 +188,7 @@ def _lines(check: Check, slopes: Floats) -> list[_Line]:
     return [line for line in lines if line.predicted < HOPEFUL]
 
 
-def _advice(designs: _Designs, check: Check, slopes: Floats) -> list[Advice]:
+def _advice(designs: Designs, check: Check, slopes: Floats) -> list[Advice]:
     """The best advice on a check, in a list; none where no change of up to two dimensions is found."""
     found: list[Advice] = []
     for line in _lines(check, slopes):
@@ -200,7 +201,7 @@ def _advice(designs: _Designs, check: Check, slopes: Floats) -> list[Advice]:
     return sorted(found, key=lambda advice: (len(advice.then_fails), len(advice.changes)))[:1]
 
 
-def _passing_length(designs: _Designs, check: Check, line: _Line) -> float | None:
+def _passing_length(designs: Designs, check: Check, line: _Line) -> float | None:
     """The shortest length along a line, to `NEAR`, at which the check passes; None where it is not reached."""
     near, far = (0.0, check.margin), None
     length, wide, slow = min(1.1 * line.predicted, 1.0), math.inf, 0
@@ -238,12 +239,12 @@ def _beyond(length: float, margin: float, at_start: float) -> float:
 # -- the numbers advised -------------------------------------------------------------------------------------------------------
 
 
-def _rounded(designs: _Designs, check: Check, line: _Line, length: float) -> Advice | None:
+def _rounded(designs: Designs, check: Check, line: _Line, length: float) -> Advice | None:
     """Advice with the fewest digits that pass in a run; None where none do."""
     exact = designs.moved(line.moves(length))
     for digits in range(1, 6):
         for rounding in (round, _away):
-            texts = {number: _text(designs, number, exact[number], digits, rounding) for number in line.parts}
+            texts = {number: written(designs, number, exact[number], digits, rounding) for number in line.parts}
             design = exact.copy()
             for number, text in texts.items():
                 design[number] = designs.dimensions[number].read(text)
@@ -256,7 +257,7 @@ def _rounded(designs: _Designs, check: Check, line: _Line, length: float) -> Adv
     return None
 
 
-def _text(designs: _Designs, number: int, value: float, digits: int, rounding: Callable[[float], float]) -> str:
+def written(designs: Designs, number: int, value: float, digits: int, rounding: Callable[[float], float]) -> str:
     """A value [SI] of a dimension as a person writes it, with few digits; `rounding` counts away from what it is now."""
     dimension = designs.dimensions[number]
     shown = scale(dimension.kind.unit, system=designs.spec.units)
@@ -272,7 +273,7 @@ def _away(number: float) -> float:
     return math.ceil(number)
 
 
-def _made(designs: _Designs, check: Check, texts: Mapping[int, str], margins: Mapping[str, float]) -> Advice:
+def _made(designs: Designs, check: Check, texts: Mapping[int, str], margins: Mapping[str, float]) -> Advice:
     """`Advice` of the dimensions written so, whose run has these margins."""
     changed = ((designs.dimensions[number], text) for number, text in texts.items())
     others = [other for other in designs.checks.values() if other.name != check.name]

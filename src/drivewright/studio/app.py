@@ -23,6 +23,7 @@ from drivewright.report.worked_examples import cards, preset_films, preset_pictu
 from drivewright.studio import preview, translations
 from drivewright.studio.access import LEAST_TOKEN, LOOPBACK, AccessControl
 from drivewright.studio.design import Design
+from drivewright.studio.drawing_words import drawing_in_words
 from drivewright.studio.offers import offered
 from drivewright.studio.page_policy import PagePolicy
 from drivewright.studio.resources import ServerResources
@@ -200,7 +201,15 @@ def _files():
     """Name -> (bytes, type) of what the page fetches: modules and styles of the studio and of the report's player, pictures of designs."""
     own = [path for path in sorted((HERE / "web").iterdir()) if path.suffix in TYPES]
     named = {path.name: path for path in [*(PLAYER / name for name in SHARED), *own]} | dict(_pictures())
-    return {name: (path.read_bytes(), TYPES[path.suffix]) for name, path in named.items()}
+    return {name: (path.read_bytes(), TYPES[path.suffix]) for name, path in named.items()} | dict(_translated_drawings())
+
+
+def _translated_drawings():
+    """(name, (bytes, type)) of the drawings of what keys measure, in the other language."""
+    for kind in registry.kinds():
+        for name, path in drawing_files(kind).items():
+            drawn = drawing_in_words(kind, path.read_text(encoding="utf-8"))
+            yield f"drawing.{name}.{translations.LANGUAGE}.svg", (drawn.encode(), TYPES[path.suffix])
 
 
 def _pictures():

@@ -25,6 +25,7 @@ from drivewright.studio.input_parsing import (
     spec_class,
     validated_spec,
     value_in,
+    with_part,
 )
 from drivewright.studio.opening import LARGEST
 from drivewright.studio.proposals import search_table, varied_keys
@@ -101,15 +102,7 @@ class Document(UndoHistory):
 
     def pick(self, key: str, text: str) -> None:
         """A part by its name; values beside it that stood in place of what the part before has of its own go with that one."""
-        key = form_key(self.design.tables, key)
-        info = field_info_at(spec_class(self.design), key.split("."))
-        tables = deepcopy(self.design.tables)
-        enter_text(tables, spec_class(self.design), key, text)
-        above = key.rpartition(".")[0]
-        for name in (info.overrides if info else ()) if text != value_in(self.design.tables, key) else ():
-            if value_in(tables, beside := f"{above}.{name}".lstrip(".")) is not ABSENT:
-                remove_key(tables, beside)
-        self._accept(self.design.with_tables(tables))
+        self._accept(self.design.with_tables(with_part(self.design, form_key(self.design.tables, key), text)))
 
     def drag(self, changes: Mapping[str, str], gesture: str) -> None:
         """Keys that a handle moves, {key: typed text}; the steps of one drag are one undo step."""

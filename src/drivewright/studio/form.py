@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 from drivewright import registry
 from drivewright.errors import UnitError
 from drivewright.studio.design import Design
-from drivewright.studio.field_info import ABSENT, display_text, field_infos
+from drivewright.studio.field_info import ABSENT, FieldInfo, display_text, field_infos
 from drivewright.studio.input_parsing import element_step
 from drivewright.studio.sliders import Limits, slider, typical
 from drivewright.units import split
@@ -47,6 +47,13 @@ def changed_fields(old: Form, new: Form) -> dict[str, Any] | None:
     return changed
 
 
+def group_hint(info: FieldInfo) -> str:
+    """What a table means: as its key states it, else as its class does."""
+    if info.hint in ("", info.name.replace("_", " ")) and info.table:
+        return info.table.__doc__ or ""
+    return info.hint
+
+
 # -- groups --------------------------------------------------------------------------------------------------------------------
 
 
@@ -72,11 +79,7 @@ class _Maker:
 
     def inside(self, info, given, path, pattern):
         """The groups of a sub-table, of a list of them, or of those that the user names."""
-        has_hint = info.hint not in ("", info.name.replace("_", " "))
-        about = {
-            "hint": info.hint if has_hint or not info.table else info.table.__doc__,
-            "optional": not info.required and not info.levels and info.default is None,
-        }
+        about = {"hint": group_hint(info), "optional": not info.required and not info.levels and info.default is None}
         value = info.initial_value if given is ABSENT else given
         if info.kind == "names":
             self.names(info, value or {}, path, pattern, about)

@@ -92,6 +92,17 @@ def enter_text(tables: Tables, model: type[Spec], key: str, text: str) -> None:
     set_key(tables, key, parse_text(info, text, shown) if info else text)
 
 
+def with_part(design: Design, key: str, text: str) -> Tables:
+    """The raw tables with another bought part; values beside it that stood in place of what the part before has of its own go with it."""
+    tables, model = deepcopy(design.tables), spec_class(design)
+    info, above = field_info_at(model, key.split(".")), key.rpartition(".")[0]
+    enter_text(tables, model, key, text)
+    for name in (info.overrides if info else ()) if text != value_in(design.tables, key) else ():
+        if value_in(tables, beside := f"{above}.{name}".lstrip(".")) is not ABSENT:
+            remove_key(tables, beside)
+    return tables
+
+
 def insert_parents(place: Any, model: type[Spec], steps: Sequence[str]) -> None:
     """What has to stand above a key before it can be set: the whole default of a point, a list or a table, in place."""
     step, *rest = steps

@@ -49,5 +49,6 @@ def _drawn_sheets(kind):
 
 
 def presets(kind: str) -> list[str]:
-    """Names of the presets, the one to start with first."""
-    return sorted(registry.mechanism(kind).presets(), key=lambda name: (name != "default", name))
+    """Names of the presets: the one to build from by clicks first, then the default one."""
+    start = _first_preset(kind)
+    return sorted(registry.mechanism(kind).presets(), key=lambda name: (name != start, name != "default", name))

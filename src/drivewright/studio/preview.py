@@ -45,7 +45,8 @@ def draw(
     spec = design.spec_on_screen()
     construction = registry.mechanism(spec.mechanism).construction
     if building and construction:
-        _send_scene(send, design, spec, construction.sketch(spec), [], construction.unfinished(spec))
+        missing = construction.unfinished(spec)
+        _send_scene(send, design, spec, construction.sketch(spec), [] if missing else _why_still(spec), missing)
         return None
     try:
         model = runner.build(spec)
@@ -58,6 +59,7 @@ def draw(
         scene, remarks = construction.sketch(spec), []
     else:
         scene, remarks = (quick, []) if quick else _scene(spec, model)
+        scene = construction.sketch(spec) if construction and scene is None else scene  # what cannot move is drawn at its start
     missing = construction.unfinished(spec) if construction and not moving else None
     _send_scene(send, design, spec, scene, remarks, missing, _programme(spec, model))
     return _quick_result(spec, model, scene, affordable) if affordable else None
@@ -131,14 +133,22 @@ def _quick_scene(spec, model):
 
 
 def _scene(spec, model):
-    """(the scene or None, remarks that say why there is none)."""
+    """(the scene or None, the reasons why there is none: that there is none is for the page to say)."""
     mechanism = registry.mechanism(spec.mechanism)
     try:
         return mechanism.scene(model) if mechanism.scene else None, []
     except MemoryError:  # of this process, which may be tried again
         raise
     except Exception as error:  # a drawing that fails must not cost the numbers
-        return None, [f"no motion to show: {runner.failure_reason(spec, error)}"]
+        return None, [runner.failure_reason(spec, error)]
+
+
+def _why_still(spec):
+    """Remarks that say why a mechanism that is complete has no motion; none where it moves, or where its analyses say what is wrong."""
+    try:
+        return _scene(spec, runner.build(spec))[1]
+    except DrivewrightError:
+        return []
 
 
 def _programme(spec, model):

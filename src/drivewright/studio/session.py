@@ -131,6 +131,10 @@ class Session(EditedDesign):
         """The parts that a field may name, with what one chooses them by."""
         self.send({"what": "names", "list": str(list)[:SHORT], "entries": await self._call(part_lists.entries, str(list)[:SHORT])})
 
+    async def hints(self) -> None:
+        """What the keys of this kind mean, in the other language: a page that shows it asks for them."""
+        self.send({"what": "hints", "words": translations.hints(self.document.design.kind)})
+
     async def drag(self, changes: Mapping[str, str], gesture: str) -> None:
         """What a handle moves, as it moves."""
         if len(changes) > MOST_DRAGGED:
@@ -303,10 +307,10 @@ class Session(EditedDesign):
             self._waiting = None
 
 
-TAKE_LOCKS = ("sensitivity", "optimise", "fix")
+TAKE_LOCKS = ("sensitivity", "optimise", "fix", "reach")
 TAKE_RESULTS = ("fields", "figures")  # of earlier runs
 WORDS = (
-    "hello again set pick names drag revert unset construct sketch add drop arrange put take undo redo lock source text load preset "
+    "hello again set pick names hints drag revert unset construct sketch add drop arrange put take undo redo lock source text load preset "
     "fresh example open share reference pin job propose begin export save analyse"
 )
 ACTIONS = {name: getattr(Session, name) for name in WORDS.split()}

@@ -1,7 +1,8 @@
 """Words of the page in another language than English: labels of the form, and texts on the screen.
 
 They stand in `zh.toml`, here for what all kinds share and in the folder of each mechanism for its own:
-`fields` and `tables` (dotted key, * for a name or a number -> label), `texts` (English, * for a part that varies -> text), `presets`.
+`fields` and `tables` (dotted key, * for a name or a number -> label), `hints` (what a key means, in English -> in the language), `texts`
+(English, * for a part that varies -> text), `presets`.
 """
 
 import re
@@ -12,6 +13,7 @@ from pathlib import Path
 from drivewright import registry
 from drivewright.report.worked_examples import cards
 from drivewright.spec import read_document
+from drivewright.studio.field_info import field_info_at
 
 LANGUAGE = "zh"
 
@@ -24,6 +26,11 @@ def fields(kind: str) -> dict[str, str]:
 def tables(kind: str) -> dict[str, str]:
     """The same of its tables, which are the groups of a form."""
     return _merged(kind, "tables")
+
+
+def hints(kind: str) -> dict[str, str]:
+    """{meaning of a key or of a table, as its class states it: in the language}; the dictionary is shared, do not change it."""
+    return _merged(kind, "hints")
 
 
 @cache
@@ -67,14 +74,21 @@ def preset_titles(kind: str) -> dict[str, str]:
 
 
 def _keys(kind):
-    """Fields as jobs name them: 'joints · * · clearance', each step by its own label."""
+    """Fields as jobs name them: 'joints · * · clearance', each step by its own label; of points and the like also their parts."""
     titles = tables(kind)
     named = {}
     for key, text in fields(kind).items():
         *places, last = key.split(".")
         titled = [step if step == "*" else titles.get(".".join(places[: n + 1]), step) for n, step in enumerate(places)]
-        named[" · ".join(map(_words_of_name, (*places, last)))] = " · ".join((*titled, text))
+        inside = _parts_of(kind, (*places, last))
+        named[" · ".join((*map(_words_of_name, (*places, last)), *inside))] = " · ".join((*titled, text, *inside))
     return named
+
+
+def _parts_of(kind, steps):
+    """("*", ...) for the steps that a key has below its field: the name of a point, the part of a pair."""
+    info = field_info_at(registry.mechanism(kind).spec, steps)
+    return ("*", "*") if info and info.kind == "names" else ("*",) if info and info.fixed else ()
 
 
 def _presets(kind):

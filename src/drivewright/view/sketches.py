@@ -8,7 +8,7 @@ import numpy as np
 from drivewright.errors import UnknownName
 from drivewright.scene import Drawing, Frame, Scene, place
 from drivewright.units import System
-from drivewright.view.motion import path, pose_at, seen_from, step_back
+from drivewright.view.motion import fractions, path, pose_at, seen_from, step_back
 from drivewright.view.outlines import overall_size, simplified_points
 from drivewright.view.palette import SERIES, TRACES, colour
 from drivewright.view.style import MUTED, arrange, figure_to_scale, legend_columns, nice_length, styled
@@ -125,7 +125,9 @@ def draw_moment(axis: "Axes", scene: Scene, observer: Frame, phase: float, ghost
 def _seen_bodies(scene, observer, phase):
     """(body, its pose relative to the observer) at a phase."""
     eye = pose_at(observer.poses, scene.cycle, phase)
-    return [(body, seen_from(pose_at(body.poses, scene.cycle, phase)[None], eye[None])[0]) for body in scene.bodies]
+    frame = round(float(np.interp(phase, fractions(scene.cycle), np.arange(len(scene.cycle)))))
+    drawn = (body for body in scene.bodies if body.shown is None or body.shown[frame])
+    return [(body, seen_from(pose_at(body.poses, scene.cycle, phase)[None], eye[None])[0]) for body in drawn]
 
 
 def _around(box, share):

@@ -50,8 +50,8 @@ def test_a_four_bar_from_clicks_moves():
     assert missing == ("remaining degrees of freedom beside the drive: 1; add a drive on another pin, or joints",)
     assert build(hand.spec).assembly.freedom == 1
     assert [joint["connects"] for joint in hand.tables["joints"][4:]] == [
-        ["ground.A", "link.A"],
-        ["link.B", "link_2.A"],
+        ["ground.A", "link_1.A"],
+        ["link_1.B", "link_2.A"],
         ["link_2.B", "link_3.A"],
         ["ground.B", "link_3.B"],
     ]
@@ -65,19 +65,19 @@ def test_a_four_bar_from_clicks_moves():
 def test_a_body_without_joints_stands_where_it_was_clicked(hand):
     missing = hand.use("body", (-80, 10), (-80, 70), (-120, 70))
     assert missing == (
-        "body link is held by no joint: add a pin or a slide",
+        "body link_1 is held by no joint: add a pin or a slide",
         "remaining degrees of freedom beside the drive: 3; add joints",
     )
     assert not connected(hand.spec)
-    assert hand.tables["bodies"]["link"]["points"]["C"] == ["-120 mm", "70 mm"]
+    assert hand.tables["bodies"]["link_1"]["points"]["C"] == ["-120 mm", "70 mm"]
     drawn = {body.name: body for body in sketch(hand.spec).bodies}
-    assert drawn["link"].poses.tolist() == [[0, 0, 0], [0, 0, 0]] and abs(drawn["coupler"].poses[0, 0] - 0.04) < 1e-9
+    assert drawn["link_1"].poses.tolist() == [[0, 0, 0], [0, 0, 0]] and abs(drawn["coupler"].poses[0, 0] - 0.04) < 1e-9
 
 
 def test_a_pin_on_a_bar_makes_the_point_and_says_what_remains(hand):
     hand.use("body", (-80, 0), (-80, 60))
-    assert hand.use("pin", (-80, 30)) == ("remaining degrees of freedom beside the drive: 1; body link is held by one joint only",)
-    assert hand.tables["bodies"]["link"]["points"]["C"] == ["-80 mm", "30 mm"]
+    assert hand.use("pin", (-80, 30)) == ("remaining degrees of freedom beside the drive: 1; body link_1 is held by one joint only",)
+    assert hand.tables["bodies"]["link_1"]["points"]["C"] == ["-80 mm", "30 mm"]
 
 
 def test_a_slide_has_its_direction_in_the_frame_of_the_second_body(hand):
@@ -180,7 +180,7 @@ def test_a_body_that_goes_takes_its_supports_along(hand):
     hand.use("pin", (300, 0))
     kept = set(hand.tables["ground"]["points"])
     hand.use("delete", (340, 20))  # inside the plate, far from its sides
-    assert "link" not in hand.tables["bodies"] and set(hand.tables["ground"]["points"]) == kept - {"A"} == {"O2", "O4"}
+    assert "link_1" not in hand.tables["bodies"] and set(hand.tables["ground"]["points"]) == kept - {"A"} == {"O2", "O4"}
 
 
 def test_a_preset_to_begin_with_moves_and_has_nothing_but_a_crank():

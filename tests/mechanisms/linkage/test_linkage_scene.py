@@ -362,6 +362,35 @@ def test_a_body_whose_holes_meet_has_no_plate_and_a_finding():
         plates(alone)
 
 
+# -- forces --------------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("over", "low", "high", "share"), [("time [s]", 1.5, 1.75, 0.25), ("angle [deg]", 540, 630, 0.25), ("speed [rpm]", 50, 70, 1.0)]
+)
+def test_the_arrow_of_a_force_is_there_while_it_acts_and_points_along_it(tmp_path, over, low, high, share):
+    """The second turn of a crank at 60 rpm: the factor is -1 in its third quarter, or at this speed."""
+    small = 1e-3 * (high - low)
+    rows = [(0, 0), (low - small, 0), (low, -1), (high, -1), (high + small, 0), (9e3, 0)]
+    (tmp_path / "factor.csv").write_text("\n".join([f"{over},factor", *(f"{x},{y}" for x, y in rows)]), encoding="utf-8")
+    crank = registry.mechanism("linkage").presets()["crank"].read_text(encoding="utf-8")
+    load = '[[forces]]\nname = "push"\nbody = "crank"\npoint = "A"\nforce = ["0 N", "5 N"]\nfile = "factor.csv"\n'
+    (tmp_path / "crank.toml").write_text(crank + load, encoding="utf-8")
+    drawn = LINKAGE.scene(build(dw.load(tmp_path / "crank.toml")))
+    (arrow,) = [body for body in drawn.bodies if body.name == "force push"]
+    crank_angle = np.degrees(drawn.cycle)
+    assert np.mean(arrow.shown) == pytest.approx(share, abs=0.02)
+    if share < 1:
+        assert crank_angle[arrow.shown].min() >= 178 and crank_angle[arrow.shown].max() <= 272
+    assert arrow.poses[arrow.shown, 2] == pytest.approx(1.5 * np.pi)  # downwards: 5 N upwards, times -1
+
+
+def test_the_arrow_of_a_steady_force_is_always_there():
+    spec = dw.load(registry.mechanism("linkage").presets()["crank"], ['forces=[{name="F", body="crank", point="A", force=["3 N", "0 N"]}]'])
+    (arrow,) = [body for body in LINKAGE.scene(build(spec)).bodies if body.name == "force F"]
+    assert arrow.shown.all() and arrow.poses[:, 2] == pytest.approx(0.0)
+
+
 # -- outlines ------------------------------------------------------------------------------------------------------------------
 
 

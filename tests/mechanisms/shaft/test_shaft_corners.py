@@ -356,6 +356,21 @@ def test_deflections_count_along_the_plane_of_the_loads():
     assert both["stations.m2.displacement"] == pytest.approx(np.sqrt(2) * down["stations.m2.deflection"], rel=1e-9)
 
 
+@pytest.mark.parametrize(
+    ("change", "along"),
+    [
+        ({"loads": [{"position": "100 mm", "force": "500 N", "angle": "0 deg"}]}, "along the loads"),
+        ({"loads": [{"position": "100 mm", "force": "500 N"}], "gravity": ["9.81 m/s^2", "0 m/s^2", "0 m/s^2"]}, "along -y"),
+        ({"loads": [{"position": "100 mm", "force": "500 N"}], "analysis": {"direction": "30 deg"}}, "along the given direction"),
+    ],
+)
+def test_without_stations_there_are_no_unit_loads_to_speak_of(change, along):
+    result = dw.run(shaft(stations=[], **change))
+    told = [column.meaning for column in result.tables["diagram"].columns]
+    assert told[1] == f"deflection {along}" and not [text for text in told if "unit load" in text]
+    assert {v.meaning.partition("' ")[2] for k, v in result.values.items() if k.endswith(".reaction")} == {f"{along}, on the shaft"}
+
+
 def test_what_fails_first_knows_the_rating_of_the_inner_geometry():
     bare = {k: v for k, v in BALLS.items() if k != "static_rating"}
     result = dw.run(shaft(bearings=pair("geometry", bare, free=["axial", "tilt"])))

@@ -9,6 +9,7 @@ import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from copy import deepcopy
+from itertools import count
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -105,7 +106,7 @@ def _body(clicked: Clicked, places: Sequence[Place]) -> None:
     length = sum(math.dist(a, b) for a, b in zip(corners, corners[1:], strict=False))
     mass, size = BAR * length, max(math.dist(a, b) for a in corners for b in corners)
     bodies = clicked.tables.setdefault("bodies", {})
-    bodies[_unused(_numbered("link"), {*bodies, GROUND})] = {
+    bodies[_unused((f"link_{number}" for number in count(1)), bodies)] = {
         "mass": f"{mass:.3g} kg",
         "inertia": f"{mass * size**2 / 12:.3g} kg m^2",
         "centroid": _lengths(np.mean(corners, axis=0)),
@@ -249,7 +250,7 @@ ACTS = {
     "delete": _delete,
 }
 TOOLS = (
-    Tool("body", "Body", "Click the points of the body; Enter or a double click ends it", 2, 12),
+    Tool("body", "Body", "Draw a bar with one stroke, or click the points of the body; Enter or a double click ends it", 2, 12),
     Tool("pin", "Pin", "Click a place that two bodies share, or a body to pin it to the frame"),
     Tool("slide", "Slide", "Click a point, then a second place in the direction of the slide", 2, 2),
     Tool("drive", "Drive", "Click the pin that the drive turns; each degree of freedom can have a drive of its own", picks=True),
@@ -367,7 +368,7 @@ def _letters() -> Iterator[str]:
 
 
 def _numbered(name: str) -> Iterator[str]:
-    """link, link_2, link_3 ..."""
+    """pin, pin_2, pin_3 ..."""
     stem, number = re.sub(r"_\d+$", "", name), 1
     while True:
         yield stem if number == 1 else f"{stem}_{number}"

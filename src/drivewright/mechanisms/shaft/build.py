@@ -13,6 +13,7 @@ from drivewright.mechanisms.shaft.bearing_table import Bearing
 from drivewright.mechanisms.shaft.refusals import is_rolling, refuse_contradictions
 from drivewright.mechanisms.shaft.spec import ShaftSpec
 from drivewright.mechanisms.shaft.tables import Analysis, Carried, Gear
+from drivewright.shafts.tables import UNIT_LOADS
 from drivewright.spec.csv_columns import read_columns
 
 DOWN = np.array([0.0, -1.0])
@@ -33,6 +34,17 @@ class ShaftModel:
         """Unit vector (x, y) of the unit loads: as given, else that of the loads where they have one, else down."""
         given = self.spec.analysis.direction
         return common_direction(self.spec) if given is None else shafts.transverse_direction(given)
+
+    @property
+    def direction_words(self) -> tuple[str, str]:
+        """What lies along `direction`, and 90° clockwise from it: the unit loads, where there are stations that they act on."""
+        if self.spec.stations:
+            return UNIT_LOADS
+        if self.spec.analysis.direction is not None:
+            return "along the given direction", "across the given direction, 90° clockwise from it"
+        if np.array_equal(self.direction, DOWN):
+            return "along -y", "along -x"
+        return "along the loads", "across the loads, 90° clockwise from them"
 
     @property
     def names(self) -> tuple[str, ...]:

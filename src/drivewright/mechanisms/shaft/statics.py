@@ -26,9 +26,10 @@ def statics(model: ShaftModel, done: Answers) -> Answer:
         findings = ("there are no loads: deflections and stresses are absent, and the flexibility is that of the unloaded shaft",)
         return Answer(values, (), checks, findings, data=loaded)
     along = shafts.diagram(loaded, SAMPLES)
-    values |= station_values(loaded.equilibrium, model.direction) | support_values(loaded.equilibrium, model.direction)
+    along_loads = "along unit loads" if model.spec.stations else model.direction_words[0]
+    values |= station_values(loaded.equilibrium, model.direction) | support_values(loaded.equilibrium, model.direction, along_loads)
     values |= extreme_values(along)
-    tables = [diagram_table(along, model.direction), reaction_table(loaded.equilibrium)]
+    tables = [diagram_table(along, model.direction, model.direction_words), reaction_table(loaded.equilibrium)]
     values |= _gear_values(model, loaded.equilibrium)
     tables.append(_force_vectors(model, loaded.equilibrium))
     return Answer(values, tuple(tables), (*checks, *_checks(model, loaded, along)), data=loaded)

@@ -9,6 +9,7 @@ from drivewright.labels import in_words
 from drivewright.multibody.analyses.cycle_poses import CyclePoses, cycle_poses
 from drivewright.multibody.analyses.magnified_play import bearing_shapes, journal_body, magnify_play
 from drivewright.multibody.analyses.simulation_model import SimulationModel
+from drivewright.multibody.curves import curve_values
 from drivewright.multibody.drawing import bar_half_width, coil_symbol, positions_of, rounded
 from drivewright.multibody.forces.load import AppliedForce
 from drivewright.multibody.joints.joint import JointDrawing
@@ -17,6 +18,7 @@ from drivewright.multibody.model import GROUND, PointSpring
 from drivewright.scene import Body, Frame, Scene, Shape, Trace, polygon
 
 COLOURS = ("blue", "orange", "green", "violet", "steel")
+LEAST_FACTOR = 1e-3  # of its greatest over the cycle, below which a load counts as gone
 
 
 def animate(model: SimulationModel, points: Mapping[str, Floats]) -> Scene:
@@ -104,7 +106,7 @@ def _spring_bodies(springs: Iterable[PointSpring], cycle: CyclePoses, half_width
 
 
 def _force_bodies(forces: Iterable[AppliedForce], cycle: CyclePoses, half_width: float) -> Iterator[Body]:
-    """Every applied force as an arrow whose tip is where it acts."""
+    """Every applied force as an arrow whose tip is where it acts, drawn while it does; one with a negative factor points the other way."""
     w = half_width
     arrow = polygon(
         [
@@ -120,6 +122,19 @@ def _force_bodies(forces: Iterable[AppliedForce], cycle: CyclePoses, half_width:
     for force in forces:
         poses, name = cycle.frames(force.point.body), in_words(force.name)
         tip = positions_of(force.point[1:], poses)
-        angle = np.arctan2(force.direction[1], force.direction[0]) + (poses[:, 2] if force.follows else np.zeros(len(poses)))
+        factor = _load_factor(force, cycle)
+        angle = np.arctan2(force.direction[1], force.direction[0]) + (poses[:, 2] if force.follows else 0.0) + np.pi * (factor < 0)
         label = name if name.startswith("force") else f"force {name}"
-        yield Body(f"force {force.name}", label, (Shape("body", arrow),), np.column_stack([tip, angle]), "steel")
+        acts = np.abs(factor) > LEAST_FACTOR * np.abs(factor).max()
+        yield Body(f"force {force.name}", label, (Shape("body", arrow),), np.column_stack([tip, angle]), "steel", shown=acts)
+
+
+def _load_factor(force: AppliedForce, cycle: CyclePoses) -> Floats:
+    """The load factor of a force in every frame (frames,)."""
+    turned = cycle.frames(force.point.body)[:, 2] - cycle.frames(GROUND)[:, 2]
+    if force.load.over == "time":
+        return curve_values(force.load.curve, cycle.times)
+    if force.load.over == "angle":
+        return curve_values(force.load.curve, turned)
+    speeds = np.gradient(turned, cycle.times) if cycle.period else np.zeros(len(turned))
+    return curve_values(force.load.curve, speeds)

@@ -17,7 +17,7 @@ FINE = 8  # samples from frame to frame where there is play: between two frames 
 
 class CyclePoses(NamedTuple):
     """`poses` {body: (samples, 3)} of the bodies' own frames; every `fine`-th sample is a frame, of which `cycle` (frames,) is the angle
-    of the drive or the time; `period` [s] 0 where nothing moves."""
+    of the drive or the time; `period` [s] 0 where nothing moves, and `start` [s] is the time of the first."""
 
     cycle: Floats
     label: str
@@ -25,6 +25,12 @@ class CyclePoses(NamedTuple):
     period: float
     poses: dict[str, Floats]
     fine: int
+    start: float = 0.0
+
+    @property
+    def times(self) -> Floats:
+        """Times (frames,) [s] of the frames."""
+        return self.start + np.linspace(0.0, self.period, len(self.cycle))
 
     def frames(self, name: str) -> Floats:
         """Poses (frames, 3) of a body."""
@@ -42,8 +48,8 @@ def cycle_poses(model: SimulationModel) -> CyclePoses:
     poses = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     passed = _times(model, start, end, fine)[::fine] - start
     if model.period:
-        return CyclePoses(passed * TURN / model.period, "crank angle", "rad", end - start, poses, fine)
-    return CyclePoses(passed, "time", "s", end - start, poses, fine)
+        return CyclePoses(passed * TURN / model.period, "crank angle", "rad", end - start, poses, fine, start)
+    return CyclePoses(passed, "time", "s", end - start, poses, fine, start)
 
 
 def _last_turn(model, fine):

@@ -8,6 +8,8 @@ design_keys  the keys of a design as jobs see them
 fields       fields of an analysis on the deformed solids
 figures      figures for the page
 fix          the smallest change of a dimension or two with which a failed check passes
+other_part   another bought part with which a failed check passes
+reach        the changes of one dimension with which a value is as wanted
 search       the [optimise] of a design: a search for its best, told while it goes on
 sensitivity  which key moves which number: every key of a design a little down and up, one at a time
 solid        the assembly as triangles for a viewer
@@ -19,12 +21,13 @@ timing       the seconds of each analysis, for an estimate
 from typing import Any
 
 from drivewright.errors import InputError, brief
-from drivewright.studio.jobs import fields, figures, files, fix, search, sensitivity, solid, study, timing
+from drivewright.studio.jobs import fields, figures, files, fix, reach, search, sensitivity, solid, study, timing
 
 # What a page may ask for: nothing that names a place on the disk, another machine, or how much of this one to take.
 JOBS = {
     "sensitivity": sensitivity.sensitivity,
     "fix": fix.fix,
+    "reach": reach.reach_value,
     "timing": timing.timing,
     "study": study.study,
     "optimise": search.optimise,
@@ -38,12 +41,13 @@ JOBS = {
 MOST, LONGEST = 100, 500  # texts in an option, and characters in one
 OPTIONS: dict[str, dict[str, type]] = {
     "fix": {"check": str, "longer": bool},
+    "reach": {"value": str, "target": str, "longer": bool},
     "figures": {"theme": str, "analyses": list},
     "fields": {"analysis": str, "run": bool},
     "study": {"theme": str},
     "optimise": {"theme": str},
     "export": {"format": str, "anyway": bool},
-    "report": {"whole": bool},
+    "report": {"whole": bool, "solids": bool, "language": str},
 }
 
 

@@ -62,17 +62,21 @@ def label(tables: Tables, key: str) -> str:
     words = []
     steps = key.split(".")
     for at, step in enumerate(steps):
-        part = _part(tables, steps[:at], step) if isinstance(place, list) and step.isdecimal() else step
-        place = (
-            place[int(step)]
-            if isinstance(place, list) and step.isdecimal() and int(step) < len(place)
-            else place.get(step)
-            if isinstance(place, dict)
-            else None
-        )
+        part = _part(tables, steps[:at], step) if step.isdecimal() and not isinstance(place, dict) else step
+        place = _inside(place, step)
         name = place.get("name") if isinstance(place, dict) and step.isdecimal() else None
         words.append((name if isinstance(name, str) and name else part).replace("_", " "))
     return " · ".join(words)
+
+
+def _inside(place: Any, step: str) -> Any:
+    """What lies at a step of a key: in a list by its number or name; None where nothing is given."""
+    if isinstance(place, dict):
+        return place.get(step)
+    elements = place if isinstance(place, list) else []
+    if step.isdecimal():
+        return elements[int(step)] if int(step) < len(elements) else None
+    return next((each for each in elements if isinstance(each, dict) and each.get("name") == step), None)
 
 
 def _part(tables: Tables, places: list[str], step: str) -> str:

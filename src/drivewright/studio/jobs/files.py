@@ -12,6 +12,7 @@ from drivewright import runner
 from drivewright.report.content import pictures, program, views
 from drivewright.report.export import export as write_export
 from drivewright.report.folder import file_name, write_run_folder
+from drivewright.report.form import report_form
 from drivewright.report.html import write_report
 from drivewright.spec import set_key, value_at
 from drivewright.spec.keys import leaves
@@ -35,19 +36,22 @@ def export(design: Design, progress: Progress, format: str, anyway: bool = False
         return _files(_stem(design), format, {path.name: path.read_bytes() for path in written})
 
 
-def report(design: Design, progress: Progress, whole: bool = False) -> Files:
-    """The report page of a run as one file, or the `whole` run folder as an archive."""
-    spec = design.spec()
+def report(design: Design, progress: Progress, whole: bool = False, solids: bool = False, language: str = "en") -> Files:
+    """The report page of a run as one file, or the `whole` run folder as an archive; `solids` shows the parts in motion on the page."""
+    form = report_form(language=language)
+    spec, behind = design.spec(), 2 if solids else 1  # steps behind the analyses: the solids, the figures
     model = runner.build(spec)
-    result = advise(runner.run(spec, model=model, progress=progress))
+    result = advise(runner.run(spec, model=model, progress=lambda done, total, text: progress(done, total + behind, text)))
     done = len(result.provenance["analyses"])
-    progress(done, done, "drawing")
-    seen, stem = views(result, model), _stem(design)
+    progress(done, done + behind, "solids" if solids else "drawing")
+    seen, stem = views(result, model, solids), _stem(design)
+    progress(done + behind - 1, done + behind, "drawing")
     with TemporaryDirectory() as folder:
         if not whole:
-            named = [picture._replace(name=file_name(picture.name)) for picture in pictures(result, seen)]
-            return _one(f"{stem}.html", write_report(result, seen, folder, named).read_bytes())
-        out = write_run_folder(result, Path(folder) / stem, seen=seen)
+            drawn = pictures(result, seen, language=form.language)
+            named = [picture._replace(name=file_name(picture.name)) for picture in drawn]
+            return _one(f"{stem}.html", write_report(result, seen, folder, named, form).read_bytes())
+        out = write_run_folder(result, Path(folder) / stem, seen=seen, form=form)
         return _one(
             f"{stem}.zip", archive({path.relative_to(folder).as_posix(): path.read_bytes() for path in out.rglob("*") if path.is_file()})
         )

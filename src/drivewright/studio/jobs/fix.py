@@ -15,6 +15,7 @@ from drivewright.studies.adjustable import dimensions
 from drivewright.studies.advising import advise, is_advisable
 from drivewright.studio.design import Design
 from drivewright.studio.jobs.design_keys import is_locked, label
+from drivewright.studio.jobs.other_part import Place, other_part, places
 from drivewright.studio.jobs.progress import LONGER, Progress
 from drivewright.view.text import SIGNS, quantity
 
@@ -22,18 +23,22 @@ PATIENCE = 30.0  # seconds of the search for a change
 
 
 def fix(design: Design, progress: Progress, check: str = "", longer: bool = False, locks: Sequence[str] = ()) -> dict[str, Any]:
-    """The change of one or two dimensions with which a failed check passes; keys that are locked stay.
+    """The change of one or two dimensions with which a failed check passes, or another bought part; keys that are locked stay.
 
     {"check", "changes": [{"key", "label", "before", "given"}], "load": {key: text}, "value", "limit", "also_passes", "then_fails": labels
-    of other checks whose verdict turns, "reason": why there is no change, "" where there is one, "stopped": the time was over}.
+    of other checks whose verdict turns, "reason": why there is no change, "" where there is one, "stopped": the time was over}.  "pick":
+    {"key", "text"} where the change is another part, which is chosen and not loaded.
     """
     spec = design.spec_on_screen()
     with detailed(progress) as step:
         result = runner.run(spec, progress=step)
     failed = _check_named(result, check)
     seconds = PATIENCE * (LONGER if longer else 1)
+    if is_advisable(failed) and (other := other_part(design, result, failed, progress, seconds / 2, locks)):
+        return _part_found(design, result, failed, *other)
     deadline, free, stopped, found = time.monotonic() + seconds, 0, False, None
-    for asked in _questions(result) if is_advisable(failed) else ():
+    locks = [*locks, *(key for place in places(design) for key in place.overrides)]  # the ratings of a bought part are no dimensions
+    for asked in questions(result) if is_advisable(failed) else ():
         held = {each.key for each in dimensions(asked.spec) if is_locked(design.tables, each.key, locks)}
         here = len(dimensions(asked.spec)) - len(held)
         free += here
@@ -55,7 +60,7 @@ def fix(design: Design, progress: Progress, check: str = "", longer: bool = Fals
     return _fix_found(design, result, failed, found)
 
 
-def _questions(result: Result[Any]) -> tuple[Result[Any], ...]:
+def questions(result: Result[Any]) -> tuple[Result[Any], ...]:
     """What may change, one after the other: the unknowns of the design's own search, then what its kind calls adjustable."""
     if result.spec.optimise is None:
         return (result,)
@@ -90,7 +95,7 @@ def _fix_found(design: Design, result: Result[Any], failed: Check, advice: Advic
     labels = {each.name: check_label(each) for each in result.checks}
     return {
         "check": failed.name,
-        "changes": [_change(design.tables, change) for change in advice.changes],
+        "changes": [changed(design.tables, change) for change in advice.changes],
         "load": {change.key: change.given for change in advice.changes},
         "value": quantity(advice.value, failed.unit),
         "limit": f"{SIGNS[failed.sense]} {quantity(failed.limit, failed.unit)}",
@@ -101,7 +106,26 @@ def _fix_found(design: Design, result: Result[Any], failed: Check, advice: Advic
     }
 
 
-def _change(tables: Mapping[str, Any], change: Change) -> dict[str, str]:
+def _part_found(design: Design, result: Result[Any], failed: Check, place: Place, part: str, tried: Result[Any]) -> dict[str, Any]:
+    """The answer where another bought part makes the check pass; "pick" is what the page then asks for."""
+    labels, after = {each.name: check_label(each) for each in result.checks}, {each.name: each for each in tried.checks}
+    turned = [each for each in result.checks if each.name in after and each.name != failed.name and after[each.name].ok != each.ok]
+    return {
+        "check": failed.name,
+        "changes": [{"key": place.key, "label": label(design.tables, place.key), "before": place.part, "given": part}],
+        "load": {},
+        "pick": {"key": place.key, "text": part},
+        "value": quantity(after[failed.name].value, failed.unit),
+        "limit": f"{SIGNS[failed.sense]} {quantity(failed.limit, failed.unit)}",
+        "also_passes": [labels[each.name] for each in turned if not each.ok],
+        "then_fails": [labels[each.name] for each in turned if each.ok],
+        "reason": "",
+        "stopped": False,
+    }
+
+
+def changed(tables: Mapping[str, Any], change: Change) -> dict[str, str]:
+    """A change of a key as the page shows it."""
     return {
         "key": change.key,
         "label": label(dict(tables), change.key),

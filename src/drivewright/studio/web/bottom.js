@@ -13,7 +13,7 @@ import { createSplitter } from "./splitter.js";
 const KEPT = "drivewright-plots";
 
 /** Plots of a result in the language of the page: the panels that `chosen` names, in the order of the names. */
-export function chosenPlots({cycle, plots, first}, chosen, t) {
+function chosenPlots({cycle, plots, first}, chosen, t) {
   const rank = id => (first.indexOf(id) + 1 || first.length + 1), wanted = new Set(chosen);
   const own = plots.map(plot => ({...plot, panels: plot.panels.filter(({id}) => wanted.has(id))})).filter(({panels}) => panels.length);
   const best = ({panels}) => Math.min(...panels.map(({id}) => rank(id)));

@@ -4,9 +4,10 @@ import { pressable, put, putAttribute } from "./parts.js";
 import { element, nice } from "./player.js";
 import { onGrid } from "./snapping.js";
 import { svgPart } from "./svg_parts.js";
-import { refusedText } from "./words.js";
+import { reasonsOf, refusedText } from "./words.js";
 
-const NEAR = 9, FINE = 10, STEP = 12;  // px: what a click falls upon, a step of the grid at least, a step of an arrow key
+const NEAR = 9, FINE = 10, STEP = 12, DRAWN = 12;  // px: what a click falls upon, a step of the grid at least, a step of an arrow key, a press that is a stroke
+const MOVED = "Points are moved when Build is off; here a click sets a place";
 
 /**
  * The builder over a player's drawing: `layer` belongs upon the drawing, `button` into the bar.  `load(scene)` after each scene, `draw()` after
@@ -19,7 +20,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   const panel = element("div", {class: "bd-panel"}, row, words, missing);
   const layer = element("div", {class: "bd-layer", hidden: ""}, sheet, marks, panel);
   const button = pressable({class: "dw-button bd-button", "data-testid": "build"}, () => turn(!on));
-  let on = false, drive = null, tool = null, heard = null, places = [], cursor = null, handles = [], buttons = new Map();
+  let on = false, drive = null, tool = null, heard = null, places = [], cursor = null, pressed = null, handles = [], buttons = new Map();
   marks.setAttribute("class", "bd-marks"); marks.setAttribute("aria-hidden", "true");
 
   const refusal = () => store.state.refused?.[""] || null;
@@ -90,7 +91,24 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   }
   function cancel() { places = []; show(); }
   function leave() { turn(false); button.focus(); }
-  sheet.addEventListener("pointerdown", event => { if (event.button !== 0) return; event.stopPropagation(); cursor = pixelOf(event); place(meant(cursor, event.altKey)); });
+  /** A press sets a place; a stroke is a body from its beginning to its end. */
+  function press(event) {
+    if (event.button !== 0) return;
+    event.stopPropagation();
+    pressed = cursor = pixelOf(event);
+    sheet.setPointerCapture(event.pointerId);
+  }
+  function release(event) {
+    if (!pressed) return;
+    const from = pressed, at = pixelOf(event), stroke = Math.hypot(at[0] - from[0], at[1] - from[1]) > DRAWN, several = chosen().most > 1;
+    pressed = null;
+    if (stroke && !several) { words.textContent = t(MOVED); return; }
+    place(meant(from, event.altKey));
+    if (stroke && places.length) { place(meant(at, event.altKey)); finish(); }
+  }
+  sheet.addEventListener("pointerdown", press);
+  sheet.addEventListener("pointerup", release);
+  sheet.addEventListener("pointercancel", () => { pressed = null; });
   sheet.addEventListener("pointermove", event => { cursor = pixelOf(event); draw(); });
   sheet.addEventListener("pointerleave", () => { cursor = null; draw(); });
   sheet.addEventListener("dblclick", event => { event.stopPropagation(); finish(); });
@@ -101,7 +119,8 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   // ---- what is seen
   function draw() {
     if (!on) return;
-    const clicked = places.map(toPixel), next = cursor && toPixel(meant(cursor)), all = next && chosen()?.most > 1 ? [...clicked, next] : clicked;
+    const clicked = places.map(toPixel), next = cursor && toPixel(meant(cursor)), from = pressed && chosen()?.most > 1 ? [toPixel(meant(pressed))] : [];
+    const all = next && chosen()?.most > 1 ? [...clicked, ...from, next] : clicked;
     const line = svgPart("polyline", {points: all.map(at => at.map(part => part.toFixed(1)).join(",")).join(" ")});
     const dots = [...clicked, ...(next ? [next] : [])].map(([x, y], n) => svgPart("circle", {cx: x.toFixed(1), cy: y.toFixed(1), r: 5, class: n < clicked.length ? "is-set" : ""}));
     marks.replaceChildren(line, ...dots);
@@ -122,7 +141,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
     sheet.setAttribute("aria-label", t("Drawing to build on: arrow keys move, the space bar sets a place, Enter ends"));
     words.textContent = refused ? refusedText(refused, t) : current ? t(current.hint) : "";
     words.classList.toggle("is-refused", Boolean(refused));
-    const texts = (store.state.scene?.missing || []).filter(text => text !== refused);
+    const texts = [...(store.state.scene?.missing || []), ...reasonsOf(store.state)].filter(text => text !== refused);
     missing.replaceChildren(...texts.map(text => element("li", {}, t(text))));
     missing.hidden = !texts.length;
     draw();

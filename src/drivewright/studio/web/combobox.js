@@ -55,7 +55,14 @@ export function createCombobox(input, options, name, none, opened = () => {}) {
     place();
     list.scrollTop = 0;
     mark(query ? -1 : shown.findIndex(({text, value}) => text === input.value || value === input.value));
+    if (!query && active < 0) scrollTo(closest(input.value.trim()));
   }
+  /** The option that begins most like a text that is none of them: NU206E of NU206. */
+  function closest(text) {
+    const alike = other => [...text].findIndex((letter, n) => letter !== other[n]), size = ({value}) => { const n = alike(value); return n < 0 ? text.length : n; };
+    return shown.reduce((best, one, n) => size(one) > (best < 0 ? 0 : size(shown[best])) ? n : best, -1);
+  }
+  function scrollTo(n) { list.children[n]?.scrollIntoView({block: "center"}); }
   function close() {
     if (!open) return;
     open = false;
@@ -84,7 +91,7 @@ export function createCombobox(input, options, name, none, opened = () => {}) {
   }
   input.addEventListener("keydown", keys, {capture: true});
   input.addEventListener("input", event => { if (event.isTrusted) show(input.value.trim()); });
-  input.addEventListener("click", () => { if (open) close(); else show(""); });
+  input.addEventListener("click", () => { if (!open) { show(""); input.select(); } });  // what is typed next replaces it
   input.addEventListener("blur", close);
   input.addEventListener("focus", () => addEventListener("scroll", scrolled, {capture: true, passive: true}));
   function scrolled(event) {

@@ -36,7 +36,7 @@ function marksOf({log}, [low, high]) {
 }
 
 /** Points of a body at a step as x, y, z in a row, displacements drawn `scale` times as large. */
-export function deformedPoints(body, step, scale) {
+function deformedPoints(body, step, scale) {
   const {points, displacements} = body, moved = displacements[Math.min(step, displacements.length - 1)];
   return Float32Array.from(points, (x, i) => x + scale * moved[i]);
 }

@@ -37,7 +37,7 @@ export function createDesigns({store, t}, {fresh, example, close}) {
   const group = ({kind, summary, presets, examples = [], ...more}) =>
     element("div", {class: "st-kind", role: "group", "aria-label": t(spoken(kind))},
       element("div", {class: "st-item-head"}, t(spoken(kind))), element("div", {class: "st-item-hint"}, t(summary || "")),
-      element("div", {class: "st-cards"}, ...[...presets].sort((a, b) => (b === more.start) - (a === more.start)).map(preset({kind, ...more})), ...examples.map(worked)));
+      element("div", {class: "st-cards"}, ...presets.map(preset({kind, ...more})), ...examples.map(worked)));
   /** A box that leaves only the cards whose words hold all that is typed; a kind without any goes too. */
   function finder(groups) {
     const box = element("input", {class: "st-find-design", type: "search", placeholder: t("Find a design"), "aria-label": t("Find a design"),
@@ -64,6 +64,9 @@ export const presetTitle = ({state: {kinds = [], design}}, name) => kinds.find((
 export const drawingsOf = ({state: {kinds = [], design}}) =>
   (kinds.find(({kind}) => kind === design?.kind)?.drawings || []).filter(({name}) => design.drawings?.includes(name) ?? true);
 
+/** The address of a drawing, with its words in the language of the page. */
+export const drawingAddress = ({state: {lang}}, name) => `/web/drawing.${name}${lang === "zh" ? ".zh" : ""}.svg`;
+
 /** What the menu of drawings holds; `t` translates a title. */
 export const drawings = (store, t) => drawingsOf(store).map(({name, title}) =>
-  element("figure", {class: "st-drawing"}, element("img", {src: `/web/drawing.${name}.svg`, alt: t(title), loading: "lazy"})));
+  element("figure", {class: "st-drawing"}, element("img", {src: drawingAddress(store, name), alt: t(title), loading: "lazy"})));

@@ -4,7 +4,7 @@ import { overlays, panelsOf, translated } from "./overlays.js";
 import { element, fitCanvas, fixed, watchTheme } from "./player.js";
 import { axisOf, layout, paintPanel, runOf, unitText, unpacked, valueAt } from "./plotting.js";
 
-const LEFT = 62, RIGHT = 16, FOOT = 38, GAP = 19, ROW = 66;  // px
+const LEFT = 62, RIGHT = 16, FOOT = 38, GAP = 19, ROW = 66, WORDY = 620;  // px; from WORDY on there is room for words beside the numbers
 
 /** Room that the drawing leaves on its left and right, so that the numbers of the diagrams stand beside what is drawn. */
 export const SIDES = LEFT + 6;
@@ -75,7 +75,7 @@ export function createDiagrams(host, getPlayer, {store, t}, shown) {
       const out = heads.children[n]?.querySelectorAll("output")[k], values = one.values;
       if (!out || !places[n]) return;
       const value = pointer === null ? largest(values) : valueAt(runOf(panel, one), values, places[n].placeAt(pointer));
-      out.textContent = `${pointer === null ? `${t("largest")} ` : ""}${fixed(value, panel.decimals)}`;
+      out.textContent = `${pointer === null && surface.width > WORDY ? `${t("largest")} ` : ""}${fixed(value, panel.decimals)}`;
     }));
   }
   node.addEventListener("pointermove", event => { pointer = event.clientX - canvas.getBoundingClientRect().left; show(); });

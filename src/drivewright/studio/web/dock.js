@@ -1,6 +1,6 @@
 // The dimension drawing of a design beside its form: it stands above the fields while they are typed.
 
-import { drawingsOf } from "./designs.js";
+import { drawingAddress, drawingsOf } from "./designs.js";
 import { icon } from "./icons.js";
 import { putAttribute, pressable, same } from "./parts.js";
 import { element } from "./player.js";
@@ -11,7 +11,7 @@ export function createDock({store, t}) {
   let made = null, shown = [], on = false;
 
   function show() {
-    const drawn = drawingsOf(store), names = drawn.map(({name}) => name);
+    const drawn = drawingsOf(store), names = drawn.map(({name}) => drawingAddress(store, name));
     if (made) {
       made.hidden = !drawn.length;
       putAttribute(made, "aria-pressed", on);
@@ -20,7 +20,7 @@ export function createDock({store, t}) {
     if (node.hidden || same(names, shown)) return;
     shown = names;
     node.replaceChildren(...drawn.map(({name, title}) => pressable({title: t("Larger or smaller")}, enlarge,
-      element("img", {src: `/web/drawing.${name}.svg`, alt: t(title)}))));
+      element("img", {src: drawingAddress(store, name), alt: t(title)}))));
     node.scrollTop = 0;
   }
   /** Large enough to be read, with what was in the middle still there; or all of it. */

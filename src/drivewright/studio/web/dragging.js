@@ -13,33 +13,36 @@ const AHEAD = 3, PATIENCE = 120;  // steps of a drag that may wait for their dra
 
 /**
  * The drag of a handle.  `place(handle, point)` is the pixel of a point in the frame of its body, `frame(handle)` the pose of that frame,
- * `others(handle)` the other handles with their pixels, `nameOf(handle)` its name, `numbers(handle)` the numbers of its keys.
+ * `others(handle)` the other handles with their pixels, `nearest(pixel)` {button, handleOf} of the one under a hand, `nameOf(handle)` its name, `numbers(handle)` the numbers of its keys.
  */
-export function createDrag({layer, guides, bubble, place, frame, others, nameOf, numbers, view, undrawn, say, t, clock}) {
+export function createDrag({layer, guides, bubble, place, frame, others, nearest, nameOf, numbers, view, undrawn, say, t, clock}) {
   const nudges = createGesture("nudge");
   let hold = null, pointed = null, box = null, pending = 0, fading = 0, bubbleSize = {length: 0, wide: 0, high: 0};
   let unanswered = 0, asked = -Infinity;  // steps of which the server has said nothing yet; when the last one was sent
   let nudged = null;  // {button, handleOf, start, now, gesture, seen} of the last arrow key
 
   function attach(button, handleOf) {
-    button.addEventListener("pointerdown", event => { if (event.button === 0) press(event, button, handleOf); });
+    button.addEventListener("pointerdown", event => { if (event.button === 0) press(event, nearest(pixel(event))); });
     button.addEventListener("keydown", event => keys(event, button, handleOf));
-    button.addEventListener("pointerenter", event => { if (event.pointerType === "mouse") point(button, handleOf); });
+    for (const name of ["pointerenter", "pointermove"]) button.addEventListener(name, event => { if (event.pointerType === "mouse" && !hold) point(nearest(pixel(event))); });
     button.addEventListener("pointerleave", () => point(null));
     button.addEventListener("blur", () => { if (nudged?.button === button) settle(); });
     button.addEventListener("dblclick", event => event.stopPropagation());
   }
 
   /** Says what the handle under the mouse is called, with its numbers. */
-  function point(button, handleOf) {
-    pointed = button && {button, handleOf};
+  function point(near) {
+    if (near?.button === pointed?.button) return;
+    pointed?.button.classList.remove("is-pointed");
+    pointed = near;
+    pointed?.button.classList.add("is-pointed");
     show();
   }
 
   // ---- pointer
-  function press(event, button, handleOf) {
+  function press(event, {button, handleOf}) {
     event.preventDefault(); event.stopPropagation();
-    if (hold) return;  // another finger has it
+    if (hold || button.disabled) return;  // another finger has it, or it is locked
     if (clock.playing) { clock.set(0); clock.pause(); }
     const handle = handleOf(), start = numbers(handle);
     if (!start) return;

@@ -2,7 +2,7 @@
 
 import { createCombobox } from "./combobox.js";
 import { icon } from "./icons.js";
-import { decimals, quantityOf, unitsRead, unitsTyped, withUnit } from "./numbers.js";
+import { decimals, quantityOf, shortened, unitsRead, unitsTyped, withUnit } from "./numbers.js";
 import { tool } from "./parts.js";
 import { element } from "./player.js";
 import { createGesture, createSlider } from "./slider.js";
@@ -60,11 +60,15 @@ function createControl(field, name, {t, parts, learn}) {
   const box = element("input", {...common, type: "text", spellcheck: "false", autocomplete: "off", autocapitalize: "off"});
   if (field.optional || field.value === null) box.placeholder = t(String(field.default ?? "not set"));
   const counted = COUNTED.includes(field.kind), told = own.length > 0 || Boolean(field.list);
-  const read = text => counted ? unitsRead(text) : named || told ? t(text) : text, value = text => options().find(one => one.text === text)?.value ?? text;
-  /** The text of the spec: a title that is shown in the language of the page is still the one of the spec. */
-  const text = () => counted ? unitsTyped(box.value) : named && box.value === read(spec) ? spec : value(box.value);
+  const read = text => counted ? shortened(unitsRead(text), LONG) : named || told ? t(text) : text, value = text => options().find(one => one.text === text)?.value ?? text;
+  /** The text of the spec: what is shown shorter, or a title in the language of the page, is still what the spec says. */
+  const text = () => (counted || named) && box.value === read(spec) ? spec : counted ? unitsTyped(box.value) : value(box.value);
   let spec = "";
-  function show(now) { spec = now.text ?? ""; if (box.value !== read(spec)) box.value = read(spec); }
+  function show(now) {
+    spec = now.text ?? "";
+    if (box.value !== read(spec)) box.value = read(spec);
+    box.title = counted && read(spec) !== unitsRead(spec) ? unitsRead(spec) : "";
+  }
   const combo = told && createCombobox(box, options, name, t("none"), () => field.list && learn(field.list));
   return {input: box, show, text, whole: false, searching: () => Boolean(combo && combo.searching()), relist: () => combo && combo.relist()};
 }
@@ -142,7 +146,7 @@ export function createRow(field, context) {
     if (typed) return;
     control.show(row.field);
     original = row.field.text ?? "";
-    if (counted) root.classList.toggle("st-long", original.length > LONG);
+    if (counted) root.classList.toggle("st-long", input.value.length > LONG);
   }
   function addSlider() {
     slider = createSlider(row, {bounds: context.bounds, t, moved, ended});

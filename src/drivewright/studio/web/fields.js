@@ -113,7 +113,7 @@ export function createFields(body, {store, say, t}, rebuilt) {
     body.classList.toggle("st-searching", words.length > 0);
     for (const {field, root} of rows.values()) {
       const title = titles.get(root.closest(".st-group")?.dataset.key ?? "") || "";
-      found += miss(root, !hit(`${field.key} ${field.label} ${field.zh || ""} ${field.hint || ""} ${title}`));
+      found += miss(root, !hit(`${field.key} ${field.label} ${field.zh || ""} ${field.hint || ""} ${t(field.hint || "")} ${title}`));
     }
     const bare = made => words.length > 0 && !made.querySelector(".st-fields > [data-key]:not(.st-miss)");
     for (const made of body.querySelectorAll(".st-group")) miss(made, bare(made));

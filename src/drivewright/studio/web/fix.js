@@ -6,7 +6,7 @@ import { element } from "./player.js";
 const NAME = "fix";  // of the job: one at a time
 
 /** "prime radius 36 mm instead of 24 mm and ..." */
-function sentence({changes, value}, t) {
+export function sentence({changes, value}, t) {
   const parts = changes.map(({label, given, before}) => t("* * instead of *", t(label), given, before));
   return t("* gives *", parts.join(t(" and ")), value);
 }
@@ -17,12 +17,12 @@ function sentence({changes, value}, t) {
  */
 export function createFix(place, {store, say, t}) {
   const bar = progress(NAME, {say, t}), words = element("p", {class: "fx-words", role: "status"}), more = element("p", {class: "pn-note"});
-  const apply = button(t("Apply"), () => { say({what: "load", changes: load}); dismiss(); }, {testid: "fix-apply", look: "main"});
+  const apply = button(t("Apply"), () => { say(pick ? {what: "pick", ...pick} : {what: "load", changes: load}); dismiss(); }, {testid: "fix-apply", look: "main"});
   const away = button(t("Dismiss"), dismiss, {testid: "fix-dismiss", look: "quiet"});
   const longer = button(t("Search longer"), () => ask(wanted, true), {testid: "fix-longer", look: "quiet"});
   const row = element("div", {class: "pn-row"}, apply, longer, away);
   const box = element("div", {class: "fx-box", "data-testid": "fix-answer"}, bar.node, words, more, row);
-  let wanted = null, load = {}, before = null, gen = null;
+  let wanted = null, load = {}, pick = null, before = null, gen = null;
 
   function ask(check, patient = false) {
     wanted = check;
@@ -51,12 +51,12 @@ export function createFix(place, {store, say, t}) {
     if (job === before || !wanted) return;
     before = job;
     const done = job.state === "done" && job.answer, [main, small] = told(job);
-    load = done ? job.answer.load : {};
+    load = done ? job.answer.load : {}; pick = done && job.answer.pick || null;  // another bought part is chosen, with what it has of its own
     bar.show(job);
     put(words, main); put(more, small);
     words.hidden = !main; more.hidden = !small;
     words.classList.toggle("pn-bad", job.state === "failed");
-    apply.hidden = !Object.keys(load).length;
+    apply.hidden = !pick && !Object.keys(load).length;
     longer.hidden = !(done && job.answer.stopped);
     row.hidden = job.state === "running";
   }

@@ -3,7 +3,7 @@
 import { createDock } from "./dock.js";
 import { createFields } from "./fields.js";
 import { icon } from "./icons.js";
-import { pressable } from "./parts.js";
+import { button, pressable } from "./parts.js";
 import { element } from "./player.js";
 import { createText } from "./text.js";
 import { refusedText } from "./words.js";
@@ -18,7 +18,7 @@ export function createForm(host, {store, say, t}) {
   const strip = element("div", {class: "st-strip", role: "alert", "data-testid": "message-", hidden: ""});
   const fields = createFields(panes.form, {store, say, t}, () => { if (box?.value) fields.search(box.value); });
   const dock = createDock({store, t});
-  let text = null, tab = "form", tabs = {}, box = null;
+  let text = null, tab = "form", tabs = {}, box = null, find = () => {}, drive = null;
 
   // ---- the head
   function choose(name) {
@@ -43,17 +43,21 @@ export function createForm(host, {store, say, t}) {
   }
   function searchBox() {
     const none = element("span", {class: "st-nothing", hidden: ""}, t("none"));
-    const find = () => { none.hidden = fields.search(box.value) > 0 || !box.value; };
+    find = () => { none.hidden = fields.search(box.value) > 0 || !box.value; };
     box = element("input", {type: "search", class: "st-search", placeholder: t("Find a field"), "aria-label": t("Find a field"),
       spellcheck: "false", autocomplete: "off", "data-testid": "search"});
     box.addEventListener("input", find);
     box.addEventListener("keydown", event => {
       if (event.key !== "Escape" || !box.value) return;
       event.preventDefault();
-      box.value = "";
-      find();
+      empty();
     });
     return element("div", {class: "st-search-hold"}, icon("search"), box, none);
+  }
+  function empty() {
+    if (!box?.value) return;
+    box.value = "";
+    find();
   }
   function buildHead() {
     const row = element("div", {class: "st-tabs", role: "tablist", "aria-label": t("The design as a form or as text")}, tabButton("form", t("Form")), tabButton("text", t("Text")));
@@ -71,7 +75,9 @@ export function createForm(host, {store, say, t}) {
     if (strip.dataset.lines === lines.join("\n")) return;
     strip.dataset.lines = lines.join("\n");
     strip.hidden = !lines.length;
-    strip.replaceChildren(...lines.map(line => element("p", {}, refusedText(line, t))));
+    const stands = Object.values(store.state.refused).some(({text}) => text === null) && store.state.design?.undo;  // the design as it is has no solution
+    const back = stands ? [button(t("Undo"), () => say({what: "undo"}), {testid: "strip-undo"})] : [];
+    strip.replaceChildren(...lines.map(line => element("p", {}, refusedText(line, t))), ...back);
   }
   /** All words anew; what was typed into the text stays. */
   function restart() {
@@ -84,6 +90,8 @@ export function createForm(host, {store, say, t}) {
   }
   host.append(element("div", {class: "st-form-pane"}, head, dock.node, strip, panes.form, panes.text));
   const stops = [store.on(["lang"], restart), store.on(["focus"], ({focus}) => { if (focus) { choose("form"); fields.focus(focus); } }),
+    store.on(["hints"], fields.restart),
+    store.on(["design"], ({design}) => { if (design?.opened !== drive) { drive = design?.opened; empty(); } }),  // what was looked for belongs to another drive
     store.on(["design", "refused"], () => { fields.show(); showStrip(); showText(); })];
   return {destroy() { for (const stop of stops) stop(); fields.destroy(); dock.stop(); host.replaceChildren(); }};
 }

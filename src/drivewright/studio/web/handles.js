@@ -13,7 +13,7 @@ const KEPT = "drivewright-handles";
 export const FACTORS = {m: 1, mm: 1e-3, cm: 1e-2, um: 1e-6, "µm": 1e-6, in: 0.0254, inch: 0.0254, rad: 1, deg: Math.PI / 180, "°": Math.PI / 180, "": 1};
 
 /** The keys that a handle moves: the two components of a point, or one number. */
-export const keysOf = ({key, direction}) => direction ? [key] : [`${key}.0`, `${key}.1`];
+const keysOf = ({key, direction}) => direction ? [key] : [`${key}.0`, `${key}.1`];
 
 /** The numbers of a handle's keys: [{key, unit, factor, value, whole, low, high}] as the form shows them; null where it has no such fields. */
 export function numbersOf(handle, fields) {
@@ -35,10 +35,10 @@ export function createHandles(getPlayer, tools) {
   const bubble = element("output", {class: "hd-bubble", hidden: ""});
   const names = createNames(tools);
   const placed = new WeakMap();  // of each button, where it stands
-  let packed = [], bodies = [], buttons = [], fields = new Map(), on = recall(), toggle = null;
+  let packed = [], bodies = [], buttons = [], spots = [], fields = new Map(), on = recall(), toggle = null;  // spots: pixel of each handle as drawn
   layer.append(guides, bubble);
 
-  const drag = createDrag({layer, guides, bubble, place, others, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
+  const drag = createDrag({layer, guides, bubble, place, others, nearest, nameOf: names.of, numbers: handle => numbersOf(handle, fields), view: () => getPlayer().view,
     frame: handle => getPlayer().poseOf(handle.body, phase()), undrawn: () => Math.max(0, store.state.design.gen - (store.state.scene?.gen ?? 0)), ...tools});
   const phase = () => clock.playing ? 0 : clock.phase;
 
@@ -49,6 +49,12 @@ export function createHandles(getPlayer, tools) {
   }
   /** The other handles that are points, each with its pixel. */
   function others(handle) { return packed.filter((other, n) => other !== handle && !buttons[n].hidden).map(other => ({...other, at: place(other, other.point)})); }
+
+  /** The handle that is drawn nearest to a pixel: the areas of two beside each other overlap. */
+  function nearest([x, y]) {
+    const far = n => buttons[n].hidden ? Infinity : distance(spots[n], [x, y]), n = packed.reduce((best, _, m) => far(m) < far(best) ? m : best, 0);
+    return {button: buttons[n], handleOf: () => packed[n]};
+  }
 
   function load(scene) {
     const next = scene?.handles || [], same = next.length === packed.length && next.every(({key}, n) => key === packed[n].key);
@@ -100,6 +106,7 @@ export function createHandles(getPlayer, tools) {
       buttons[n].hidden = !kept && !(room && getPlayer().shows(handle.body));
       if (buttons[n].hidden) return;
       shown.push(spot);
+      spots[n] = spot;
       stand(buttons[n], `${spot[0].toFixed(1)}px, ${spot[1].toFixed(1)}px`, handle.direction ? `${angleOf(handle).toFixed(3)}rad` : "");
     });
     drag.draw();

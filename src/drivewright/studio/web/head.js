@@ -29,6 +29,9 @@ const hanging = role => ({"aria-haspopup": role, "aria-expanded": "false"});
 const rule = () => element("i", {class: "st-rule"});
 const held = (...inside) => element("div", {class: "st-hold"}, ...inside);
 
+/** The message that asks for a report, in the language of the page. */
+const reportWanted = ({state: {lang}}, options) => ({what: "job", name: "report", options: {language: lang, ...options}});
+
 // --------------------------------------------------------------------------------------------------------------------- menus
 
 /** What the menus of the bar hold. */
@@ -65,7 +68,13 @@ function createMenus({store, say, t}, popovers) {
     return [element("p", {class: "st-item-hint", "data-testid": "share-hint"}, words), element("div", {class: "st-share"}, box, copy),
       element("div", {class: "st-share"}, file)];
   }
-  return {comparing, sharing};
+  /** The report in other forms than a page alone. */
+  function reporting() {
+    const ask = options => () => say(reportWanted(store, options));
+    return [item(t("Report with solids in motion"), t("the parts in three dimensions on the page"), ask({solids: true})),
+      item(t("All files of the run"), t("the report, its figures and tables, the result and the spec in one archive"), ask({whole: true}))];
+  }
+  return {comparing, sharing, reporting};
 }
 
 // ----------------------------------------------------------------------------------------------------------------------- bar
@@ -128,7 +137,9 @@ export function createHead(host, {store, say, t}) {
     share: button({id: "share", sign: "share", title: t("Share as an address"), long: t("Share"), ...hanging("dialog")},
       () => { asked = true; say({what: "share"}); }),
     report: button({id: "report", sign: "report", title: t("Download the report"), text: t("Report")},
-      () => say({what: "job", name: "report", options: {}})),
+      () => say(reportWanted(store))),
+    reports: button({id: "report-menu", look: "caret", sign: "down", title: t("Other forms of the report"), ...hanging("menu")},
+      made => popovers.toggle(made, "menu", t("Report"), menus.reporting)),
   });
   const taste = () => ({
     theme: button({id: "theme", sign: "moon", title: t("Light or dark"), long: t("Light or dark")},
@@ -141,7 +152,7 @@ export function createHead(host, {store, say, t}) {
     popovers.close(false);
     overflow?.stop();
     overflow = createOverflow(t, [rule(), p.preset, held(p.keys), element("i", {class: "st-space"}),
-      held(element("div", {class: "st-split"}, p.compare, p.more)), rule(), p.open, held(p.share), p.report, rule(), p.theme, p.language]);
+      held(element("div", {class: "st-split"}, p.compare, p.more)), rule(), p.open, held(p.share), held(element("div", {class: "st-split"}, p.report, p.reports)), rule(), p.theme, p.language]);
     bar.replaceChildren(
       element("div", {class: "st-brand"}, mark(), element("b", {}, "Drivewright")), rule(),
       element("div", {class: "st-name-plate"}, p.title, p.kind, p.dot), held(p.fresh), p.undo, p.redo, p.save, overflow.button, overflow.list);
@@ -179,7 +190,7 @@ export function createHead(host, {store, say, t}) {
   }
   function showJobs() {
     const job = store.state.jobs?.report, running = job?.state === "running", text = job?.state === "failed" ? job.text : "";
-    parts.report.classList.toggle("st-busy", running); parts.report.disabled = running;
+    parts.report.classList.toggle("st-busy", running); parts.report.disabled = parts.reports.disabled = running;
     parts.report.style.setProperty("--part", running && job.total ? job.done / job.total : 0);
     if (text && text !== failed) tell(text);
     failed = text;

@@ -25,6 +25,7 @@ const PATHS = {
   dimension: "M4 5v14M20 5v14M4 12h16M7.5 8.5 4 12l3.5 3.5M16.5 8.5 20 12l-3.5 3.5",
   ruler: "M3 9h18v6H3ZM7 9v3M11 9v3M15 9v3M19 9v3",
   search: "M10.5 4a6.5 6.5 0 1 1 0 13 6.5 6.5 0 0 1 0-13ZM15.5 15.5 20 20",
+  target: "M12 5a7 7 0 1 1 0 14a7 7 0 0 1 0-14ZM12 2.5v5M12 16.5v5M2.5 12h5M16.5 12h5",
   ok: "M4 12.5l5.5 5.5L20 7",
   bad: "M6 6l12 12M18 6L6 18",
   warn: "M8 9a4 4 0 1 1 5.6 3.7c-1.1.5-1.6 1.2-1.6 2.3M12 19.2v.3",
@@ -32,7 +33,7 @@ const PATHS = {
 };
 
 /** An SVG element with one path for each text of path commands. */
-export function drawing(attributes, ...paths) {
+function drawing(attributes, ...paths) {
   const made = document.createElementNS(SVG, "svg");
   for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
   for (const commands of paths) made.append(document.createElementNS(SVG, "path"));

@@ -43,15 +43,15 @@ function createJob(host, name, title, meaning, {store, say, t}, shown, options =
     const job = jobs?.[name] || {state: "idle"};
     if (job === before) return;
     if (job.state !== before?.state) setup?.follow(job);
+    const begun = job.state === "running" && before && before.state !== "running";
     before = job;
     bar.show(job); note.show(job);
     left.textContent = remaining(job);
     left.hidden = !left.textContent;
     row.hidden = job.state === "running";
     words.hidden = Boolean(job.answer) || job.state === "running";
-    const first = job.state === "running" && job.answer && !answer.childElementCount;
     answer.replaceChildren(...(job.answer ? shown(job.answer, job) : []));
-    if (first) host.closest(".sd-section").scrollIntoView({block: "start"});  // it has just been started here
+    if (begun) host.closest(".sd-section").scrollIntoView({block: "start"});  // its form, which was taller, is out of the way
   })];
 }
 
@@ -166,7 +166,7 @@ export function createStudy(host, tools) {
   const {store, t} = tools, setup = createSetup("study", t("Set up"), tools, createStudyForm);
   const words = answer => answer.failed === undefined ? t("* of * designs", answer.rows.length, answer.total) : t("* designs computed, * failed", answer.total, answer.failed);
   const shown = (answer, job) => job.state === "running" ? [] :
-    [about(words(answer)), button(t("Show the study"), () => store.set({view: "study"}))];
+    [about(words(answer)), ...(answer.failed ? answer.statements?.reasons || [] : []).map(({count, text}) => element("p", {class: "pn-note"}, `${count} × ${t(text)}`)), button(t("Show the study"), () => store.set({view: "study"}))];
   const meaning = t("Computes many cases of the design: sweeps over levels, tolerances, samples.");
   return [...createJob(host, "study", t("Run study"), meaning, tools, shown, () => ({theme: themeOf(store.state)}), setup), opening("study", tools, answer => answer.rows.length > 1)];
 }

@@ -1,8 +1,15 @@
 // The keys of a design that a search or a study may vary: a list with a box to find them and a tick for each; what is ticked opens its boxes.
 
+import { shortened } from "./numbers.js";
 import { element } from "./player.js";
 
 const SHOWN = 60;  // keys that are listed at once; a word in the box finds the others
+const LONG = 16;  // letters of a value that stand beside its name
+
+/** The value of a key as it stands in the list. */
+function textOf({kind, text}, t) {
+  return kind === "flag" ? t(text === "true" ? "yes" : "no") : kind === "choice" ? t(text) : shortened(text, LONG);
+}
 
 /** A small box for text. */
 export function box(value, name, testid, more = {}) {
@@ -48,7 +55,7 @@ export function createKeyList(name, {t}, editor, changed) {
     changed();
   }
   function row(key) {
-    const words = [element("span", {class: "sf-name", title: key.key}, t(key.label)), element("b", {}, key.kind === "choice" ? t(key.text) : key.text)];
+    const words = [element("span", {class: "sf-name", title: key.key}, t(key.label)), element("b", {}, textOf(key, t))];
     const made = element("div", {class: "sf-key"},
       tick(editors.has(key.key), words, `${name}-key-${key.key}`, on => set(key, on), key.locked ? {disabled: "", title: t("Locked; unlock it to let it change")} : {}));
     if (editors.has(key.key)) made.append(editors.get(key.key).node);
@@ -71,6 +78,7 @@ export function createKeyList(name, {t}, editor, changed) {
     /** The keys of a design; `chosen` are those that its table has, {key: entry}. */
     load(found, chosen) {
       keys = found;
+      list.scrollTop = 0;
       editors = new Map(found.filter(({key}) => key in chosen).map(key => [key.key, editor({...key, entry: chosen[key.key]})]));
       draw();
     },

@@ -19,7 +19,7 @@ const PLACES = [["header", "head", createHead], ["aside", "form", createForm], [
 /** Fill `host`; `page` is {say(message), connection()}.  Returns a function that takes everything away again. */
 export function start(host, page) {
   const store = createStore({lang: "en", theme: "", kinds: [], words: {}, design: null, refused: {}, scene: null, result: null, reference: null,
-    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, setup: null, ...taste()});
+    work: {state: "drawing", text: "", done: 0, total: 0}, jobs: {}, lit: [], view: "motion", pane: "mechanism", shared: null, kept: [], focus: null, notice: "", proposals: null, building: false, parts: {}, setup: null, hints: null, ...taste()});
   const t = createWords(store), clock = createClock({duration: 4});
   const parts = [];
   window.drivewright = store;  // for whoever drives the page from outside
@@ -50,6 +50,12 @@ export function start(host, page) {
     kept = {toml: design.toml, files: design.files};
     remember(sessionStorage, KEPT, kept);
   });
+  let hinted = "";  // kind of drive whose hints are here, or on their way
+  store.on(["lang", "design"], ({lang, design}) => {
+    if (lang !== "zh" || !design || design.kind === hinted) return;
+    hinted = design.kind;
+    page.say({what: "hints"});
+  });
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
   return () => { socket.leave(); parts.forEach(part => part.destroy()); };
 }
@@ -70,7 +76,7 @@ function createEar(store, begin) {
     },
     design: message => {
       if (message.opened) since = message.gen;
-      const afresh = message.opened ? {proposals: null, scene: null, result: null, reference: null, jobs: {}, lit: []} : {};
+      const afresh = message.opened ? {proposals: null, scene: null, result: null, reference: null, jobs: {}, lit: [], notice: "", ...(state.view === "study" ? {view: "motion"} : {})} : {};
       store.set({design: {toml: state.design?.toml ?? "", ...message, opened: since}, refused: without(message.settled), ...afresh});
     },
     values: ({fields, settled, ...rest}) => {
@@ -100,6 +106,7 @@ function createEar(store, begin) {
       if (name === "save" && news.state === "failed") store.set({notice: news.text});
     },
     proposals: message => store.set({proposals: message}),
+    hints: ({words}) => store.set({hints: words}),
     names: ({list, entries}) => store.set({parts: {...store.state.parts, [list]: entries}}),
     shared: ({fragment}) => store.set({shared: {url: `${location.origin}${location.pathname}#${fragment}`}}),
   };

@@ -7,7 +7,7 @@ const NOISE = 3e-7;  // of the largest coordinate: poses come as single precisio
 const LEVEL = {horizontal: 0, vertical: 1};
 
 /** Kinds of measurement: features that each wants, by what has been picked first. */
-export const WANTED = {distance: ["point", "point"], horizontal: ["point", "point"], vertical: ["point", "point"], angle: ["point", "point", "point"], radius: ["circle"]};
+const WANTED = {distance: ["point", "point"], horizontal: ["point", "point"], vertical: ["point", "point"], angle: ["point", "point", "point"], radius: ["circle"]};
 
 /** What the next pick may be: [kinds of features]. */
 export function nextWanted(kind, picked) {
@@ -29,7 +29,7 @@ export function valueOf(kind, parts, poseOf) {
 }
 
 /** The two directions that an angle lies between: arms of its middle point, or two lines. */
-export function armsOf(parts, at, poseOf) {
+function armsOf(parts, at, poseOf) {
   if (parts[0].kind === "point") return [0, 2].map(n => [at[n][0] - at[1][0], at[n][1] - at[1][1]]);
   return parts.map(({body, to}, n) => { const [x, y] = carried(to, poseOf(body)); return [x - at[n][0], y - at[n][1]]; });
 }

@@ -4,7 +4,7 @@ import { placeOf } from "./motion_points.js";
 import { fitCanvas, fixed, useFont } from "./player.js";
 import { ticks } from "./plotting.js";
 
-export const MARGIN = {left: 58, right: 16, top: 30, bottom: 34}, GAP = 22;
+const MARGIN = {left: 58, right: 16, top: 30, bottom: 34}, GAP = 22;
 const SHARE = [0.4, 0.2, 0.2, 0.2], ROLES = ["blue", "orange", "green", "violet"], FONT = "11px system-ui, sans-serif";
 
 /**

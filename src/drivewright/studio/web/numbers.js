@@ -27,6 +27,12 @@ const POWERS = {"^2": "²", "^3": "³", "^-1": "⁻¹", "^-2": "⁻²", "^-3": "
 /** A typed quantity as it is read: "3 kg m^2" is "3 kg·m²". */
 export const unitsRead = text => text.replace(/\^-?[23](?!\d)|\^-1(?!\d)/g, power => POWERS[power] || power).replace(/(?<=[A-Za-zµ²³]) (?=[A-Za-zµ])/g, "·");
 
+/** A quantity that is too long for a box, "36.62853743027 mm", to six digits. */
+export function shortened(text, room) {
+  const found = text.length > room && quantityOf(text), short = found && withUnit(Number(found[0].toPrecision(6)), found[1]);
+  return short && short.length < text.length ? short : text;
+}
+
 /** And back, as a spec has it. */
 export const unitsTyped = text => text.replace(/⁻?[¹²³]/g, power => TYPED_POWERS[power] || power).replace(/\s*·\s*/g, " ");
 

@@ -123,7 +123,7 @@ export function createSearchForm(tools, closed) {
     const missing = !unknowns.length ? t("Tick at least one dimension that may change.") : !objectives.length ? t("Choose a value to minimise or maximise.")
       : !(Number(budget.value) > 0) ? t("Give a number of designs.") : "";
     start.disabled = Boolean(missing);
-    put(estimate, missing || (each === null ? t("* designs", designs) : t("* designs, at most about * by one process", designs, durationText(designs * each, t))));
+    put(estimate, missing || (each === null ? t("* designs", designs) : designs * each < 1 ? t("* designs, less than 1 s", designs) : t("* designs, at most about * by one process", designs, durationText(designs * each, t))));
   }
   /** A budget that takes some minutes at most. */
   function usual() {

@@ -5,6 +5,8 @@ import { createOptimise, createSensitivity, createStudy } from "./jobs.js";
 import { intervalHint, withDifference, withInterval } from "./numbers.js";
 import { button, put, same } from "./parts.js";
 import { element } from "./player.js";
+import { createReach } from "./reach.js";
+import { reasonsOf, refusedText } from "./words.js";
 
 const EXPORTS = ["dxf", "svg", "csv", "step", "stl", "gcode", "pdf"];
 const LATE = 150;  // ms of work that nobody needs to be told of
@@ -36,7 +38,7 @@ function createState({store, say, t}) {
   function settled() {
     const {result, work} = store.state;
     if (work?.state === "over") return t("* took more than * s and was ended", t(work.text || ""), work.seconds);
-    if (result?.unsolved) return t("shown is the last design that had a solution");
+    if (result?.unsolved) return [t("shown is the last design that had a solution"), ...reasonsOf(store.state).map(text => refusedText(text, t))].join(": ");
     return !result ? "" : !result.full || result.verdict.stale ? t("not all checks are up to date") : t("up to date");
   }
   function work({work}) {
@@ -67,6 +69,7 @@ function createState({store, say, t}) {
     put(pill, now);
     before.className = `sd-before is-${given?.state || "none"}`;
     put(before, (busy || old) && given ? t(given.text) : "");
+    node.classList.toggle("is-unsolved", Boolean(result?.unsolved));
     if (!node.classList.contains("is-working")) put(words, settled());
   }
   return {node, stops: [store.on(["work"], work), store.on(["work", "notice"], trouble), store.on(["result", "work", "refused"], verdict), () => clearTimeout(timer)]};
@@ -74,17 +77,20 @@ function createState({store, say, t}) {
 
 // ---------------------------------------------------------------------------------------------------- key numbers, findings
 
-function createNumbers(host, {store, t}) {
+function createNumbers(host, tools) {
+  const {store, t} = tools, reach = createReach(name => rows.get(name)?.node, tools);
   let rows = new Map();
   function arrange(values) {
     rows = new Map(values.map(({name}) => [name, {name: element("span"), other: element("em"), value: element("b")}]));
-    host.replaceChildren(...[...rows.values()].map(row => element("div", {class: "sd-number"}, row.name, row.other, row.value)));
+    for (const [name, row] of rows) row.node = element("div", {class: "sd-number"}, row.name, row.other, row.value, reach.offer(name));
+    host.replaceChildren(...[...rows.values()].map(({node}) => node));
+    reach.shown();
   }
   function update({result, reference}) {
     const values = result?.headline || [], others = new Map((reference?.result?.headline || []).map(value => [value.name, value]));
     if (!same(values.map(value => value.name), [...rows.keys()])) arrange(values);
     host.classList.toggle("is-stale", Boolean(result && !result.full));
-    host.closest(".sd-section").classList.toggle("is-empty", !values.length);
+    host.closest(".sd-section").classList.toggle("is-empty", !values.length && !result?.findings?.length);
     for (const value of values) {
       const row = rows.get(value.name), other = others.get(value.name);
       put(row.name, t(value.label)); put(row.value, withInterval(value, t));
@@ -92,7 +98,7 @@ function createNumbers(host, {store, t}) {
       row.name.title = [t(value.meaning), value.convention && t(value.convention), value.name].filter(Boolean).join("\n"); row.value.title = intervalHint(value, t);
     }
   }
-  return [store.on(["result", "reference"], update)];
+  return [store.on(["result", "reference"], update), ...reach.stops];
 }
 
 function createFindings(host, {store, t}) {

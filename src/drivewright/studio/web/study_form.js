@@ -2,10 +2,11 @@
 
 import { durationText, secondsOf } from "./costs.js";
 import { box, choice, createKeyList, part, tick } from "./key_list.js";
+import { quantityOf, withUnit } from "./numbers.js";
 import { button, put, themeOf } from "./parts.js";
 import { element } from "./player.js";
 
-const SAMPLES = 200;
+const SAMPLES = 200, LEVELS = 5, AROUND = 0.2;  // of a value: how far levels reach to either side
 const RANDOM = ["normal", "uniform"];  // ways to vary that are sampled
 const METHODS = ["latin-hypercube", "sobol", "random", "corners", "one-at-a-time", "tolerance", "sobol-indices"];
 const FIXED = ["corners", "one-at-a-time"];  // whose number of cases follows from the keys
@@ -21,14 +22,23 @@ function wayOf(entry, kind) {
   return (entry.distribution || "uniform") === "uniform" && entry.lower !== undefined ? "uniform" : "as_written";
 }
 
+/** The ends of the levels that are proposed: a fifth to either side, within the slider; of a number at 0 and a whole one those of the slider. */
+function near({text, kind, lower, upper}) {
+  const [value, unit] = quantityOf(text) || [], ends = [lower, upper].map(end => quantityOf(end)?.[0]);
+  if (!value || kind === "integer" || !ends.every(Number.isFinite)) return [lower, upper];
+  return [1 - AROUND, 1 + AROUND].map(part => part * value).sort((a, b) => a - b)
+    .map(end => withUnit(Number(Math.min(Math.max(end, ends[0]), ends[1]).toPrecision(6)), unit));
+}
+
 /** The boxes of one key: how it varies, and the numbers for that. */
 function createEditor({key, label, kind, text, lower, upper, choices, entry}, {t}, changed) {
+  const [begins, ends] = near({text, kind, lower, upper});
   const counted = kind !== "choice" && kind !== "flag", name = words => `${t(label)}: ${t(words)}`, first = wayOf(entry, kind);
   const ways = [...(counted ? [["levels", t("levels from … to")]] : []), ["values", t("listed values")],
     ...(counted && kind !== "integer" ? [["normal", t("tolerance, normal")], ["uniform", t("range, uniform")]] : []),
     ...(first === "as_written" ? [["as_written", t("as written in the text")]] : [])];
-  const way = choice(ways, first, name("how it varies"), `study-way-${key}`, show), low = box(entry?.lower ?? lower, name("from"), `study-from-${key}`);
-  const high = box(entry?.upper ?? upper, name("to"), `study-to-${key}`), steps = box(String(entry?.steps ?? 3), name("number of levels"), `study-steps-${key}`, {inputmode: "numeric"});
+  const way = choice(ways, first, name("how it varies"), `study-way-${key}`, show), low = box(entry?.lower ?? begins, name("from"), `study-from-${key}`);
+  const high = box(entry?.upper ?? ends, name("to"), `study-to-${key}`), steps = box(String(entry?.steps ?? LEVELS), name("number of levels"), `study-steps-${key}`, {inputmode: "numeric"});
   const listed = box(entry?.values?.join(", ") ?? (counted ? text : choices.join(", ")), name("values, with commas between them"), `study-values-${key}`);
   const spread = box(entry?.tolerance ?? "5 %", name("tolerance"), `study-tolerance-${key}`), sign = element("span", {}, "±"), dots = element("span", {}, "…");
   const row = element("div", {class: "sf-bounds"}), node = element("div", {class: "sf-ways"}, way, row);
@@ -102,7 +112,7 @@ export function createStudyForm(tools, closed) {
     samples.parentElement.hidden = FIXED.includes(method.value);
     start.disabled = Boolean(missing);
     put(estimate, missing || (count === null ? t("The number of cases follows from the method.")
-      : each === null ? t("* cases", count) : t("* cases, at most about * by one process", count, durationText(count * each, t))));
+      : each === null ? t("* cases", count) : count * each < 1 ? t("* cases, less than 1 s", count) : t("* cases, at most about * by one process", count, durationText(count * each, t))));
   }
   function load({keys: found, study}) {
     ready = false;

@@ -10,6 +10,7 @@ import { button, pressable, putAttribute } from "./parts.js";
 import { element } from "./player.js";
 import { createSolids } from "./solids.js";
 import { createStudies } from "./studies.js";
+import { reasonsOf, refusedText } from "./words.js";
 
 // -------------------------------------------------------------------------------------------------------------------- motion
 
@@ -27,7 +28,7 @@ function createMotion(host, tools) {
   const builder = createBuilder(() => player, tools), diagrams = createDiagrams(host, () => player, tools, () => player?.fit());
   const picked = name => measure.active() || builder.active() || store.set({lit: store.state.lit.length === 1 && store.state.lit[0] === name ? [] : [name]});
   function load(scene) {
-    const packed = {...scene.scene, gen: scene.gen}, afresh = drive !== store.state.design?.opened;
+    const labels = scene.scene.labels?.map(label => ({...label, text: t(label.text)})), packed = {...scene.scene, ...(labels ? {labels} : {}), gen: scene.gen}, afresh = drive !== store.state.design?.opened;
     drive = store.state.design?.opened;
     shown = scene;
     measure.expect(afresh);
@@ -48,13 +49,16 @@ function createMotion(host, tools) {
     if (compared) player.compare(compared);
   }
   function remark(scene) {
-    const missing = scene && !scene.scene, words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? scene.remarks : [];
+    const reasons = reasonsOf(store.state), still = Boolean(scene?.scene && reasons.length), missing = still || scene && !scene.scene;
+    const words = !scene ? [t("drawing …"), ...(late ? [t(FIRST)] : [])] : missing ? reasons : [];
     const head = missing ? [element("b", {}, t("There is no motion to show"))] : [];
     const back = missing && store.state.design?.undo ? [button(t("Undo"), () => store.state.design.undo && say({what: "undo"}), {testid: "note-undo"})] : [];
     stage.hidden = !player;
     stage.classList.toggle("is-old", Boolean(player) && !scene?.scene);
-    note.hidden = Boolean(scene?.scene);
-    note.replaceChildren(...head, ...words.map(text => element("p", {}, t(text.replace(/^no motion to show: /, "")))), ...back);
+    stage.classList.toggle("is-still", still);
+    note.hidden = Boolean(scene?.scene) && (!still || builder.active());  // whoever builds reads it beside the tools
+    note.classList.toggle("is-beside", still);
+    note.replaceChildren(...head, ...words.map(text => element("p", {}, refusedText(text, t))), ...back);
   }
   function update({scene}) {
     if (scene?.scene && scene !== shown) load(scene);
@@ -68,7 +72,7 @@ function createMotion(host, tools) {
     compared = next;
     player?.compare(next);
   }
-  const stops = [store.on(["scene"], update), store.on(["reference"], reference), store.on(["lit"], ({lit}) => player?.highlight(lit))];
+  const stops = [store.on(["scene"], update), store.on(["refused"], () => remark(store.state.scene)), store.on(["reference"], reference), store.on(["lit"], ({lit}) => player?.highlight(lit))];
   return {
     open() {}, close() {},
     reword() { if (player) { measure.reword(); load(shown); } remark(store.state.scene); },

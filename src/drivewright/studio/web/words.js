@@ -1,11 +1,13 @@
 // English texts in the language of the page.
 
+const TYPED = "--only ";  // what stands behind it is typed as it is
 const MOST = 4000;  // translations kept; running numbers would fill the memory
 
 /**
  * t(text, ...values): the text in the store's language, each * of it filled with a value.
  *
- * `store.state.words` (of the studio) and `store.state.design.words` (of the kind of drive, which go first) are {english: translation}.
+ * `store.state.words` (of the studio), `store.state.design.words` (of the kind of drive, which go first) and `store.state.hints` (what its keys
+ * mean, as soon as they are here) are {english: translation}.
  * A * on both sides stands for a part that varies: the parts come in the same order, and one that is a known text is translated too.
  * What is not known stays English.
  */
@@ -19,7 +21,7 @@ export function createWords(store) {
   };
 
   const books = () => {
-    const found = [store.state.design?.words, store.state.words].filter(Boolean);
+    const found = [store.state.design?.words, store.state.words, store.state.hints].filter(Boolean);
     if (found.length !== keptOf.length || found.some((words, n) => words !== keptOf[n])) { kept.clear(); keptOf = found; }
     return found;
   };
@@ -37,7 +39,8 @@ export function createWords(store) {
     for (const words of all) {
       for (const {english, shape} of book(words)) {
         const parts = shape.exec(text) || shape.exec(otherCase(text));
-        if (parts) return filled(words[english], parts.slice(1).map(part => known(part, all) ?? part));
+        const before = english.split("*"), told = (part, n) => before[n].endsWith(TYPED) ? part : known(part, all) ?? part;
+        if (parts) return filled(words[english], parts.slice(1).map(told));
       }
     }
     return null;
@@ -80,4 +83,13 @@ export function refusedText(text, t) {
     const [, key, words] = /^(\s*[\w.-]+: )(.+)$/.exec(line) || [line, "", line];
     return key && t(line) === line ? key + t(words) : t(line);
   }).join("\n");
+}
+
+/** A remark on a drawing that has no motion, without what its heading says. */
+const reasonOf = text => text.replace(/^no motion to show: /, "");
+
+/** Why the design as it stands has no motion, in sentences; none where it has, or where the drawing is that of an earlier one. */
+export function reasonsOf({scene, design, refused}) {
+  const impossible = scene?.gen === design?.gen ? Object.values(refused || {}).filter(({text}) => text === null).map(({message}) => message) : [];
+  return [...new Set([...(scene?.remarks || []).map(reasonOf), ...impossible])];
 }
