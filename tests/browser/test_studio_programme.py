@@ -49,7 +49,9 @@ def pull(page, name, dx, dy):
 
 
 def changed(page, key, before):
+    """The text of a field that a hand has changed, when the design has what it left."""
     until(page, f"{FIELD.format(key)} !== {before!r}")
+    until(page, "document.querySelector('[data-testid=programme]').getAttribute('aria-busy') === 'false'")
     until(page, CURRENT)
     return text(page, key)
 

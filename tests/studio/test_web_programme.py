@@ -103,6 +103,30 @@ def test_of_many_points_the_chosen_one_and_those_near_the_hand_are_seen():
     assert 77 in shown(many, x=101, chosen=77)
 
 
+# -- the design behind the drawing ---------------------------------------------------------------------------------------------
+
+
+def test_numbers_are_those_in_the_hand_until_the_form_has_them():
+    """The form is late while a hand moves: each step begins where the one before it went."""
+    body = """
+        const at = angle => ({key: "programme.0.angle", unit: "deg", value: angle, text: `${angle} deg`});
+        const fields = angle => new Map([["programme.0.angle", at(angle)], ["programme.0.rows", {text: data.rows}]]);
+        const design = createMotionDesign(() => []), seen = [];
+        const look = () => seen.push([design.number(0, "angle").value, design.holds() && design.arrived()]);
+        design.load({list: "programme", keys: {angle: "angle", rise: "rise", law: "law", rows: "rows"}, segments: []});
+        design.fill(fields(90)); look();
+        design.hold({"programme.0.angle": 95 * Math.PI / 180}); look();
+        design.fill(fields(92)); look();
+        design.fill(fields(95)); look();
+        design.hold({}, {"programme.0.rows": "[[0,1]]"}); look();
+        data.rows = "[[0, 1]]"; design.fill(fields(95)); look();
+        design.hold(null); design.fill(fields(80)); look();
+        return seen;
+    """
+    found = in_node(body, {"rows": "[[0, 0]]"}, motion_design="createMotionDesign")
+    assert found == [[90, False], [95, False], [95, False], [95, True], [95, False], [95, True], [80, False]]
+
+
 # -- segments with keys of their own, on a turn that begins elsewhere ----------------------------------------------------------
 
 PUSHER = """

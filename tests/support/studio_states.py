@@ -155,6 +155,6 @@ STATES = (
     State("checks of a shaft", "shaft", _pane("checks")),
     State("plots of a shaft", "shaft", _pane("plots")),
     State("mechanism of the pusher", "pusher", _pane("mechanism")),
-    State("programme of the pusher", "pusher", _pane("mechanism", "view-programme", "programme-segment-0"), _click("view-motion")),
+    State("programme of the pusher", "pusher", _pane("mechanism", "view-programme", "programme-segment-3"), _click("view-motion")),
     State("solids of the pusher", "pusher", _job(_pane("mechanism"), "solid", "view-solid"), _click("view-motion")),
 )

@@ -13,10 +13,11 @@ export function createMotionDesign(locked) {
   // ---- keys and numbers
   const keyOf = (n, name) => programme.list ? `${programme.list}.${n}.${programme.keys[name]}` : programme.segments[n]?.fixed?.[name] || "";
   const senseOf = (n, name) => name === "rise" && programme.segments[n]?.fixed?.sense || 1;
-  /** {key, unit, factor, value, low, high} of a key; null where the form has no number there, or it is locked. */
+  /** {key, unit, factor, value, low, high} of a key, with the value that is drawn: that in the hand, for the form may be late; null where the form has no number there, or it is locked. */
   function numberAt(key, sense = 1) {
-    const {unit, value, low, high} = fields.get(key) || {}, factor = FACTORS[unit] * sense;
-    return factor && typeof value === "number" && !locked().includes(key) ? {key, unit, factor, value, low, high} : null;
+    const {unit, value, low, high} = fields.get(key) || {}, size = FACTORS[unit];
+    if (!size || typeof value !== "number" || locked().includes(key)) return null;
+    return {key, unit, factor: size * sense, value: held && key in held ? tidy(Math.round(held[key] / size * 1e9) / 1e9) : value, low, high};
   }
   const number = (n, name) => numberAt(keyOf(n, name), senseOf(n, name));
   const si = key => { const {unit, value} = fields.get(key) || {}; return held?.[key] ?? (typeof value === "number" ? value * (FACTORS[unit] || 1) : null); };
@@ -87,7 +88,7 @@ export function createMotionDesign(locked) {
     hold(numbers, text) { held = numbers && {...held, ...numbers}; texts = numbers && {...texts, ...text}; },
     holds: () => held !== null,
     /** Whether the form has what the hand held. */
-    arrived: () => Object.entries(held || {}).every(([key, value]) => { const now = numberAt(key); return !now || Math.abs(now.value * now.factor - value) < 1e-9; })
+    arrived: () => Object.entries(held || {}).every(([key, held]) => { const {unit, value} = fields.get(key) || {}; return typeof value !== "number" || Math.abs(value * FACTORS[unit] - held) < 1e-9; })
       && Object.entries(texts || {}).every(([key, text]) => sameText(fields.get(key)?.text, text)),
   };
 }

@@ -32,6 +32,7 @@ export function createMotionForm(host, tools) {
     shown = numbers.drawn(current);
     selected = Math.max(0, Math.min(selected, design.segments.length - 1));
     stage.classList.toggle("is-old", !current);
+    stage.setAttribute("aria-busy", String(numbers.holds()));  // until the design has what the hand left
     const jumps = jumpsOf(shown), peaks = peaksOf(shown, jumps), {factors, titles} = status.words(shown, peaks);
     plot.show({programme: shown, jumps, selected, factors, titles, held: drag.held(), axis: `${t(shown.cycle.label)} [${shown.cycle.unit}]`}, theme.colours);
     place();
