@@ -52,7 +52,19 @@ def test_a_pendulum_from_clicks(page):
     until(page, f"{MISSING}.includes('held by no joint')", 60)
 
 
+def from_middle(page, x, y):
+    """A place of the drawing in pixels from its middle, which stays where it is when plots below make it lower."""
+    box = page.get_by_test_id("build-sheet").bounding_box()
+    return (x - 0.5) * box["width"], (y - 0.5) * box["height"]
+
+
+def click_from_middle(page, place):
+    box = page.get_by_test_id("build-sheet").bounding_box()
+    page.mouse.click(box["x"] + box["width"] / 2 + place[0], box["y"] + box["height"] / 2 + place[1])
+
+
 def test_a_second_drive_is_placed_and_taken_away_by_clicks(page):
+    place = from_middle(page, 0.1, 0.2)
     page.get_by_test_id("tool-body").click()
     at(page, 0.1, 0.2)
     at(page, 0.25, 0.3)
@@ -60,7 +72,7 @@ def test_a_second_drive_is_placed_and_taken_away_by_clicks(page):
     until(page, f"{MISSING}.includes('held by no joint')", 60)
     for tool, words in (("pin", "held by one joint only"), ("drive", None), ("delete", "held by one joint only")):
         page.get_by_test_id(f"tool-{tool}").click()
-        at(page, 0.1, 0.2)
+        click_from_middle(page, place)
         until(page, f"{MISSING}.includes({words!r})" if words else f"{MISSING} === '[]'", 60)
         drawn(page)
         further = page.evaluate(f"({STATE}.design.toml.match(/\\[\\[drives\\]\\]/g) || []).length")
