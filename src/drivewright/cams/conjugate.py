@@ -156,7 +156,7 @@ class ConjugatePair:
     def pitch_outline(self, cam: ConjugateCam) -> Outline:
         """The pitch curve once round: true arcs while the lever rests, splines with exact end tangents while it swings."""
         pieces, ends = [], np.array([(low, high) for low, high, _, _ in self.pieces])
-        whole = self.pitch(cam, np.linspace(*ends.T, SAMPLES), np.array([k for _, _, _, k in self.pieces]))
+        whole = self.pitch(cam, np.linspace(ends[:, 0], ends[:, 1], SAMPLES), np.array([k for _, _, _, k in self.pieces]))
         for n, (low, high, phase, _) in enumerate(self.pieces):
             jet = whole[:, n]
             if phase == "dwell":
