@@ -24,6 +24,8 @@ CASES = [
     (("Free rotation forward", "Free rotation backward"), "rad", "Free rotation of the wheel", "Free rotation"),
     (("Pins that touch", "Pins that the cam can push"), "-", "Pins and their ways", "Pins"),
     (("Mode 1, 60 Hz", "Mode 2, 200 Hz"), "-", "Natural modes of bending", "Natural modes of bending"),
+    (("Shear force along -y", "Shear force along -x"), "N", "Shear force and bending moment", "Shear force"),
+    (("Slope along the loads", "Slope across the loads"), "rad", "Deflection and slope", "Slope"),
     (("Bending", "Shear"), "m/N", "Who contributes what to the flexibility", "Flexibility"),
 ]
 

@@ -9,7 +9,7 @@ from drivewright.view.text import dimension, sentence
 OTHER_NAMES = {"N m": "moment", "Pa": "stress", "rad": "slope"}  # what the unit measures too, where the labels say so
 SPEAKS_FOR_NOTHING = ("length", "value")  # a deflection is a length, and everything else may be a pure number
 LONGEST = 40  # letters of a name that is put together
-DANGLING = (*LEADING, "as", "is", "the", "a", "an")  # words that no phrase ends with
+DANGLING = (*LEADING, "along", "across", "as", "is", "the", "a", "an")  # words that no phrase ends with
 
 
 def axis_name(labels: Sequence[str], unit: str, title: str, alone: bool = True) -> str:
@@ -20,6 +20,7 @@ def axis_name(labels: Sequence[str], unit: str, title: str, alone: bool = True) 
     and what the unit measures; for lengths and pure numbers rather the words in common, or the title.
     """
     start, end = common_ends(labels)
+    end = [] if _differ_in_place(labels, start, end) else end
     measured = _measured(unit, [*labels, title])
     start = _up_to_mark(start)
     phrase, heading = _joined(start, end), label_of(title)
@@ -30,6 +31,12 @@ def axis_name(labels: Sequence[str], unit: str, title: str, alone: bool = True) 
     if measured and alone and measured.split()[-1] in heading.lower() and not _leans(heading.split()):
         return heading
     return sentence(measured) if measured else _in_words(labels, start, end) or heading
+
+
+def _differ_in_place(labels, start, end):
+    """Whether the labels differ in a preposition alone, so that what they end with says nothing: 'along the loads', 'across the loads'."""
+    between = [label.split()[len(start) : len(label.split()) - len(end)] for label in labels]
+    return bool(start and end) and all(len(words) == 1 and words[0].lower() in DANGLING for words in between)
 
 
 def common_ends(labels: Sequence[str]) -> tuple[list[str], list[str]]:

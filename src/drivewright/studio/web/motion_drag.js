@@ -9,6 +9,7 @@ import { createGesture } from "./slider.js";
 
 const BORDER = 18, POINTS = {apart: 15, most: 7, reach: 70};  // px between borders; between points that are seen, how many, how far from the hand
 const TAP = {time: 350, far: 24}, ON_CURVE = 20;  // ms and px of a double tap; px
+const GRIP = 5, LETTER = 6.2, SIGN = 12;  // px that the handle of a border takes of a segment's name; of a letter; of a Chinese sign
 const tidy = value => Number(value.toPrecision(12));
 
 /**
@@ -88,7 +89,8 @@ export function createMotionDrag(parts) {
     const [from, to] = plot.parts ? plot.parts(segment.start, segment.end).sort((a, b) => b[1] - b[0] - a[1] + a[0])[0] || [0, 0] : [plot.toX(segment.start), plot.toX(segment.end)], wide = to - from;
     made.style.transform = `translate(${from.toFixed(1)}px, 2px)`; made.style.width = `${wide.toFixed(1)}px`;
     made.setAttribute("aria-pressed", String(n === selected));
-    put(made, wide > 26 ? t(segment.law) : "");
+    const law = t(segment.law);
+    put(made, wideOf(law) < wide - 2 * GRIP ? law : "");  // a name that is cut says nothing
     made.title = `${t("Segment *", n + 1)}: ${t(segment.law)}`;
     made.setAttribute("aria-label", made.title);
   }
@@ -222,3 +224,6 @@ export function createMotionDrag(parts) {
     reword() { buttons.forEach(made => made.remove()); buttons = new Map(); }, destroy() { if (grip) end(); },
   };
 }
+
+/** About how wide a text is [px]. */
+const wideOf = text => [...text].reduce((sum, letter) => sum + (letter >= "\u2e80" ? SIGN : LETTER), 0);
