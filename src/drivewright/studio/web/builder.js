@@ -95,16 +95,17 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   function press(event) {
     if (event.button !== 0) return;
     event.stopPropagation();
-    pressed = cursor = pixelOf(event);
+    cursor = pixelOf(event);
+    pressed = {place: meant(cursor, event.altKey), client: [event.clientX, event.clientY]};  // the drawing may move before the release
     sheet.setPointerCapture(event.pointerId);
   }
   function release(event) {
     if (!pressed) return;
-    const from = pressed, at = pixelOf(event), stroke = Math.hypot(at[0] - from[0], at[1] - from[1]) > DRAWN, several = chosen().most > 1;
+    const from = pressed, stroke = Math.hypot(event.clientX - from.client[0], event.clientY - from.client[1]) > DRAWN, several = chosen().most > 1;
     pressed = null;
     if (stroke && !several) { words.textContent = t(MOVED); return; }
-    place(meant(from, event.altKey));
-    if (stroke && places.length) { place(meant(at, event.altKey)); finish(); }
+    place(from.place);
+    if (stroke && places.length) { place(meant(pixelOf(event), event.altKey)); finish(); }
   }
   sheet.addEventListener("pointerdown", press);
   sheet.addEventListener("pointerup", release);
@@ -119,7 +120,7 @@ export function createBuilder(getPlayer, {store, say, t, clock}) {
   // ---- what is seen
   function draw() {
     if (!on) return;
-    const clicked = places.map(toPixel), next = cursor && toPixel(meant(cursor)), from = pressed && chosen()?.most > 1 ? [toPixel(meant(pressed))] : [];
+    const clicked = places.map(toPixel), next = cursor && toPixel(meant(cursor)), from = pressed && chosen()?.most > 1 ? [toPixel(pressed.place)] : [];
     const all = next && chosen()?.most > 1 ? [...clicked, ...from, next] : clicked;
     const line = svgPart("polyline", {points: all.map(at => at.map(part => part.toFixed(1)).join(",")).join(" ")});
     const dots = [...clicked, ...(next ? [next] : [])].map(([x, y], n) => svgPart("circle", {cx: x.toFixed(1), cy: y.toFixed(1), r: 5, class: n < clicked.length ? "is-set" : ""}));
