@@ -95,7 +95,8 @@ def test_a_limit_has_the_unit_that_the_value_is_shown_in():
           part(`value-${n}`).value = value; typed(part(`goal-${n}`), wish, "change"); typed(part(`limit-${n}`), limit);
         };
         const begins = [];
-        part("add").fire("click"); part("value-1").value = "force"; typed(part("goal-1"), "at_most", "change"); begins.push(part("limit-1").value);
+        part("add").fire("click"); part("value-1").value = "force"; typed(part("goal-1"), "at_most", "change");
+        begins.push(part("limit-1").value);
         ["12", "−1.5e2", "3 kN", "x"].forEach((limit, n) => row(n + 2, "force", n % 2 ? "at_least" : "at_most", limit));
         row(6, "ratio", "at_least", "0.4"); row(7, "unknown", "at_most", "9");
         return [begins, part("limit-0").hidden, sent().requirements.slice(2)];
@@ -140,7 +141,10 @@ def test_a_budget_takes_some_minutes_and_is_no_toy(seconds, designs):
 
 
 def test_choices_have_no_bounds_and_locked_keys_do_not_vary():
-    body = "ticked(part('key-n'), true); const names = form.node.named('search-key-').map(each => each.dataset.testid); return [names, sent().unknowns];"
+    body = """
+        ticked(part("key-n"), true);
+        return [form.node.named("search-key-").map(each => each.dataset.testid), sent().unknowns];
+    """
     names, unknowns = search(body, table={**TABLE, "unknowns": [{"key": "a", "lower": "3 mm", "upper": "5 mm"}, {"key": "held"}]})
     assert "search-key-c" not in names and "search-key-held" in names
     assert unknowns == [{"key": "a", "lower": "3 mm", "upper": "5 mm"}, {"key": "n", "lower": "4", "upper": "16"}]
@@ -217,7 +221,10 @@ def test_what_is_ticked_begins_with_three_levels_over_its_range_and_a_choice_wit
 
 
 def test_listed_values_are_those_between_commas():
-    body = "ticked(part('key-a'), true); typed(part('way-a'), 'values', 'change'); typed(part('values-a'), ' 3 mm,, 4 mm , '); return sent().vary[0].values;"
+    body = """
+        ticked(part("key-a"), true); typed(part("way-a"), "values", "change"); typed(part("values-a"), " 3 mm,, 4 mm , ");
+        return sent().vary[0].values;
+    """
     assert study(body) == ["3 mm", "4 mm"]
 
 
@@ -249,7 +256,8 @@ def test_only_what_is_sampled_is_sent_with_a_method_and_a_sample_size():
 
 def test_values_to_keep_are_all_until_one_is_left_out():
     body = """
-        const kept = () => sent().values, words = () => form.node.all().find(each => each.classList.contains("sd-count")).textContent, seen = [[kept(), words()]];
+        const kept = () => sent().values, count = form.node.all().find(each => each.classList.contains("sd-count"));
+        const words = () => count.textContent, seen = [[kept(), words()]];
         ticked(part("keep-force"), false); seen.push([kept(), words()]);
         ticked(part("keep-force"), true); seen.push([kept(), words()]);
         return seen;

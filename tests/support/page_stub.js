@@ -60,10 +60,10 @@ export class Part {
   querySelectorAll(tag) { return this.all().filter(({tagName}) => tagName === tag.toUpperCase()); }
 }
 
-/** A canvas's context that notes what is called, [[name, ...arguments]]. */
+/** A canvas's context that notes what is called, [[name, ...arguments]], and the colour of a stroke. */
 function drawnOn() {
   const calls = [], own = {calls, measureText: text => ({width: 6 * text.length})};
-  return new Proxy(own, {get: (_, name) => own[name] ?? ((...given) => { calls.push([name, ...given]); }), set: (_, name, value) => { own[name] = value; return true; }});
+  return new Proxy(own, {get: (_, name) => own[name] ?? ((...given) => { calls.push(name === "stroke" ? [name, own.strokeStyle] : [name, ...given]); }), set: (_, name, value) => { own[name] = value; return true; }});
 }
 
 class Watcher { constructor(act) { this.act = act; watchers.push(this); } observe() {} disconnect() {} }
