@@ -349,6 +349,20 @@ async def test_while_others_wait_a_drawing_comes_alone(bench):
 
 
 @story
+async def test_while_a_person_builds_a_drawing_comes_alone(bench):
+    """What is built is not assembled yet: nothing is computed of it, however quick that is."""
+    bench.computing._seconds = {"motion": 0.001}
+    bench.computing.building = True
+    await bench.look(1)
+    assert (bench.calls[0].arguments[1], bench.calls[0].arguments[2]) == ([], True)
+    await bench.calls[0].answer(None)
+    bench.computing.building = False
+    await bench.look(2)
+    drawing = next(call for call in bench.calls if call.function == "draw" and call.arguments[0].gen == 2)
+    assert (drawing.arguments[1], drawing.arguments[2]) == (["motion"], False)
+
+
+@story
 async def test_what_a_hand_moves_is_drawn_quickly_and_drawn_in_full_when_it_rests(bench):
     computations.registry.mechanism(KIND).quick_scene = object()
     for gen in (1, 2):
