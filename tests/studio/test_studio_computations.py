@@ -417,6 +417,25 @@ async def test_analyses_beside_a_drawing_that_fail_say_nothing(bench):
     assert bench.said == before and bench.computing._glance_task is None
 
 
+def test_after_analyses_beside_a_drawing_the_processor_belongs_to_others(bench, monkeypatch):
+    """For so many times as long as they took: here for ever, and also after a round that failed."""
+    monkeypatch.setattr(computations, "SHARE", 1e12)
+
+    async def rounds(ends):
+        bench.computing._seconds = {"motion": 0.001}
+        computations.registry.mechanism(KIND).quick_scene = None
+        for gen in (1, 2):
+            await moved(bench, gen)
+            if gen == 1:
+                await ends(next(call for call in bench.calls if call.function == "glance"))
+        return [call.arguments[0].gen for call in bench.calls if call.function == "glance"]
+
+    assert loops.run(rounds(lambda call: call.answer(found("motion")))) == [1]
+    bench.calls.clear()
+    bench.computing._quick_from = -1e9
+    assert loops.run(rounds(lambda call: call.fail(DoesNotAssemble("open")))) == [1]
+
+
 def test_of_drawings_in_quick_succession_only_some_come_with_analyses(bench, monkeypatch):
     monkeypatch.setattr(computations, "PACE", 0.3)
 
@@ -526,6 +545,16 @@ async def test_no_result_of_an_older_design_after_a_newer_one(bench):
     await bench.calls[2].answer(None)
     await bench.calls[3].answer(found("motion", value=2.0, timings={"motion": 0.001}))
     assert [(message["gen"], message["result"]["checks"][0]["value"]) for message in bench.told("result")] == [(2, 2.0)]
+
+
+@story
+async def test_an_answer_of_an_older_design_is_not_the_full_result_of_the_newest(bench):
+    """Nor is it what a later design is compared with."""
+    bench.computing.update(2, SimpleNamespace(kind=KIND, gen=2))
+    bench.computing._show(1, found("motion"))
+    assert [(message["gen"], message["full"]) for message in bench.told("result")] == [(1, False)]
+    bench.computing._show(2, found("motion"))
+    assert bench.told("result")[-1]["full"] is True
 
 
 @story
