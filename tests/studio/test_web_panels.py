@@ -472,6 +472,24 @@ def test_halves_and_sums_of_angles_keep_the_unit_and_make_a_whole():
     assert last == {"rise": "-20 mm"}
 
 
+def test_two_halves_of_a_long_number_are_the_whole():
+    fields = [{**field, "value": 33.3333333333} if field["key"] == "programme.0.angle" else field for field in STATED]
+    half = programme(
+        "choose(0); part('add').fire('click'); return said.at(-1).elements.slice(0, 2).map(each => each.changes.angle);", fields
+    )
+    assert abs(sum(float(text.split()[0]) for text in half) - 33.3333333333) < 2e-11
+
+
+@pytest.mark.parametrize(("angular", "unit"), [(False, "mm"), (True, "deg")])
+def test_a_dwell_that_begins_to_move_does_so_in_the_unit_of_the_lift(angular, unit):
+    """By a quarter of the stroke, which the next segment gives back."""
+    body = "choose(1); typed(part('law'), 'cycloidal', 'change'); return said.at(-1).elements.map(each => each.changes.rise);"
+    rises = programme(body, lift={**PROGRAMME["lift"], "angular": angular})
+    assert rises[1].split()[1] == unit and rises[2].split()[1] == "mm"
+    si = math.pi / 180 if angular else 1e-3
+    assert float(rises[1].split()[0]) * si == pytest.approx(0.005) and float(rises[2].split()[0]) == pytest.approx(-20)
+
+
 @pytest.mark.parametrize(
     ("speed", "angular", "titles", "peaks"),
     [
