@@ -1,5 +1,7 @@
 """Conjugate cams: how far their lever can swing, by the triangles of its arms; tables against the extremes found by other routes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ from drivewright.cams.conjugate_tables import DrivenMass, contact_table, geometr
 from drivewright.cams.oscillating_batch import can_swing, conjugate_lever, main_pitch_radius
 from drivewright.motion import Programme, Segment, law
 from drivewright.numerics.jets import variable
+from drivewright.scene import Arc, Spline
 
 pytestmark = pytest.mark.analytical
 
@@ -77,3 +80,39 @@ def test_the_contact_table_counts_from_the_start_of_the_programme():
     assert table["carrier_angle"].data == pytest.approx(0.7 + angle)
     last = [table[name].data[-1] for name in ("main.force", "return.force", "rod_error")]
     assert last == pytest.approx([2 * np.pi, 4 * np.pi, -2 * np.pi])
+
+
+# -- the pitch curves as outlines ----------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("orbit", [1, -1])
+@pytest.mark.parametrize("number", [0, 1])
+def test_a_pitch_outline_is_the_pitch_curve_with_true_arcs_while_the_lever_rests(pair, orbit, number):
+    """Its pieces follow each other once around the axis, with the tangents of the curve; dwells are arcs about the axis."""
+    around = replace(pair, orbit=orbit)
+    cam = around.cams[number]
+    pieces = around.pitch_outline(cam).pieces
+    assert [type(piece) for piece in pieces] == [Arc if each.phase == "dwell" else Spline for each in around.pieces]
+    ends = [(points[0], points[-1]) for points in (piece.points(1e-6) for piece in pieces)]
+    for (_, end), (start, _) in zip(ends, ends[1:] + ends[:1], strict=True):
+        assert end == pytest.approx(start, abs=1e-9)
+    for piece, each in zip(pieces, around.pieces, strict=True):
+        t = np.linspace(each.low, each.high, 9)
+        curve = around.pitch(cam, t, each.number)
+        exact = np.stack([curve.d0.real, curve.d0.imag], axis=1)
+        if isinstance(piece, Arc):
+            angles = piece.start + piece.sweep * np.linspace(0, 1, 9)
+            assert piece.center == (0, 0) and exact == pytest.approx(
+                piece.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1), abs=1e-12
+            )
+        else:
+            tangents = curve.d1 / np.abs(curve.d1)
+            assert complex(*piece.start_tangent) == pytest.approx(tangents[0]) and complex(*piece.end_tangent) == pytest.approx(
+                tangents[-1]
+            )
+            knots = piece.points(1e-6)
+            gap = np.array([np.min(np.hypot(*(knots - point).T)) for point in exact])
+            assert gap.max() < np.hypot(*np.diff(knots, axis=0).T).max()
+    whole = around.pitch_outline(cam).points(1e-6)
+    turned = np.angle(np.roll(whole[:, 0] + 1j * whole[:, 1], -1) / (whole[:, 0] + 1j * whole[:, 1])).sum()
+    assert turned == pytest.approx(orbit * 2 * np.pi)

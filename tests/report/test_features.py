@@ -45,3 +45,19 @@ def test_a_curve_of_many_chords_has_no_edges():
     bar, curve, hole = pack_features(Scene(np.array([0.0, 1.0]), "angle", "rad", 1.0, (body,), (frame,)))
     assert len(bar["lines"]) == len(bar["arcs"]) == 2 and curve == {"lines": [], "arcs": []}
     assert [arc[:3] for arc in hole["arcs"]] == [[1.0, 0.0, 0.05]] * 2
+
+
+def test_edges_run_the_way_the_outline_does_and_its_last_one_closes_it():
+    """Outside numbers: a right triangle, walked around."""
+    still, corners = np.zeros((2, 3)), [(0.0, 0.0), (3.0, 0.0), (3.0, 4.0)]
+    body = Body("plate", "plate", (Shape("body", polygon(corners)),), still)
+    (plate,) = pack_features(Scene(np.array([0.0, 1.0]), "angle", "rad", 1.0, (body,), (Frame("machine", "machine frame", still),)))
+    assert plate["lines"] == [[0, 0, 3, 0], [3, 0, 3, 4], [3, 4, 0, 0]] and plate["arcs"] == []
+
+
+@pytest.mark.parametrize(("count", "edges"), [(MOST_LINES, MOST_LINES), (MOST_LINES + 1, 0)])
+def test_the_most_edges_of_an_outline_are_still_edges(count, edges):
+    turn, still = np.arange(count) * 2 * np.pi / count, np.zeros((2, 3))
+    body = Body("plate", "plate", (Shape("body", polygon(np.stack([np.cos(turn), np.sin(turn)], axis=1))),), still)
+    (plate,) = pack_features(Scene(np.array([0.0, 1.0]), "angle", "rad", 1.0, (body,), (Frame("machine", "machine frame", still),)))
+    assert len(plate["lines"]) == edges

@@ -9,9 +9,9 @@ import pytest
 from in_node import in_node
 from sample_designs import FRAMES, PLOTS, four_bar_result, four_bar_scene
 
-from drivewright.report.pack import MOST_ROWS, envelope_rows, pack_plot_groups, pack_plots, pack_scene
-from drivewright.result import Column, Table
-from drivewright.scene import Outline, Shape, circle
+from drivewright.report.pack import FINENESS, MOST_ROWS, _fineness, envelope_rows, pack_handles, pack_plot_groups, pack_plots, pack_scene
+from drivewright.result import Column, Plot, Table
+from drivewright.scene import Handle, Outline, Shape, circle
 
 pytestmark = pytest.mark.interface
 
@@ -181,3 +181,33 @@ def test_groups_hold_the_same_panels_plot_by_plot():
     ]
     assert json.dumps([panel for plot in groups["plots"] for panel in plot["panels"]]) == json.dumps(flat["panels"])
     assert groups["cycle"] == flat["cycle"] and pack_plot_groups(RESULT, replace(SCENE, table="nowhere"), PLOTS) is None
+
+
+@pytest.mark.parametrize("size", [1e-3, 0.2, 0.7, 13.0])
+def test_chords_are_at_most_twice_as_fine_as_they_need_to_be_and_change_by_halves(size):
+    fine = _fineness(size)
+    assert FINENESS * size / 2 < fine <= FINENESS * size and np.log2(fine) == round(np.log2(fine))
+
+
+def test_handles_of_the_frame_and_of_bodies_that_are_drawn():
+    first = SCENE.bodies[0].name
+    handles = (
+        Handle("ground.O", (0.1, 0.2)),
+        Handle("size", (0.3, 0.0), (1.0, 0.0), first, "size"),
+        Handle("gone", (0.0, 0.0), None, "a body that is not drawn"),
+    )
+    found = pack_handles(replace(SCENE, handles=handles))
+    assert [(each["key"], each["body"]) for each in found] == [("ground.O", -1), ("size", 0)]
+    assert found[0]["point"] == [0.1, 0.2] and "direction" not in found[0] and found[1]["direction"] == [1.0, 0.0]
+
+
+def test_the_ground_is_shaded_where_a_column_says_so():
+    """Between a quarter and a half of the turn, however the angle is read."""
+    motion = RESULT.tables["motion"]
+    angle = motion["angle"].data
+    share = (angle - angle[0]) / (angle[-1] - angle[0])
+    shaded = Column("dwell", "-", "dwell", np.where((share >= 0.25) & (share <= 0.5), 1.0, 0.0))
+    result = replace(RESULT, tables={**RESULT.tables, "motion": replace(motion, columns=(*motion.columns, shaded))})
+    (panel,) = pack_plots(result, SCENE, (Plot("rocker", "Rocker", "motion", "angle", ("rocker",), shade="dwell"),))["panels"]
+    (stretch,) = panel["shade"]
+    assert stretch == pytest.approx([0.25, 0.5], abs=1.5 / (len(angle) - 1))

@@ -2,14 +2,15 @@
 
 import base64
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from places import ROOT
 
 from drivewright import registry, runner
-from drivewright.report.pack import pack_scene
-from drivewright.report.pack_plots import MOST_SHOWN, first_panels, pack_every_plot
+from drivewright.report.pack import MOST_ROWS, pack_scene
+from drivewright.report.pack_plots import MOST_FAILED, MOST_SHOWN, _rows, first_panels, pack_every_plot
 from drivewright.result import Check, Plot
 from drivewright.spec import load
 from drivewright.view.panels import known_plots
@@ -78,6 +79,45 @@ def test_a_panel_that_shows_a_failed_check_comes_first(shaft):
     assert first_panels(told, plots, ids, ("lift",)) == ["gap/play", "lift/lift"]
     assert first_panels(told, plots, ids, ()) == ["gap/play", "lift/lift", "gap/gap", "other/other"]
     assert first_panels(told, plots, ids, ("l*", "o*"), apart=("gap/play",)) == ["lift/lift", "other/other"]
+
+
+def beginning(names, failing, main):
+    """The panels that a page opens with, of plots with a line of their own name; `failing` are the checks."""
+    plots = tuple(Plot(name, name, "t", "x", (name,)) for name in names)
+    checks = tuple(Check(name, 2.0, 1.0, "<=", "mm", "too much") for name in failing)
+    return first_panels(SimpleNamespace(checks=checks), plots, {name: [f"{name}/{name}"] for name in names}, main)
+
+
+def test_failed_checks_have_two_of_the_four_places_at_most_unless_there_is_room():
+    names = "abcdefgh"
+    own = [f"{name}/{name}" for name in names]
+    assert (MOST_FAILED, MOST_SHOWN) == (2, 4)
+    assert beginning(names, "efg", ("a", "b", "c")) == [own[4], own[5], own[0], own[1]]
+    assert beginning(names, "efgh", ("a",)) == [own[4], own[5], own[0], own[6]]  # the third one behind what leads
+    assert beginning(names, "", ()) == own[:4]
+
+
+def test_a_plot_with_the_limit_of_a_check_shows_it_in_its_first_panel():
+    """Limits are drawn there, whatever line bears the name; a plot with the limit goes before one with the name alone."""
+    check = Check("play", 2.0, 1.0, "<=", "mm", "too much")
+    drawn = Plot("gap", "Gap", "t", "x", ("gap", "play"), (("play", "limit"),))
+    named = Plot("play", "Play", "t", "x", ("play",))
+    ids = {"play": ["play/play"], "gap": ["gap/gap", "gap/play"]}
+    assert first_panels(SimpleNamespace(checks=(check,)), (named, drawn), ids, ("x",))[0] == "gap/gap"
+
+
+def test_a_pattern_that_fits_several_plots_means_the_first():
+    assert beginning(["lift", "lever", "other"], "", ("l*", "o*")) == ["lift/lift", "other/other"]
+
+
+@pytest.mark.parametrize("count", [MOST_ROWS, MOST_ROWS + 1, 5000])
+def test_a_long_path_is_drawn_evenly_from_its_first_point_to_its_last(count):
+    """It runs back and forth, so that lowest and highest values of equal stretches would leave corners out."""
+    turn = np.linspace(0, 40 * np.pi, count)
+    panel = SimpleNamespace(series=[SimpleNamespace(data=np.sin(turn), x=None)], style="line")
+    rows = _rows(panel, np.cos(turn))
+    assert rows[0] == 0 and rows[-1] == count - 1 and len(rows) == MOST_ROWS
+    assert np.diff(rows).max() <= np.ceil(count / MOST_ROWS)
 
 
 @pytest.mark.parametrize("kind", registry.kinds())

@@ -175,3 +175,27 @@ def test_edits_of_a_real_spec_keep_every_comment_of_what_stays(data):
     assert tomllib.loads(made) == tables
     wanted = [line for line in JANSEN.splitlines() if line.startswith("#") and "three bodies share" not in line]
     assert [line for line in made.splitlines() if line in wanted] == wanted
+
+
+def test_a_number_that_becomes_a_truth_is_entered():
+    """In Python 1 and true are equal; in a spec they are not."""
+    made = entered(lambda tables: tables.update(format=True, other=1))
+    assert tomllib.loads(made)["format"] is True and "# kept" in made
+
+
+def test_values_between_others_are_entered_in_their_order():
+    """Two in the place of one, and one in the place of two; what stands around them stays."""
+    text = "a = [1, 2, 3]  # of a\nb = [4, 5, 6, 7]\n# the end\n"
+    made = entered(lambda tables: tables.update(a=[1, 8, 9, 3], b=[4, 10, 7]), text)
+    assert "# of a" in made and "# the end" in made
+
+
+def test_an_element_is_followed_by_its_name_through_a_change_and_another_that_goes():
+    """What an author wrote inside of it stays with it, though its number and its values are others."""
+
+    def edit(tables):
+        del tables["joints"][0]
+        tables["joints"][0]["kind"] = "pin"
+
+    made = entered(edit)
+    assert '"B"  # named' in made and "# the first" not in made

@@ -7,6 +7,7 @@ from drivewright.errors import SpecError
 from drivewright.spec import read_document
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document
+from drivewright.studio.opening import LARGEST
 
 pytestmark = pytest.mark.interface
 
@@ -75,3 +76,35 @@ def test_a_drag_of_a_border_is_one_step(cam):
     assert [angle for angle, _, _ in segments(cam)] == ["100 deg", "170 deg", "90 deg"]
     cam.undo()
     assert segments(cam) == before
+
+
+def test_steps_of_other_keys_are_another_step_of_undo_whatever_their_gesture(cam):
+    cam.drag({"follower.prime_radius": "41 mm", "spring.preload": "31 N"}, "g")
+    cam.drag({"follower.prime_radius": "42 mm"}, "g")
+    cam.undo()
+    assert cam.design.tables["follower"]["prime_radius"] == "41 mm" and cam.can_undo
+
+
+def test_what_would_outgrow_the_studio_is_refused_before_it_is_read(cam):
+    before = cam.design
+    with pytest.raises(SpecError, match="is too much for the studio"):
+        cam.arrange("programme", [keep(0, file="x" * (LARGEST + 1)), keep(1), keep(2)])
+    assert cam.design is before
+
+
+@pytest.mark.parametrize("locked", ["bodies.crank.points.A", "bodies.crank.points.A.0"])
+def test_a_row_that_is_loaded_leaves_what_is_locked_and_all_of_a_locked_point(locked):
+    """Whichever of the two is the part of the other: the rest of the row is loaded."""
+    bar = Document(Design(read_document(EXAMPLES / "four_bar.toml"), EXAMPLES), "four_bar")
+    before = bar.design.tables["bodies"]["crank"]["points"]["A"]
+    bar.lock(locked, True)
+    bar.load({"bodies.crank.points.A.0": "45 mm", "drive.speed": "99 rpm"})
+    assert bar.design.tables["bodies"]["crank"]["points"]["A"] == before and bar.design.tables["drive"]["speed"] == "99 rpm"
+
+
+@pytest.mark.parametrize("index", [-1, 3])
+def test_only_an_element_that_is_there_goes(cam, index):
+    before = cam.design
+    with pytest.raises(SpecError, match=f"has no element {index}; it has 3"):
+        cam.drop("programme", index)
+    assert cam.design is before

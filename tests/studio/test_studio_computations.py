@@ -349,6 +349,20 @@ async def test_while_others_wait_a_drawing_comes_alone(bench):
 
 
 @story
+async def test_while_a_person_builds_a_drawing_comes_alone(bench):
+    """What is built is not assembled yet: nothing is computed of it, however quick that is."""
+    bench.computing._seconds = {"motion": 0.001}
+    bench.computing.building = True
+    await bench.look(1)
+    assert (bench.calls[0].arguments[1], bench.calls[0].arguments[2]) == ([], True)
+    await bench.calls[0].answer(None)
+    bench.computing.building = False
+    await bench.look(2)
+    drawing = next(call for call in bench.calls if call.function == "draw" and call.arguments[0].gen == 2)
+    assert (drawing.arguments[1], drawing.arguments[2]) == (["motion"], False)
+
+
+@story
 async def test_what_a_hand_moves_is_drawn_quickly_and_drawn_in_full_when_it_rests(bench):
     computations.registry.mechanism(KIND).quick_scene = object()
     for gen in (1, 2):
@@ -401,6 +415,25 @@ async def test_analyses_beside_a_drawing_that_fail_say_nothing(bench):
     before = list(bench.said)
     await next(call for call in bench.calls if call.function == "glance").fail(DoesNotAssemble("the loop stays open"))
     assert bench.said == before and bench.computing._glance_task is None
+
+
+def test_after_analyses_beside_a_drawing_the_processor_belongs_to_others(bench, monkeypatch):
+    """For so many times as long as they took: here for ever, and also after a round that failed."""
+    monkeypatch.setattr(computations, "SHARE", 1e12)
+
+    async def rounds(ends):
+        bench.computing._seconds = {"motion": 0.001}
+        computations.registry.mechanism(KIND).quick_scene = None
+        for gen in (1, 2):
+            await moved(bench, gen)
+            if gen == 1:
+                await ends(next(call for call in bench.calls if call.function == "glance"))
+        return [call.arguments[0].gen for call in bench.calls if call.function == "glance"]
+
+    assert loops.run(rounds(lambda call: call.answer(found("motion")))) == [1]
+    bench.calls.clear()
+    bench.computing._quick_from = -1e9
+    assert loops.run(rounds(lambda call: call.fail(DoesNotAssemble("open")))) == [1]
 
 
 def test_of_drawings_in_quick_succession_only_some_come_with_analyses(bench, monkeypatch):
@@ -512,6 +545,16 @@ async def test_no_result_of_an_older_design_after_a_newer_one(bench):
     await bench.calls[2].answer(None)
     await bench.calls[3].answer(found("motion", value=2.0, timings={"motion": 0.001}))
     assert [(message["gen"], message["result"]["checks"][0]["value"]) for message in bench.told("result")] == [(2, 2.0)]
+
+
+@story
+async def test_an_answer_of_an_older_design_is_not_the_full_result_of_the_newest(bench):
+    """Nor is it what a later design is compared with."""
+    bench.computing.update(2, SimpleNamespace(kind=KIND, gen=2))
+    bench.computing._show(1, found("motion"))
+    assert [(message["gen"], message["full"]) for message in bench.told("result")] == [(1, False)]
+    bench.computing._show(2, found("motion"))
+    assert bench.told("result")[-1]["full"] is True
 
 
 @story

@@ -10,7 +10,7 @@ from drivewright.errors import DrivewrightError, InputError, SpecError, UnknownN
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document
 from drivewright.studio.jobs import JOBS, fix
-from drivewright.studio.proposals import propose
+from drivewright.studio.proposals import LONGEST, _ends, propose, search_table
 
 pytestmark = pytest.mark.interface
 
@@ -66,6 +66,32 @@ def test_what_is_proposed_can_be_searched(name):
     for number, unknown in enumerate(spec.optimise.unknowns):
         low, high = _bounds(_kind(spec, spec.optimise.unknowns, number), unknown, "here")
         assert low < high, unknown
+
+
+@pytest.mark.parametrize(
+    ("value", "slider", "ends"),
+    [
+        (3.0, None, ("1.5 mm", "6 mm")),
+        (-3.0, None, ("-6 mm", "-1.5 mm")),  # the lower end comes first
+        (3.0, [2.25, 3.5], ("2.25 mm", "3.5 mm")),
+        ("rigid", None, ("", "")),
+    ],
+)
+def test_bounds_are_the_ends_of_the_slider_or_half_and_twice_the_value(value, slider, ends):
+    assert _ends({"kind": "quantity", "value": value, "slider": slider, "unit": "mm"}) == ends
+
+
+def test_bounds_of_what_has_no_unit_are_plain_and_choices_have_none():
+    assert _ends({"kind": "integer", "value": 8, "slider": None, "unit": ""}) == ("4", "16")
+    assert _ends({"kind": "flag", "value": True, "slider": [0, 1], "unit": ""}) == ("", "")
+
+
+def test_a_choice_that_the_design_leaves_open_is_not_proposed():
+    """It has no value around which it could vary; as soon as it is stated it may."""
+    keys, _ = proposed(cam())
+    assert "follower.lift_at" not in keys and "rotation" in keys
+    valve, _ = proposed(Design(tomllib.loads((EXAMPLES / "valve_train.toml").read_text(encoding="utf-8")), EXAMPLES))
+    assert valve["follower.lift_at"]["choices"] == ["arm", "tip", "valve"]
 
 
 # -- what is written -----------------------------------------------------------------------------------------------------------
@@ -148,6 +174,29 @@ def test_what_no_form_says_is_refused_and_changes_nothing(name, content, words):
     with pytest.raises(DrivewrightError, match=words):
         document.write(name, content)
     assert document.design is before
+
+
+def test_the_texts_of_an_entry_have_a_limit():
+    def written(length):
+        return search_table(cam(), "optimise", {"objectives": [{"value": "v" * length, "goal": "minimise"}]})
+
+    assert len(written(LONGEST)["objectives"][0]["value"]) == LONGEST == 500
+    with pytest.raises(InputError, match=r"optimise\.objectives\.0 has a text of more than 500 characters"):
+        written(LONGEST + 1)
+
+
+@pytest.mark.parametrize(("typed", "read"), [("0.5", 0.5), ("-3", -3), ("300 N", "300 N"), ("5 %", "5 %")])
+def test_a_limit_without_a_unit_is_a_number(typed, read):
+    needs = [{"value": "max_contact_force", "at_most": typed, "at_least": typed}]
+    (need,) = search_table(cam(), "optimise", {"requirements": needs})["requirements"]
+    for side in ("at_most", "at_least"):
+        assert need[side] == read and isinstance(need[side], type(read))
+
+
+@pytest.mark.parametrize(("typed", "read"), [("5 %", "5 %"), ("5%", "5%"), ("5", "5 N"), ("0.02 kN", "0.02 kN")])
+def test_a_tolerance_is_a_part_of_the_value_or_has_the_unit_of_its_key(typed, read):
+    entry = {"key": "spring.preload", "tolerance": typed, "distribution": "normal"}
+    assert search_table(cam(), "study", {"vary": [entry]})["vary"] == [{**entry, "tolerance": read}]
 
 
 def test_a_locked_bound_stays():

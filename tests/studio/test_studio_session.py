@@ -3,12 +3,14 @@
 import json
 import shutil
 
+import loops
 import pytest
 from places import EXAMPLES
 from studio_tab import Here, Tab
 
 from drivewright.errors import InputError, SpecError
 from drivewright.studio.app import _files as served_files
+from drivewright.studio.edited_design import SHORT
 from drivewright.studio.jobs import JOBS
 from drivewright.studio.opening import LARGEST, first_design, opened, packed, unpacked
 from drivewright.studio.resources import KEPT, MOST_OFFERS, ServerResources
@@ -392,6 +394,56 @@ def test_an_odd_request_is_answered_and_changes_nothing(tab, message):
     (refused,) = tab.say(**message)
     assert refused["what"] == "refused" and refused["message"]
     assert tab.toml == before
+
+
+def refusal(tab, message):
+    return next((each["message"] for each in tab.say(**message) if each["what"] == "refused"), "")
+
+
+@pytest.mark.parametrize(
+    ("message", "most", "words"),
+    [
+        (lambda n: {"what": "drag", "changes": {f"joints.{k}.name": "x" for k in range(n)}, "gesture": "g"}, 16, "at most 16 keys at once"),
+        (
+            lambda n: {"what": "construct", "tool": "body", "places": [[k, 0] for k in range(n)], "near": 0.001},
+            50,
+            "at most 50 places at once",
+        ),
+        (lambda n: {"what": "set", "key": "k" * n, "text": "1"}, 500, "a key has at most 500 characters"),
+    ],
+)
+def test_a_message_has_limits_of_its_own(tab, message, most, words):
+    """What keeps within them is refused in other words here, if at all."""
+    assert words in refusal(tab, message(most + 1)) and words not in refusal(tab, message(most))
+
+
+def test_what_is_said_again_about_building_changes_nothing(tab):
+    """A page that says twice that it builds, or that it does not, has nothing drawn anew."""
+    tab.quiet.building = False
+    assert tab.say("sketch", on=False) == [] and tab.say("sketch", on=True) and tab.say("sketch", on=True) == []
+
+
+@pytest.mark.parametrize(("length", "elsewhere"), [(100, False), (SHORT, True)])
+def test_a_long_message_is_read_in_another_process(tab, length, elsewhere):
+    """A short one by the loop itself: taking it apart costs less than handing it on."""
+    called, call = [], tab.session._call
+
+    async def noted(function, *arguments):
+        called.append(function.__name__)
+        return await call(function, *arguments)
+
+    async def reading():
+        tab.session.read(json.dumps({"what": "set", "key": "title", "text": "x" * length}))
+        await tab.session._inbox.work
+
+    tab.session._call = noted
+    loops.run(reading())
+    assert ("read_message" in called) == elsewhere and called[-1] == "edit"
+
+
+def test_a_refusal_repeats_no_more_than_a_page_shows(tab):
+    (refused,) = tab.say("set", key="drive.speed", text="x" * 30_000)
+    assert len(refused["text"]) == 20_000 and refused["key"] == "drive.speed"
 
 
 def test_a_search_cannot_name_a_file(tab):

@@ -178,6 +178,40 @@ def test_measured_values_as_text():
     assert found == ["60.00°", "12.346\u00a0mm", "−1.000\u00a0mm", "90.0°", "2.000 s", "0.00500"]
 
 
+def test_what_differs_by_the_rounding_of_poses_only_is_constant():
+    """Poses come as single precision: of an angle by parts of a turn, of a length by parts of how far its bodies go."""
+    body = """
+        const u = Array.from({length: 41}, (_, n) => n / 40), noise = phase => data.noise * (Math.round(40 * phase) % 2 ? 1 : -1);
+        const poseOf = (body, phase) => body < 0 ? [0, 0, 0] : [data.far, 0, body ? noise(phase) / data.far : 0];
+        const near = (body, x, y) => ({kind: "point", body, point: [x, y]}), player = {scene: {u}, poseOf};
+        const moved = (body, phase) => { const [x, y, a] = poseOf(0, phase); return [x + (body ? noise(phase) : 0), y, a]; };
+        return [courseOf("angle", [near(1, 1e-3, 0), near(0, 0, 0), near(0, 0, 1e-3)], player).constant,
+          courseOf("distance", [near(1, 1e-3, 0), near(0, 0, 0)], {scene: {u}, poseOf: moved}).constant];
+    """
+    assert in_node(body, {"far": 10, "noise": 1e-6}, measures="courseOf") == [True, True]
+    assert in_node(body, {"far": 10, "noise": 1e-3}, measures="courseOf") == [False, False]
+
+
+def test_a_course_as_a_panel_is_in_the_unit_that_people_read_with_air_above_and_below():
+    body = """
+        const course = values => ({u: [0, 0.5, 1], values, low: Math.min(...values), high: Math.max(...values)});
+        return [panelOf("A", "angle", course([0.5, 1, 1.5]), "blue"), panelOf("B", "vertical", course([-0.02, 0.01, 0.03]), "green"),
+          panelOf("C", "distance", course([0.02, 0.02, 0.02]), "green"), panelOf("D", "distance", course([0, 0, 0]), "green")];
+    """
+    angle, length, still, none = in_node(body, None, measures="panelOf")
+    (line,) = angle["series"]
+    assert line["unit"] == "°" and line["values"] == pytest.approx(np.rad2deg([0.5, 1, 1.5]).tolist())
+    assert (angle["low"], angle["high"]) == pytest.approx(tuple(np.rad2deg([0.44, 1.56])))
+    assert length["series"][0]["unit"] == "mm" and length["series"][0]["values"] == pytest.approx([-20, 10, 30])
+    assert (length["low"], length["high"]) == pytest.approx((-23, 33))
+    assert (still["low"], still["high"]) == pytest.approx((18.8, 21.2)) and none["low"] < 0 < none["high"]
+
+
+def test_where_on_the_cycle_is_told_to_a_thousandth_of_its_span():
+    body = "return data.map(span => cycleText({start: 0, span, unit: 's'}, 0.5));"
+    assert in_node(body, [60, 49, 5, 0.5], measures="cycleText") == ["30.0 s", "24.50 s", "2.500 s", "0.2500 s"]
+
+
 def lines_of(kind, parts, at, text="5", scale=100):
     """The elements of a dimension: [(tag, attributes, text)]."""
     body = """
@@ -240,6 +274,23 @@ def test_the_arc_between_two_lines_stands_at_the_start_of_the_first():
     (path,) = [a["d"] for tag, a, _ in found if tag == "PATH"]
     x0, y0, _, _, _, _, sweep, x1, y1 = map(float, re.findall(r"-?[\d.]+", path))
     assert (x0, y0, x1, y1, sweep) == (134, 200, 100, 234, 1)  # clockwise, downwards
+
+
+def test_an_angle_across_the_half_turn_is_the_small_one():
+    """Arms at 170 and at -170 degrees: the arc goes through 180, and its label stands there."""
+    arms = [[200 + 100 * math.cos(a), 200 - 100 * math.sin(a)] for a in map(math.radians, (170, -170))]
+    found = lines_of("angle", [{"kind": "point"}] * 3, [arms[0], [200, 200], arms[1]])
+    (path,) = [a["d"] for tag, a, _ in found if tag == "PATH"]
+    assert path.split("A")[1].split()[3:5] == ["0", "0"]  # the short way, counter-clockwise
+    (text,) = [a for tag, a, _ in found if tag == "TEXT"]
+    assert [float(text["x"]), float(text["y"]) + 6] == pytest.approx([150, 200], abs=0.1)
+
+
+def test_points_that_fall_together_have_no_arrow_heads_and_lines_of_an_angle_go_beyond_its_arc():
+    assert heads(lines_of("distance", [{}, {}], [[100, 200], [100, 200]])) == []
+    lines = [{"kind": "line", "body": 0, "point": [1, 1], "to": [2, 1]}, {"kind": "line", "body": 0, "point": [3, 1], "to": [3, 0]}]
+    arms = [ends(a) for tag, a, _ in lines_of("angle", lines, [[100, 200], [300, 200]]) if tag == "LINE"]
+    assert [math.dist(*arm) for arm in arms] == pytest.approx([46, 46], abs=0.1)  # 12 px beyond the 34 of the arc
 
 
 # -- the motion programme ------------------------------------------------------------------------------------------------------
@@ -349,6 +400,35 @@ def test_two_jumps_at_one_place_are_one():
     step["segments"][1]["course"] = [packed(row) for row in rows]
     (jump,) = jumps_of(step)["jumps"]
     assert jump["order"] == 2 and jump["at"] == pytest.approx(math.pi)
+
+
+def test_a_programme_begins_at_its_own_level_and_a_table_stays_at_its_lifts():
+    """Whatever a segment before it is stretched to."""
+    table = {**PROGRAMME, "segments": [harmonic(0, math.pi, 0.005, 0.01), harmonic(math.pi, math.pi, 0.015, -0.01, absolute=True)]}
+    body = "return stretched(unpacked(data), [Math.PI, Math.PI], [0.02, 0]).segments.map(({from, to}) => [from, to]);"
+    first, second = in_node(body, table, motion_segments="stretched, unpacked")
+    assert first == pytest.approx([0.005, 0.025]) and second == pytest.approx([0.015, 0.005])
+
+
+@pytest.mark.parametrize(("part", "orders"), [(1e-2, {2}), (1e-6, set())])
+def test_a_jump_of_a_hundredth_counts_and_rounding_does_not(part, orders):
+    made = {**PROGRAMME, "segments": [harmonic(0, math.pi, 0.1, 0.02), harmonic(math.pi, math.pi, 0.12, -0.02)]}
+    rows = [np.array(struct.unpack("<61f", base64.b64decode(row))) for row in made["segments"][1]["course"]]
+    rows[3][0] += part * 0.01  # of the largest acceleration
+    made["segments"][1]["course"] = [packed(row) for row in rows]
+    assert {jump["order"] for jump in jumps_of(made)["jumps"]} == orders
+
+
+def test_a_segment_can_be_halved_down_to_a_degree():
+    body = (
+        TEXTS
+        + """
+        const wide = angle => ({...programme, segments: [{...programme.segments[0], angle: angle * Math.PI / 180}]});
+        return data.angles.map(angle => withDwell(wide(angle), 0, texts) !== null);
+    """
+    )
+    found = in_node(body, {**PROGRAMME, "angles": [1.9, 2.1, 10]}, motion_segments="withDwell")
+    assert found == [False, True, True]
 
 
 def segments(*rises, absolute=()):

@@ -111,6 +111,68 @@ def test_steps_that_the_server_has_taken_and_not_drawn_count_too():
     assert dragged(body, POINT, undrawn=2) == [1, 3]
 
 
+def test_answers_beyond_those_that_are_due_make_no_more_room():
+    body = """
+        down(); to([0.032, 0.01]);
+        for (let n = 0; n < 5; n++) drag.answered();
+        for (const x of [0.0325, 0.033, 0.034, 0.035, 0.036, 0.037]) to([x, 0.01]);
+        return said.length;
+    """
+    assert dragged(body, POINT) == 4
+
+
+def test_a_drawing_that_is_not_the_newest_makes_no_room():
+    body = """
+        down(); for (const x of [0.032, 0.033, 0.034]) to([x, 0.01]);
+        data.undrawn = 1; drag.drawn(); to([0.0345, 0.01]);
+        const before = said.length;
+        data.undrawn = 0; drag.drawn(); for (const x of [0.035, 0.036, 0.037]) to([x, 0.01]);
+        return [before, said.length];
+    """
+    assert dragged(body, POINT) == [3, 5]  # one that the server took together with others is still due
+
+
+def test_steps_without_any_answer_are_waited_for_a_moment_only():
+    """Then the next one goes, and they are counted anew."""
+    body = """
+        let now = 1000;
+        Object.defineProperty(globalThis, "performance", {value: {now: () => now}, configurable: true});
+        down(); for (const x of [0.031, 0.032, 0.033, 0.034]) to([x, 0.01]);
+        const before = said.length;
+        now += 200; for (const x of [0.035, 0.036, 0.037, 0.038]) to([x, 0.01]);
+        return [before, said.length];
+    """
+    assert dragged(body, POINT) == [3, 6]
+
+
+def test_a_hand_that_comes_back_takes_the_point_back_and_opens_no_box():
+    body = """
+        down(); to([0.05, 0.02], {altKey: true}); to([0.03, 0.01], {altKey: true}); button.fire("pointerup");
+        return [said.map(({changes}) => changes), layer.named("handle-box-").length];
+    """
+    (away, back), boxes = dragged(body, POINT)
+    assert (
+        numbers_of({"changes": away}) == pytest.approx([50, 20]) and numbers_of({"changes": back}) == pytest.approx([30, 10]) and boxes == 0
+    )
+
+
+def test_the_numbers_stand_beside_the_handle_and_inside_of_the_drawing():
+    """The bubble of the stub is 50 px wide and 20 high: to the left of its handle at the right edge, never closer than 4 px to an edge."""
+    body = """
+        down(); const seen = [];
+        for (const [x, y] of [[0, 0.01], [0.19, 0.01], [0.04, 0.105]]) {
+          to([x, y], {altKey: true});
+          data.handle.point = [x, y];  // the drawing has come
+          drag.draw(); seen.push([place(data.handle, data.handle.point), bubble.style.transform.match(/-?[\\d.]+/g).map(Number)]);
+        }
+        return seen;
+    """
+    free = {"handle": {"key": "p", "body": -1, "point": [0.05, 0.01]}, "numbers": POINT["numbers"]}
+    middle, right, top = dragged(body, free)
+    assert middle[1] == pytest.approx([middle[0][0] + 16, middle[0][1] - 34])
+    assert right[0][0] > 550 and right[1][0] == pytest.approx(right[0][0] - 16 - 50) and top[0][1] < 20 and top[1][1] == 4
+
+
 def test_a_hand_that_shakes_moves_nothing_and_opens_the_box():
     said, boxes = dragged(
         "down(); button.fire('pointermove', {clientX: at[0] + grip[0] + 2, clientY: at[1] + grip[1]});"
@@ -137,6 +199,35 @@ def test_a_point_falls_upon_one_of_another_body_and_stands_level_with_its_own():
         numbers=[{**number, "high": None} for number in POINT["numbers"]],
     )
     assert math.hypot(*numbers_of(length[0])) == pytest.approx(58.5, abs=0.02) and "equal length" in length[1] and length[2] == 1
+
+
+def test_a_point_beside_the_handle_attracts_it_and_one_upon_it_does_not():
+    """A pin of two bodies is a point of both: the other one's moves along, and holds nothing fast."""
+    c, s = math.cos(0.7), math.sin(0.7)
+    spots = {
+        name: [0.02 + x * c - y * s, 0.005 + x * s + y * c] for name, (x, y) in {"upon": (0.03, 0.01), "beside": (0.0323, 0.0111)}.items()
+    }
+    body = "down(); to([0.0324, 0.0112]); return said;"
+    (beside,) = dragged(body, POINT, others=[{"body": -1, "point": spots["beside"]}])
+    (upon,) = dragged(body, POINT, others=[{"body": -1, "point": spots["upon"]}])
+    assert numbers_of(beside) == pytest.approx([32.3, 11.1], abs=0.01) and numbers_of(upon) == pytest.approx([32.5, 11])
+
+
+def test_the_bubble_is_measured_again_when_its_text_gets_longer():
+    body = """
+        Object.defineProperty(bubble, "offsetWidth", {get: () => 6 * bubble.textContent.length});
+        data.handle.point = [0.16, 0.01];
+        drag.attach(button, () => data.handle);
+        button.fire("pointerenter", {pointerType: "mouse"});
+        const short = [bubble.textContent.length, Number(bubble.style.transform.match(/-?[\\d.]+/)[0])];
+        data.numbers[0].value = 160.123456; drag.draw();
+        const x = place(data.handle, data.handle.point)[0];
+        return [x, short, [bubble.textContent.length, Number(bubble.style.transform.match(/-?[\\d.]+/)[0])]];
+    """
+    x, short, long = dragged(body, {"handle": {"key": "p", "body": -1, "point": [0.16, 0.01]}, "numbers": POINT["numbers"]})
+    for length, left in (short, long):
+        assert left == pytest.approx(x - 16 - 6 * length)
+    assert long[0] > short[0]
 
 
 def test_one_number_follows_the_hand_along_its_direction_only():

@@ -21,9 +21,12 @@ export class Part {
     if (name === "class") String(value).split(" ").forEach(each => this.classList.add(each));
     if (name.startsWith("data-")) this.dataset[name.slice(5)] = String(value);
     if (name === "hidden") this.hidden = true;
+    if (name === "value") this.value = String(value);
   }
   getAttribute(name) { return this.attributes[name] ?? null; }
   append(...parts) { for (const part of parts) { this.children.push(part); if (part instanceof Part) part.parentElement = this; } }
+  replaceWith(other) { this.parentElement?.swap(this, other); }
+  swap(old, made) { this.children = this.children.map(each => each === old ? made : each); made.parentElement = this; old.parentElement = null; }
   replaceChildren(...parts) { this.children = []; this.append(...parts); }
   remove() { if (this.parentElement) this.parentElement.children = this.parentElement.children.filter(each => each !== this); }
   contains(other) { return this === other || this.children.some(each => each instanceof Part && each.contains(other)); }
@@ -42,7 +45,13 @@ export class Part {
     for (let at = this; at && going; at = at.parentElement) for (const act of [...at.listeners[name] || []]) act(event);
   }
   getBoundingClientRect() { return this.box; }
-  setPointerCapture() {}
+  setPointerCapture(id) { this.captured = id; }
+  hasPointerCapture(id) { return this.captured === id; }
+  closest(tag) { for (let at = this; at; at = at.parentElement) if (at.tagName === tag.toUpperCase()) return at; return null; }
+  getContext() { return this.context ||= drawnOn(); }
+  get options() { return this.querySelectorAll("option"); }
+  get isConnected() { return this.parentElement !== null; }
+  get parentNode() { return this.parentElement; }
   focus() { document.activeElement = this; }
   select() {}
   /** All parts inside that a test id begins. */
@@ -51,9 +60,24 @@ export class Part {
   querySelectorAll(tag) { return this.all().filter(({tagName}) => tagName === tag.toUpperCase()); }
 }
 
+/** A canvas's context that notes what is called, [[name, ...arguments]], and the colour of a stroke. */
+function drawnOn() {
+  const calls = [], own = {calls, measureText: text => ({width: 6 * text.length})};
+  return new Proxy(own, {get: (_, name) => own[name] ?? ((...given) => { calls.push(name === "stroke" ? [name, own.strokeStyle] : [name, ...given]); }), set: (_, name, value) => { own[name] = value; return true; }});
+}
+
+class Watcher { constructor(act) { this.act = act; watchers.push(this); } observe() {} disconnect() {} }
+const watchers = [];
+
+/** A canvas has its size. */
+export function resized() { watchers.forEach(each => { if (each instanceof Sizes) each.act(); }); }
+class Sizes extends Watcher {}
+
 let frames = [];
 Object.assign(globalThis, {
-  document: {createElement: tag => new Part(tag), createElementNS: (_, tag) => new Part(tag), addEventListener() {}, activeElement: null, styleSheets: []},
+  document: {createElement: tag => new Part(tag), createElementNS: (_, tag) => new Part(tag), addEventListener() {}, removeEventListener() {}, activeElement: null, styleSheets: []},
+  window: globalThis, devicePixelRatio: 1, ResizeObserver: Sizes, MutationObserver: Watcher,
+  getComputedStyle: () => ({getPropertyValue: name => name}), matchMedia: () => ({matches: false, addEventListener() {}, removeEventListener() {}}),
   requestAnimationFrame: act => frames.push(act),
   cancelAnimationFrame: number => { if (number) frames[number - 1] = () => {}; },
   addEventListener() {}, removeEventListener() {}, innerHeight: 900,

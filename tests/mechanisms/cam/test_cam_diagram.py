@@ -10,6 +10,9 @@ from places import EXAMPLES
 from drivewright import registry, runner
 from drivewright.errors import InputError
 from drivewright.mechanisms.cam.diagram import laws
+from drivewright.motion import MotionLaw, Programme, Segment, law
+from drivewright.motion.diagram import LEAST, MOST_PIECES, diagram_segments
+from drivewright.motion.laws import BUILT_IN
 from drivewright.report.programme import pack_programme
 from drivewright.spec import from_document, load, read_document
 from drivewright.studio.design import Design
@@ -150,3 +153,52 @@ def test_rows_that_make_no_motion_are_refused(rows, more, words):
 @pytest.mark.parametrize("kind", KINDS_WITHOUT)
 def test_kinds_without_a_list_of_segments_have_no_diagram(kind):
     assert registry.mechanism(kind).programme is None
+
+
+def test_no_law_is_offered_under_two_names():
+    builders = [BUILT_IN[choice.name] for choice in laws() if choice.name != "dwell"]
+    assert len(builders) == len(set(builders)) > 10
+
+
+def test_without_a_speed_derivatives_are_per_radian():
+    """Where the spec states no speed there is none to multiply by, and nothing that JSON cannot say."""
+    document = read_document(EXAMPLES / "disc_cam.toml")
+    del document["drive"]
+    model = runner.build(from_document(document))
+    assert not model.turns and pack_programme(diagram_of(model))["speed"] is None
+    json.dumps(pack_programme(diagram_of(model)), allow_nan=False)
+
+
+# -- the segments of any programme ---------------------------------------------------------------------------------------------
+
+
+def absolute_table():
+    """A table that goes from 2 mm to 12 mm over half a turn."""
+    return MotionLaw("table", law("cycloidal").function.scaled(height=0.01, level=0.002), np.pi)
+
+
+def test_lifts_of_a_table_are_its_own_and_of_other_laws_begin_where_the_one_before_ended():
+    programme = Programme((Segment(np.pi, absolute_table()), Segment(np.pi, "cycloidal", -0.01)))
+    table, back = diagram_segments(programme)
+    assert table.absolute and not back.absolute
+    assert table.course[1, [0, -1]] == pytest.approx([0.002, 0.012]) and back.course[1, [0, -1]] == pytest.approx([0.012, 0.002])
+
+
+def knots(count):
+    """(u, s) of so many points on half a wave."""
+    u = np.linspace(0, 1, count)
+    return [[float(x), float((1 - np.cos(np.pi * x)) / 2)] for x in u]
+
+
+@pytest.mark.parametrize("pieces", [1, 8, MOST_PIECES - 1, MOST_PIECES + 5])
+def test_a_segment_of_any_number_of_pieces_is_drawn_from_its_start_to_its_end(pieces):
+    rise = law("spline", points=knots(pieces + 1)) if pieces > 1 else law("polynomial-345")
+    assert rise.function.count >= pieces
+    programme = Programme((Segment(2.0, rise, 0.03), Segment(2 * np.pi - 2.0, "cycloidal", -0.03)))
+    (drawn, _), many = diagram_segments(programme), rise.function.count > MOST_PIECES
+    theta, lift, velocity, *_ = drawn.course
+    assert theta[0] == 0 and theta[-1] == pytest.approx(2.0) and np.all(np.diff(theta) >= -1e-12)
+    assert lift == pytest.approx(programme(np.minimum(theta, 2.0 - 1e-12)).s, abs=1e-9)
+    assert np.sum(np.diff(theta) * (velocity[1:] + velocity[:-1]) / 2) == pytest.approx(0.03, rel=1e-2)
+    assert len(theta) == 2 * MOST_PIECES + 1 if many else len(theta) >= (LEAST + 1) * rise.function.count
+    assert 90 < len(theta) < 8 * MOST_PIECES  # a smooth line, and no more than a page can move

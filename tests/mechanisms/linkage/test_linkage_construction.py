@@ -1,12 +1,15 @@
 """A linkage built by tools that take clicked places: what the tables become, and what is said to be missing."""
 
+import math
+
+import numpy as np
 import pytest
 
 from drivewright import registry
 from drivewright.errors import DoesNotAssemble, InputError
 from drivewright.mechanisms.linkage.build import build
-from drivewright.mechanisms.linkage.construction import CONSTRUCTION, TOOLS
-from drivewright.mechanisms.linkage.sketch import connected, sketch, stated_poses, unfinished
+from drivewright.mechanisms.linkage.construction import CONSTRUCTION, TOOLS, _match_run
+from drivewright.mechanisms.linkage.sketch import connected, loose_poses, sketch, stated_poses, unfinished
 from drivewright.spec import from_document, read_document
 from drivewright.studio.document import Document
 from drivewright.studio.opening import preset
@@ -223,3 +226,105 @@ def test_other_kinds_have_no_tools():
     with pytest.raises(InputError, match="is not built with"):
         Document(preset("cam")).construct("pin", [(0.0, 0.0)], 0.001)
     assert len({tool.name for tool in TOOLS}) == len(TOOLS) == 9
+
+
+# -- what a click makes, in numbers --------------------------------------------------------------------------------------------
+
+
+def carried(pose, point):
+    """Where a point of a body is seen [m]."""
+    x, y, angle = pose
+    c, s = math.cos(angle), math.sin(angle)
+    return x + c * point[0] - s * point[1], y + s * point[0] + c * point[1]
+
+
+@pytest.mark.parametrize(
+    ("corners", "mass", "size", "centroid"),
+    [
+        ([(300, 0), (400, 0)], 0.1, 0.1, (350, 0)),
+        ([(300, 0), (360, 0), (360, 80)], 0.14, 0.1, (340, 26.6667)),  # 60 + 80 mm along its sides, 100 mm across
+        ([(300, 0), (400, 0), (303.5, 0)], 0.1965, 0.1, (334.5, 0)),  # there and almost back again
+    ],
+)
+def test_a_body_weighs_a_kilogram_a_metre_and_turns_like_a_slender_bar(hand, corners, mass, size, centroid):
+    """Steiner's bar about its middle: m L^2 / 12, over its largest extent."""
+    hand.use("body", *corners)
+    made = hand.spec.bodies["link"]
+    assert made.mass == pytest.approx(mass, rel=5e-3) and made.inertia == pytest.approx(mass * size**2 / 12, rel=1e-2)
+    assert [1e3 * part for part in made.centroid] == pytest.approx(centroid, abs=1e-3)
+
+
+def test_places_are_kept_to_a_tenth_of_a_micrometre(hand):
+    hand.use("body", (300.1234, -0.5678), (340, 0))
+    assert hand.tables["bodies"]["link"]["points"]["A"] == ["300.1234 mm", "-0.5678 mm"]
+
+
+@pytest.mark.parametrize(("body", "part"), [("coupler", 0.3), ("rocker", 0.6)])
+def test_a_point_that_is_made_on_a_turned_body_is_seen_where_it_was_clicked(hand, body, part):
+    pose, points = loose_poses(hand.spec)[body], list(hand.spec.bodies[body].points.values())[:2]
+    a, b = (np.array(carried(pose, point)) for point in points)
+    place = a + part * (b - a)
+    hand.use("output", 1e3 * place)
+    made = hand.spec.outputs[-1]
+    assert made.body == body and abs(math.sin(pose[2])) > 0.05
+    assert carried(loose_poses(hand.spec)[body], hand.spec.bodies[body].points[made.point]) == pytest.approx(place, abs=2e-7)
+
+
+def test_of_two_points_of_a_body_the_nearer_one_is_meant(hand):
+    hand.use("body", (300, 0), (340, 0))
+    hand.use("output", (304, 0))  # makes C, four millimetres beside A
+    for x, name in ((301.5, "A"), (302.5, "C")):
+        hand.use("output", (x, 0))
+        assert hand.tables["outputs"][-1]["point"] == name
+
+
+def test_a_further_body_on_a_support_is_pinned_to_the_frame(hand):
+    hand.use("body", (300, 0), (340, 60))
+    hand.use("pin", (300, 0))
+    hand.use("body", (300, 0), (260, 60))
+    hand.use("pin", (300, 0))
+    assert [joint["connects"] for joint in hand.tables["joints"][4:]] == [["ground.A", "link.A"], ["ground.A", "link_2.A"]]
+
+
+def test_a_run_of_turns_keeps_its_duration_without_a_drive():
+    run = {"turns": 3, "discard": 1, "duration": "2 s", "output_step": "1 ms"}
+    tables = {"joints": [], "drive": {"joint": "gone", "speed": "60 rpm"}, "simulate": dict(run)}
+    _match_run(tables)
+    assert tables == {"joints": [], "simulate": {"duration": "2 s", "output_step": "1 ms"}}
+    kept = {"joints": [{"name": "O2"}], "drive": {"joint": "O2", "speed": "60 rpm"}, "simulate": dict(run)}
+    _match_run(kept)
+    assert kept["simulate"] == run
+
+
+@pytest.mark.parametrize("angle", [0, 30, -110])
+def test_bodies_that_are_not_assembled_hang_on_their_joints_at_their_angles(hand, angle):
+    """The pins of every stated body meet, from the frame outwards; one without joints turns about the origin."""
+    hand.use("body", (300, 0), (340, 60))
+    hand.use("body", (500, 0), (540, 60))
+    hand.use("pin", (300, 0))
+    bodies = {**hand.tables["bodies"]}
+    for name in ("link", "link_2"):
+        bodies[name] = {**bodies[name], "angle": f"{angle} deg"}
+    loose = {"name": "x", "connects": ["coupler.C", "ground.O2"]}
+    spec = from_document({**hand.tables, "bodies": bodies, "joints": [*hand.tables["joints"], loose]})
+    poses = stated_poses(spec)
+    assert carried(poses["link"], spec.bodies["link"].points["A"]) == pytest.approx((0.3, 0), abs=1e-9)
+    assert poses["link"][2] == pytest.approx(math.radians(angle)) and poses["link_2"] == pytest.approx((0, 0, math.radians(angle)))
+    drawn = {body.name: body.poses for body in sketch(spec).bodies}
+    assert drawn["link_2"] == pytest.approx(np.tile(poses["link_2"], (2, 1)))
+
+
+def test_the_loose_end_is_not_the_body_that_the_drive_turns():
+    hand = Building()
+    hand.document = Document(preset("linkage", CONSTRUCTION.start))
+    hand.use("body", (300, 0), (340, 60))
+    assert hand.use("pin", (300, 0)) == ("remaining degrees of freedom beside the drive: 1; body link is held by one joint only",)
+
+
+def test_a_sketch_stands_still_at_the_start(hand):
+    drawn = sketch(hand.spec)
+    assert {body.name for body in drawn.bodies} >= {"crank", "coupler", "rocker"}
+    for body in drawn.bodies:
+        assert np.ptp(body.poses, axis=0) == pytest.approx(0, abs=1e-12)
+        if body.name in hand.spec.bodies:
+            assert body.poses[0] == pytest.approx(loose_poses(hand.spec)[body.name])
