@@ -20,6 +20,7 @@ def page(studio, browser):
     page.goto(studio)
     until(page, "window.drivewright !== undefined", 30)
     drawn(page)
+    until(page, f"{STATE}.result?.full", 120)  # the pane below has its place, so that the places of the drawing stay
     page.get_by_test_id("build").click()
     until(page, f"Array.isArray({STATE}.scene?.missing)", 60)
     drawn(page)
