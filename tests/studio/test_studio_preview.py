@@ -318,3 +318,11 @@ def test_warming_loads_every_kind_and_tells_nothing(monkeypatch):
     monkeypatch.setattr(preview, "registry", SimpleNamespace(kinds=lambda: ["a", "b"], mechanism=loaded.append))
     preview.warm(None)
     assert loaded == ["a", "b"]
+
+
+def test_plots_are_sent_without_the_panels_that_a_page_has():
+    one, two = [{"id": "a/x"}], [{"id": "b/x"}]
+    plots = {"cycle": None, "plots": [{"name": "a", "panels": one, "stale": True}, {"name": "b", "panels": two}], "first": ["a/x"]}
+    told = preview.without_known(plots, {"a": one, "b": [{"id": "b/x"}]})
+    assert told == {**plots, "plots": [{"name": "a", "stale": True}, {"name": "b", "panels": two}]}, "the same object, not an equal one"
+    assert preview.without_known(plots, {}) == plots and preview.without_known(None, {}) is None

@@ -33,6 +33,7 @@ class TabComputations:
         self._newest: tuple[int, Design] | None = None
         self._limit = ANALYSIS
         self._shown: dict[str, Any] | None = None  # what the page shows of it
+        self._known: dict[str, Any] = {}  # panels of the plots that the page has, by the name of the plot
         self._full: tuple[int, dict[str, Any]] | None = None  # the newest full result, with its generation
         self._pinned: dict[str, Any] | None = None  # the result that what is shown is compared with
         self._moving = -1  # generation of the newest design that a hand is moving
@@ -93,6 +94,7 @@ class TabComputations:
         """Another drive begins with the generation `since`: nothing of the one before belongs to it."""
         self._since, self._shown, self._fresh, self._seconds = since, None, False, {}
         self._full = self._pinned = None
+        self._known = {}
         for name in self._jobs:
             self.cancel(name)
 
@@ -221,7 +223,10 @@ class TabComputations:
         if self._fresh:
             self._full = gen, self._shown
         apart = {"differences": preview.differences(self._pinned, self._shown)} if self._pinned else {}
-        self.send({"what": "result", "gen": gen, "full": self._fresh, "result": {**self._shown, **apart}})
+        plots, known = self._shown["plots"], {} if quick is None else self._known
+        self._known = {plot["name"]: plot.get("panels") for plot in plots["plots"]} if plots else {}
+        told = {**self._shown, **apart, "plots": preview.without_known(plots, known)}
+        self.send({"what": "result", "gen": gen, "full": self._fresh, **({"builds_on": True} if known else {}), "result": told})
 
     # -- the analyses ----------------------------------------------------------------------------------------------------------
 

@@ -258,6 +258,15 @@ def _merged_plots(shown, update):
     return {**shown, "cycle": update["cycle"], "plots": [fresh.get(plot["name"], {**plot, "stale": True}) for plot in shown["plots"]]}
 
 
+def without_known(plots: Mapping[str, Any] | None, known: Mapping[str, Any]) -> Mapping[str, Any] | None:
+    """Plots without the panels that a page has already: `known` {name: panels}."""
+
+    def told(plot):
+        return {key: part for key, part in plot.items() if key != "panels" or part is not known.get(plot["name"])}
+
+    return plots and {**plots, "plots": [told(plot) for plot in plots["plots"]]}
+
+
 def _cycle_unit(plots: Mapping[str, Any]) -> str | None:
     return plots["cycle"] and plots["cycle"]["unit"]
 

@@ -16,7 +16,7 @@ MOST = 300  # tabs
 AHEAD = 8  # messages that the framework may hold for a page
 MOST_UNSENT = 400  # messages that wait for that; a page that takes none is disconnected
 BREATH = 0.05  # seconds between two looks at a page that is behind
-REPLACED = ("scene", "result")  # messages of which only the newest counts
+REPLACED = ("scene", "result")  # messages of which only the newest counts, unless it builds on the one before
 
 
 class Tabs:
@@ -75,7 +75,7 @@ class Tabs:
         unsent = self._unsent.get(page)
         if unsent is None:
             return
-        if message["what"] in REPLACED:
+        if message["what"] in REPLACED and not message.get("builds_on"):
             older = [each for each in unsent if each["what"] == message["what"]]
             for each in older:
                 unsent.remove(each)

@@ -4,7 +4,7 @@ import { overlays, translated } from "./overlays.js";
 import { createPictures } from "./pictures.js";
 import { createPicker } from "./picker.js";
 import { csvText, saveText, svgText } from "./plotfiles.js";
-import { pressable } from "./parts.js";
+import { pressable, same } from "./parts.js";
 import { element } from "./player.js";
 import { createPlots } from "./plots.js";
 import { createRuns } from "./runs.js";
@@ -29,7 +29,7 @@ export function createBottom(host, tools) {
   const bar = element("div", {class: "bt-bar"}), scroll = element("div", {class: "bt-scroll", "data-testid": "plots"});
   const plotted = element("div"), pictured = element("div", {class: "bt-pictures"}), none = element("p", {class: "bt-none", hidden: ""});
   const keep = () => { try { localStorage.setItem(KEPT, JSON.stringify(memory)); } catch { /* a full or forbidden storage */ } };
-  let plots = null, first = [], drive = null, lang = "", seen = null, picker = null, runs = null;
+  let plots = null, first = [], drive = null, lang = "", seen = null, picker = null, runs = null, drawn = null;
 
   const kind = () => store.state.design?.kind ?? "";
   /** Ids of what is shown: as chosen for this kind of drive, else what a full result begins with. */
@@ -79,7 +79,10 @@ export function createBottom(host, tools) {
     const has = Boolean(result?.plots);
     host.classList.toggle("st-none", !has);
     if (!has) return;
-    const ids = chosen(), packed = chosenPlots(result.plots, ids, t), images = result.plots.plots.filter(({name, picture}) => picture && ids.includes(name));
+    const ids = chosen(), look = [ids.join(), JSON.stringify(result.plots.cycle), lang, ...result.plots.plots.flatMap(({panels, stale}) => [panels, Boolean(stale)])];
+    if (plots && same(look, drawn)) return;  // what the analyses beside a drag leave as it was
+    drawn = look;
+    const packed = chosenPlots(result.plots, ids, t), images = result.plots.plots.filter(({name, picture}) => picture && ids.includes(name));
     none.hidden = packed.plots.length + images.length > 0;
     pictures.show(images);
     picker.show();

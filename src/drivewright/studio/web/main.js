@@ -96,7 +96,11 @@ function createEar(store, begin) {
       store.set({refused: {...before, [key]: {text: null, message}}, work: IDLE, result: unsolved(state.result)});
     },
     outdated: () => state.result && store.set({result: stale(state.result)}),
-    result: ({gen, full, result}) => gen >= since && store.set({result: isBare(result) && state.result ? {...unsolved(state.result), gen, verdict: result.verdict, findings: result.findings} : {...result, gen, full}}),
+    result: ({gen, full, result: told}) => {
+      if (gen < since) return;
+      const result = {...told, plots: withPanels(told.plots, state.result?.plots)};
+      store.set({result: isBare(result) && state.result ? {...unsolved(state.result), gen, verdict: result.verdict, findings: result.findings} : {...result, gen, full}});
+    },
     differences: ({differences}) => state.result && store.set({result: {...state.result, differences}}),
     reference: ({title, json, result}) => store.set({reference: {title, ...JSON.parse(json), result}}),
     work: message => store.set({work: message.state === "lost" ? {...IDLE, state: "lost"} : message, ...(message.state === "lost" ? {notice: message.text} : {})}),
@@ -115,6 +119,12 @@ function createEar(store, begin) {
 /** What was shown last, where the design as it stands has no solution. */
 function unsolved(result) {
   return result && {...stale(result), unsolved: true, verdict: {state: "bad", text: "no solution", stale: true}};
+}
+
+/** Plots of a result that left out the panels that the page has from the one before. */
+function withPanels(plots, before) {
+  const known = new Map((before?.plots || []).map(({name, panels}) => [name, panels]));
+  return plots && {...plots, plots: plots.plots.map(plot => plot.panels ? plot : {...plot, panels: known.get(plot.name) || []})};
 }
 
 /** A run that ended before it had anything to show: what was shown last stays, so that nothing jumps under a hand. */
