@@ -114,6 +114,15 @@ def test_a_limit_has_the_unit_that_the_value_is_shown_in():
     ]
 
 
+def test_a_limit_of_a_pure_number_begins_without_a_unit():
+    body = """
+        typed(part("value-0"), "ratio", "change"); typed(part("goal-0"), "at_most", "change"); const first = part("limit-0").value;
+        typed(part("limit-0"), "7"); typed(part("value-0"), "force", "change");
+        return [first, part("limit-0").value];
+    """
+    assert search(body) == ["0.5", "7"]  # and what a person has typed stays
+
+
 def test_how_long_a_search_takes_at_most():
     body = """
         const note = () => [part("estimate").textContent, part("start").disabled];

@@ -31,7 +31,9 @@ def in_node(body, data=None, **imports):
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed: modules of the page cannot run")
-    lines = [f"import {{ {names} }} from './{module}.js';" for module, names in {"page_stub": "Part, nextFrame, resized, t", **imports}.items()]
+    lines = [
+        f"import {{ {names} }} from './{module}.js';" for module, names in {"page_stub": "Part, nextFrame, resized, t", **imports}.items()
+    ]
     script = "\n".join([*lines, 'import { readFileSync } from "node:fs";', 'const data = JSON.parse(readFileSync(0, "utf8"));'])
     script += f"\nconsole.log(JSON.stringify(await (async () => {{ {body} }})() ?? null));"
     command = [node, "--input-type=module", "-e", script]
