@@ -3,17 +3,10 @@
 import math
 
 import pytest
-from in_node import in_node
+from in_node import STORE, in_node
 
 pytestmark = pytest.mark.interface
 
-STORE = """
-    const said = [];
-    const store = createStore({design: {opened: 1, form: {groups: []}, locks: []}, jobs: {}, theme: "light", ...data.state});
-    const tools = {store, say: message => said.push(message), t, clock: {set() {}, pause() {}}};
-    const typed = (part, text, name = "input") => { part.value = text; part.fire(name); };
-    const ticked = (part, on) => { part.checked = on; part.fire("change"); };
-"""
 RESULT = {
     "headline": [{"name": "stroke"}],
     "values": [
