@@ -63,3 +63,16 @@ def test_a_point_without_a_crest_has_no_lowest_place(height):
     object.__setattr__(ever, "point", lambda t: 1j * height * variable(t))
     with pytest.raises(InputError, match="is constant over the turn"):
         _ = ever.lowest
+
+
+def test_an_extreme_at_the_seam_of_the_turn_is_one():
+    """Start and end of the turn are the same place: its angle is 0, and it is not counted twice."""
+    arm = arm_of(1.0, 0.02)
+
+    def point(t):
+        t = np.asarray(t)
+        return SimpleNamespace(imag=SimpleNamespace(d1=t * (TURN - t) * (t - 3)), d0=1j * np.cos(t))
+
+    object.__setattr__(arm, "point", point)
+    angles, _ = arm._extremes
+    assert angles == pytest.approx([0, 3]) and arm.highest == 0

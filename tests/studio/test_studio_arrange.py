@@ -108,3 +108,14 @@ def test_only_an_element_that_is_there_goes(cam, index):
     with pytest.raises(SpecError, match=f"has no element {index}; it has 3"):
         cam.drop("programme", index)
     assert cam.design is before
+
+
+def test_a_lock_goes_with_what_a_step_back_takes_away(cam):
+    """It would hold a field that nobody can see, and refuse whatever comes into its place."""
+    cam.lock("spring.preload", True)
+    cam.arrange("programme", [keep(0), {"of": None, "changes": {"angle": "30 deg", "law": "dwell"}}, keep(1), keep(2)])
+    cam.lock("programme.3.law", True)
+    cam.undo()
+    assert cam.locks == {"spring.preload"}
+    cam.redo()
+    assert cam.locks == {"spring.preload"}

@@ -81,6 +81,13 @@ def test_what_no_change_can_be_found_for_says_why(design, check, reason):
     assert found["changes"] == [] and found["reason"].startswith(reason) and not found["stopped"]
 
 
+@pytest.mark.parametrize("check", ["chance", "endless"])
+def test_for_a_check_that_no_change_can_improve_nothing_is_tried(design, monkeypatch, check):
+    """Not one design: half a minute of them would say no more."""
+    monkeypatch.setattr(fixing, "advise", lambda *given, **more: pytest.fail("a change was looked for"))
+    assert fixed(design, check)["changes"] == []
+
+
 def test_a_check_that_passes_or_is_none_is_refused(design):
     with pytest.raises(InputError, match="Force: this check passes"):
         fixed(design, "force")

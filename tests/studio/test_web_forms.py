@@ -3,17 +3,10 @@
 import math
 
 import pytest
-from in_node import in_node
+from in_node import STORE, in_node
 
 pytestmark = pytest.mark.interface
 
-STORE = """
-    const said = [];
-    const store = createStore({design: {opened: 1, form: {groups: []}, locks: []}, jobs: {}, theme: "light", ...data.state});
-    const tools = {store, say: message => said.push(message), t, clock: {set() {}, pause() {}}};
-    const typed = (part, text, name = "input") => { part.value = text; part.fire(name); };
-    const ticked = (part, on) => { part.checked = on; part.fire("change"); };
-"""
 RESULT = {
     "headline": [{"name": "stroke"}],
     "values": [
@@ -112,6 +105,15 @@ def test_a_limit_has_the_unit_that_the_value_is_shown_in():
         {"value": "ratio", "at_least": "0.4"},
         {"value": "unknown", "at_most": "9"},
     ]
+
+
+def test_a_limit_of_a_pure_number_begins_without_a_unit():
+    body = """
+        typed(part("value-0"), "ratio", "change"); typed(part("goal-0"), "at_most", "change"); const first = part("limit-0").value;
+        typed(part("limit-0"), "7"); typed(part("value-0"), "force", "change");
+        return [first, part("limit-0").value];
+    """
+    assert search(body) == ["0.5", "7"]  # and what a person has typed stays
 
 
 def test_how_long_a_search_takes_at_most():

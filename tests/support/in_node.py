@@ -15,6 +15,19 @@ from drivewright.studio import app
 WEB = Path(app.__file__).parent / "web"
 STUB = Path(__file__).parent / "page_stub.js"
 
+# What a panel is made with: a store with data.state, and tools that note what is said to the server and to the clock.
+STORE = """
+    const said = [];
+    const store = createStore({design: {opened: 1, kind: "toy", title: "Toy", form: {groups: []}, locks: []}, jobs: {}, theme: "light",
+      ...data.state});
+    const clock = {playing: false, phase: 0, told: [], set(phase) { clock.phase = phase; clock.told.push(phase);
+    }, pause() { clock.told.push("pause"); },
+      subscribe() { return () => {}; }};
+    const tools = {store, say: message => said.push(message), t, clock};
+    const typed = (part, text, name = "input") => { part.value = text; part.fire(name); };
+    const ticked = (part, on) => { part.checked = on; part.fire("change"); };
+"""
+
 
 @cache
 def served():

@@ -211,6 +211,8 @@ def test_what_does_not_close_is_drawn_as_it_is_stated(hand):
         ("pin", [(0, 0), (1, 1)], "takes 1 to 1 places"),
         ("weld", [(0, 0)], "is not built with"),
         ("pin", [(1e12, 0)], "too far away"),
+        ("pin", [(-1e12, 0)], "too far away"),
+        ("pin", [(0, -1e12)], "too far away"),
         ("pin", [(float("nan"), 0)], "too far away"),
     ],
 )
@@ -328,3 +330,24 @@ def test_a_sketch_stands_still_at_the_start(hand):
         assert np.ptp(body.poses, axis=0) == pytest.approx(0, abs=1e-12)
         if body.name in hand.spec.bodies:
             assert body.poses[0] == pytest.approx(loose_poses(hand.spec)[body.name])
+
+
+@pytest.mark.parametrize("near", [0.0, -1e-3, 1e6, float("nan")])
+@pytest.mark.error
+def test_what_counts_as_upon_a_point_is_a_length(hand, near):
+    before = hand.document.design
+    with pytest.raises(InputError, match="takes 1 to 1 places"):
+        hand.document.construct("pin", [(0.0, 0.0)], near)
+    assert hand.document.design is before
+
+
+def test_the_direction_of_a_slide_is_kept_in_the_frame_of_a_body_that_is_turned(hand):
+    """Between two bodies: on the drawing it runs along the line of the two clicks, whatever the first one's angle is."""
+    pose = loose_poses(hand.spec)["coupler"]
+    ends = [np.array(carried(pose, point)) for point in list(hand.spec.bodies["coupler"].points.values())[:2]]
+    place = 1e3 * (ends[0] + 0.4 * (ends[1] - ends[0]))
+    hand.use("body", tuple(place), tuple(place + [0, -150]))
+    hand.use("slide", tuple(place), tuple(place + [30, 40]))
+    joint = hand.tables["joints"][-1]
+    assert [end.partition(".")[0] for end in joint["connects"]] == ["link", "coupler"] and abs(math.sin(pose[2])) > 0.05
+    assert carried((0.0, 0.0, pose[2]), joint["axis"]) == pytest.approx((0.6, 0.8), abs=2e-6)
