@@ -199,3 +199,8 @@ def test_an_element_is_followed_by_its_name_through_a_change_and_another_that_go
 
     made = entered(edit)
     assert '"B"  # named' in made and "# the first" not in made
+
+
+def test_a_number_that_becomes_a_truth_value_alone_is_entered():
+    """1 == True in Python, and not in TOML."""
+    assert source_text("a = 1  # one\n", {"a": True}) == "a = true  # one\n"

@@ -25,7 +25,7 @@ def source_text(source: str, tables: Mapping[str, Any]) -> str:
         return toml_text(tables)
     try:
         before = parse_document(source)
-        if before == tables:
+        if before == tables and toml_text(before) == toml_text(tables):  # 1 equals true
             return source
         document = tomlkit.parse(source)
         _enter(document, before, tables)
