@@ -187,18 +187,18 @@ def test_a_call_that_gives_signs_of_life_is_not(worker):
 
 def test_a_large_call_does_not_stop_the_loop_while_its_process_starts():
     async def work():
-        fresh, longest, last = Worker(), 0.0, time.monotonic()
+        fresh, longest, last = Worker(), 0.0, (began := time.monotonic())
         try:
             task = asyncio.create_task(fresh.call(worker_toy.length, b"x" * 20_000_000))  # far more than a pipe holds
             while not task.done():
                 await asyncio.sleep(0.005)
                 longest, last = max(longest, time.monotonic() - last), time.monotonic()
-            return task.result(), longest
+            return task.result(), longest / (last - began)
         finally:
             fresh.close()
 
     length, longest = loops.run(work())
-    assert length == 20_000_000 and longest < 0.25  # the start of the process takes a second
+    assert length == 20_000_000 and longest < 0.5  # of the whole, most of which is the start of the process
 
 
 def test_a_large_call_that_is_cancelled_before_it_is_taken_leaves_a_worker_that_works():

@@ -175,7 +175,7 @@ def test_an_exported_report_says_what_to_change(monkeypatch, tmp_path):
     from drivewright.report import export, pdf
 
     given = []
-    monkeypatch.setattr(pdf, "write_pdf", lambda result, path, form: given.append(result))
+    monkeypatch.setattr(pdf, "write_pdf", lambda result, path, form, **more: given.append(result))
     spec = toy(monkeypatch, lambda spec: (at_most("small", spec.size, 0.008),), {"size": 2.0}, size="10 mm").spec
     export.export(spec, ("pdf",), tmp_path)
     export.export(spec, ("pdf",), tmp_path, advise=dw.advise)

@@ -53,7 +53,7 @@ def test_a_diagram_stands_under_what_is_drawn(scale, centre, follow):
     pixels = [250, 300, 371]
     data = {"state": {"result": {"plots": PLOTS}}, "scale": scale, "centre": centre, "follow": follow, "pixels": pixels}
     largest, seen, again, shown, hidden = in_node(DIAGRAMS + body, data, store="createStore", diagrams="createDiagrams")
-    assert largest == again == ["largest −900.0", "largest 800.0"]  # the largest magnitude of each
+    assert largest == again == ["−900.0", "800.0"]  # the largest magnitude of each; there is no room here to say so
     for px, (moment, shear) in zip(pixels, seen, strict=True):
         place = 1e3 * ((px - 300) / scale + centre[0] + follow)
         assert float(shear) == pytest.approx(2 * place, abs=0.06)

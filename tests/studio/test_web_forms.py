@@ -210,12 +210,13 @@ def test_what_the_form_has_no_boxes_for_stays_as_written(entry, means):
     assert study("return sent().vary;", table={"vary": [entry]}) == [{"key": "a", **means}]
 
 
-def test_what_is_ticked_begins_with_three_levels_over_its_range_and_a_choice_with_all_of_its_values():
+def test_what_is_ticked_begins_with_five_levels_about_its_value_and_a_choice_with_all_of_its_values():
+    """A fifth to either side; a whole number over the range of its slider."""
     body = "for (const key of ['a', 'n', 'c']) ticked(part(`key-${key}`), true); return sent();"
     assert study(body) == {
         "vary": [
-            {"key": "a", "lower": "2 mm", "upper": "8 mm", "steps": "3"},
-            {"key": "n", "lower": "4", "upper": "16", "steps": "3"},
+            {"key": "a", "lower": "3.2 mm", "upper": "4.8 mm", "steps": "5"},
+            {"key": "n", "lower": "4", "upper": "16", "steps": "5"},
             {"key": "c", "values": ["left", "right"]},
         ],
         "values": [],
@@ -242,7 +243,7 @@ def test_how_many_cases_a_study_has_and_how_long_they_take():
     """
     none, crossed, sampled, empty, corners, tolerance = study(body)
     assert none == ["Tick at least one dimension that varies.", True] and empty == ["Give a number of levels or samples.", True]
-    assert crossed == ["6 cases, at most about 12 s by one process", False]  # three levels by two values, 2 s each
+    assert crossed == ["10 cases, at most about 20 s by one process", False]  # five levels by two values, 2 s each
     assert sampled == ["100 cases, at most about 3 min by one process", False]  # 50 samples at each of two values
     assert corners == ["The number of cases follows from the method.", False, True]
     assert tolerance == ["The number of cases follows from the method.", False, False]

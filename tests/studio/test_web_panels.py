@@ -142,7 +142,8 @@ BUILDER = (
     sheet.box = {left: 10, top: 20, width: 600, height: 400};
     builder.load({handles: [{body: 0, point: [0.03, 0.01]}]});
     const at = ([x, y], dx = 0, dy = 0) => ({clientX: view.toX(x) + 10 + dx, clientY: view.toY(y) + 20 + dy, button: 0});
-    const press = (point, more = {}, ...off) => sheet.fire("pointerdown", {...at(point, ...off), ...more});
+    const press = (point, more = {}, ...off) =>
+      ["pointerdown", "pointerup"].forEach(what => sheet.fire(what, {...at(point, ...off), ...more}));
     const use = name => builder.layer.named(`tool-${name}`)[0].fire("click");
     const key = (name, more = {}) => sheet.fire("keydown", {key: name, ...more});
     builder.button.fire("click");

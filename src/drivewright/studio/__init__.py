@@ -6,6 +6,7 @@ computations   what is computed for one tab
 connections    connections of the server: as many as it can hold, and none that keeps it waiting for a request
 design         a design on its way through the studio
 document       the design of one browser tab with its past and future, its locks, and every way to change it
+drawing_words  words on the dimension drawings in another language than English
 edited_design  the design of one tab: changed in worker processes, drawn and analysed, and shown to the page
 editing        every change of a document, made in a worker process
 error_text     messages for a page, without the folders of this machine

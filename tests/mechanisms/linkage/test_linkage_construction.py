@@ -251,14 +251,14 @@ def carried(pose, point):
 def test_a_body_weighs_a_kilogram_a_metre_and_turns_like_a_slender_bar(hand, corners, mass, size, centroid):
     """Steiner's bar about its middle: m L^2 / 12, over its largest extent."""
     hand.use("body", *corners)
-    made = hand.spec.bodies["link"]
+    made = hand.spec.bodies["link_1"]
     assert made.mass == pytest.approx(mass, rel=5e-3) and made.inertia == pytest.approx(mass * size**2 / 12, rel=1e-2)
     assert [1e3 * part for part in made.centroid] == pytest.approx(centroid, abs=1e-3)
 
 
 def test_places_are_kept_to_a_tenth_of_a_micrometre(hand):
     hand.use("body", (300.1234, -0.5678), (340, 0))
-    assert hand.tables["bodies"]["link"]["points"]["A"] == ["300.1234 mm", "-0.5678 mm"]
+    assert hand.tables["bodies"]["link_1"]["points"]["A"] == ["300.1234 mm", "-0.5678 mm"]
 
 
 @pytest.mark.parametrize(("body", "part"), [("coupler", 0.3), ("rocker", 0.6)])
@@ -285,7 +285,7 @@ def test_a_further_body_on_a_support_is_pinned_to_the_frame(hand):
     hand.use("pin", (300, 0))
     hand.use("body", (300, 0), (260, 60))
     hand.use("pin", (300, 0))
-    assert [joint["connects"] for joint in hand.tables["joints"][4:]] == [["ground.A", "link.A"], ["ground.A", "link_2.A"]]
+    assert [joint["connects"] for joint in hand.tables["joints"][4:]] == [["ground.A", "link_1.A"], ["ground.A", "link_2.A"]]
 
 
 def test_a_run_of_turns_keeps_its_duration_without_a_drive():
@@ -305,13 +305,13 @@ def test_bodies_that_are_not_assembled_hang_on_their_joints_at_their_angles(hand
     hand.use("body", (500, 0), (540, 60))
     hand.use("pin", (300, 0))
     bodies = {**hand.tables["bodies"]}
-    for name in ("link", "link_2"):
+    for name in ("link_1", "link_2"):
         bodies[name] = {**bodies[name], "angle": f"{angle} deg"}
     loose = {"name": "x", "connects": ["coupler.C", "ground.O2"]}
     spec = from_document({**hand.tables, "bodies": bodies, "joints": [*hand.tables["joints"], loose]})
     poses = stated_poses(spec)
-    assert carried(poses["link"], spec.bodies["link"].points["A"]) == pytest.approx((0.3, 0), abs=1e-9)
-    assert poses["link"][2] == pytest.approx(math.radians(angle)) and poses["link_2"] == pytest.approx((0, 0, math.radians(angle)))
+    assert carried(poses["link_1"], spec.bodies["link_1"].points["A"]) == pytest.approx((0.3, 0), abs=1e-9)
+    assert poses["link_1"][2] == pytest.approx(math.radians(angle)) and poses["link_2"] == pytest.approx((0, 0, math.radians(angle)))
     drawn = {body.name: body.poses for body in sketch(spec).bodies}
     assert drawn["link_2"] == pytest.approx(np.tile(poses["link_2"], (2, 1)))
 
@@ -320,7 +320,7 @@ def test_the_loose_end_is_not_the_body_that_the_drive_turns():
     hand = Building()
     hand.document = Document(preset("linkage", CONSTRUCTION.start))
     hand.use("body", (300, 0), (340, 60))
-    assert hand.use("pin", (300, 0)) == ("remaining degrees of freedom beside the drive: 1; body link is held by one joint only",)
+    assert hand.use("pin", (300, 0)) == ("remaining degrees of freedom beside the drive: 1; body link_1 is held by one joint only",)
 
 
 def test_a_sketch_stands_still_at_the_start(hand):
@@ -349,5 +349,5 @@ def test_the_direction_of_a_slide_is_kept_in_the_frame_of_a_body_that_is_turned(
     hand.use("body", tuple(place), tuple(place + [0, -150]))
     hand.use("slide", tuple(place), tuple(place + [30, 40]))
     joint = hand.tables["joints"][-1]
-    assert [end.partition(".")[0] for end in joint["connects"]] == ["link", "coupler"] and abs(math.sin(pose[2])) > 0.05
+    assert [end.partition(".")[0] for end in joint["connects"]] == ["link_1", "coupler"] and abs(math.sin(pose[2])) > 0.05
     assert carried((0.0, 0.0, pose[2]), joint["axis"]) == pytest.approx((0.6, 0.8), abs=2e-6)

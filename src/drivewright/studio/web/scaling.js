@@ -11,7 +11,7 @@ const DIGITS = 8;
 const withParts = field => [field, ...(field.parts || []).flatMap(withParts)];
 
 /** {key: text} of every place of a design times a factor; {} for a kind whose spec has no points. */
-function scaledPlaces(design, factor) {
+export function scaledPlaces(design, factor) {
   const fields = (design?.form?.groups || []).flatMap(group => group.fields.flatMap(withParts));
   const places = fields.filter(({key, unit, value}) => LENGTHS.test(key) && typeof value === "number" && value && FACTORS[unit]);
   return Object.fromEntries(places.map(({key, unit, value}) => [key, `${Number((value * factor).toPrecision(DIGITS))} ${unit}`]));
