@@ -73,6 +73,7 @@ def test_the_loop_sleeps_when_paused_or_out_of_sight(open_page, report):
     until(page, "!drivewright.clock.running && !drivewright.clock.playing")
 
 
+@pytest.mark.slow
 def test_the_pace_is_one_cycle_in_four_seconds_and_follows_the_speed(open_page, report):
     page = open_page(report)
     drive = """speed => new Promise(done => { const c = drivewright.clock; c.setSpeed(speed); c.play();

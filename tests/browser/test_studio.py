@@ -131,6 +131,7 @@ def test_a_new_design_starts_from_a_picture(studio, tab):
     assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
 
 
+@pytest.mark.slow
 def test_cancelled_analyses_can_be_begun_again(studio, tab):
     page = tab(shared(studio[0], "hyvo_chain"))
     analysed(page)
@@ -253,6 +254,7 @@ def test_workers_killed_at_rest_are_replaced(studio, tab):
     assert now and not set(now) & set(before)
 
 
+@pytest.mark.slow
 def test_a_worker_killed_at_work_is_reported(studio, tab):
     page = tab(shared(studio[0], "hyvo_chain"))
     analysed(page)

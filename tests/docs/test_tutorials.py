@@ -12,7 +12,7 @@ from builders import tutorials  # noqa: E402
 from builders.page_commands import Command, File, Picture, difference, page_steps  # noqa: E402
 
 pytestmark = pytest.mark.interface
-QUICK = frozenset({"01-first-cam", "09-plug-in"})  # the others are slow tests: all of them take minutes
+QUICK = frozenset({"01-first-cam"})  # the others are slow tests: all of them take minutes
 NEEDS = {"10-cluster": "needs_cluster"}
 PAGES = [page for page in tutorials.pages() if page.parent.name == "tutorials"]
 
@@ -32,6 +32,7 @@ def test_tutorial_shows_what_its_commands_print(page, tmp_path):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", tutorials.notebooks(), ids=lambda path: path.stem)
 def test_notebook_gives_what_it_shows_and_its_page_is_its_own(path, tmp_path):
     pytest.importorskip("nbclient")

@@ -37,6 +37,7 @@ def test_a_case_is_made_from_its_number_alone():
     assert len({repr(case_of(number)) for number in range(60)}) == 60
 
 
+@pytest.mark.slow
 def test_two_processes_say_the_same_of_one_case():
     numbers = [number for number in range(12) if case_of(number).entry != "run"]
     one, other = ({each["number"]: (each["code"], each["err"]) for each in answers(numbers, 1)} for _ in range(2))
