@@ -82,11 +82,11 @@ def test_a_form_that_is_refused_stays_with_the_reason(cam):
 def test_a_study_of_nine_cases_is_set_up_run_and_a_row_loaded(cam):
     page = cam()
     page.get_by_test_id("job-study").click()
-    page.get_by_test_id(f"study-key-{RADIUS}").check()
-    page.get_by_test_id(f"study-from-{RADIUS}").fill("36 mm")
-    page.get_by_test_id(f"study-to-{RADIUS}").fill("44 mm")
-    page.get_by_test_id("study-find").fill("drive speed")
-    page.get_by_test_id("study-key-drive.speed").check()
+    for key, words, low, high in ((RADIUS, "prime radius", "36 mm", "44 mm"), ("drive.speed", "drive speed", "500 rpm", "1500 rpm")):
+        page.get_by_test_id("study-find").fill(words)
+        page.get_by_test_id(f"study-key-{key}").check()
+        for box, text in (("from", low), ("to", high), ("steps", "3")):
+            page.get_by_test_id(f"study-{box}-{key}").fill(text)
     assert "9 cases" in page.get_by_test_id("study-estimate").inner_text()
     page.get_by_test_id("study-start").click()
     ended(page, "study")
