@@ -26,12 +26,6 @@ def studio():
         yield address
 
 
-@pytest.fixture(scope="session")
-def address(studio):
-    """The same."""
-    return studio
-
-
 @pytest.fixture
 def open_tab(browser):
     """Opens tabs of a studio, their drawings at rest, for they keep a core busy; afterwards none may have complained, or asked for

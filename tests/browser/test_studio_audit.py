@@ -16,7 +16,7 @@ FEW = [pytest.param(spec, marks=[] if spec == "failing_cam" else [pytest.mark.sl
 
 
 @pytest.fixture
-def tab(browser, address):
+def tab(browser, studio):
     """Opens a tab with a design at a width."""
     contexts = []
 
@@ -25,7 +25,7 @@ def tab(browser, address):
         context = browser.new_context(viewport=size, reduced_motion="reduce", has_touch=width < 900, color_scheme=theme)
         contexts.append(context)
         page = context.new_page()
-        page.goto(address_of(address, spec))
+        page.goto(address_of(studio, spec))
         until(page, "window.drivewright !== undefined", 30)
         analysed(page)
         page.evaluate("lang => window.drivewright.set({lang})", lang)

@@ -17,14 +17,14 @@ COLOURS = """async () => {
 
 
 @pytest.fixture
-def tab(browser, address):
+def tab(browser, studio):
     pages = []
 
     def open_it(name, theme="light", lang="en", size=(1440, 900)):
         page = browser.new_page(viewport={"width": size[0], "height": size[1]})
         pages.append(page)
         page.add_init_script(TASTE.format(lang=lang, theme=theme))
-        page.goto(shared(address, name))
+        page.goto(shared(studio, name))
         until(page, "window.drivewright !== undefined", 30)
         drawn(page)
         analysed(page)

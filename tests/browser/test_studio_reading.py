@@ -54,12 +54,12 @@ def tab(browser):
     """Opens a tab, its drawing at rest."""
     contexts = []
 
-    def open_it(address, lang="en", theme="light", width=1440):
+    def open_it(studio, lang="en", theme="light", width=1440):
         settings = {"viewport": {"width": width, "height": 900}, "reduced_motion": "reduce", "accept_downloads": True}
         context = browser.new_context(**settings, has_touch=width < 900)
         contexts.append(context)
         page = context.new_page()
-        page.goto(address)
+        page.goto(studio)
         until(page, "window.drivewright !== undefined", 30)
         page.evaluate("news => window.drivewright.set(news)", {"lang": lang, "theme": theme})
         drawn(page)
@@ -80,8 +80,8 @@ def _becomes(page, key, text):
 
 @pytest.mark.parametrize("theme", [pytest.param("light", marks=pytest.mark.slow), "dark"])
 @pytest.mark.parametrize("width", [390, 1440])
-def test_texts_have_contrast_and_controls_have_names(address, tab, theme, width):
-    page = tab(address, theme=theme, width=width)
+def test_texts_have_contrast_and_controls_have_names(studio, tab, theme, width):
+    page = tab(studio, theme=theme, width=width)
     analysed(page)
     for pane in ("form", "mechanism", "checks", "plots") if width < 900 else ("",):
         if pane:
@@ -99,8 +99,8 @@ def test_texts_have_contrast_and_controls_have_names(address, tab, theme, width)
         assert page.evaluate("document.activeElement.dataset.testid") == "new"
 
 
-def test_a_field_is_one_stop_and_its_keys_lock_and_reset_it(address, tab):
-    page = tab(address)
+def test_a_field_is_one_stop_and_its_keys_lock_and_reset_it(studio, tab):
+    page = tab(studio)
     _box(page, "bodies.crank.mass").focus()
     page.keyboard.press("Tab")
     assert page.evaluate("document.activeElement.closest('.st-field').dataset.key") == "bodies.crank.inertia"
@@ -117,8 +117,8 @@ def test_a_field_is_one_stop_and_its_keys_lock_and_reset_it(address, tab):
     _becomes(page, "gravity.1", "0 m/s²")
 
 
-def test_each_typed_edit_is_one_step_and_a_drag_is_one(address, tab):
-    page = tab(address)
+def test_each_typed_edit_is_one_step_and_a_drag_is_one(studio, tab):
+    page = tab(studio)
     for text in ("41 mm", "42 mm"):
         enter(page, KEY, text)
         _until_text(page, text)
@@ -149,8 +149,8 @@ def _until_text(page, text):
     until(page, f"{part}.text === '{text}'")
 
 
-def test_the_verdict_says_that_it_is_being_computed(address, tab):
-    page = tab(address)
+def test_the_verdict_says_that_it_is_being_computed(studio, tab):
+    page = tab(studio)
     analysed(page)
     before = page.get_by_test_id("verdict").inner_text()
     assert "pass" in before
@@ -167,8 +167,8 @@ def test_the_verdict_says_that_it_is_being_computed(address, tab):
     assert page.locator(".sd-before").inner_text() == ""
 
 
-def test_the_section_that_was_asked_for_is_marked(address, tab):
-    page = tab(address)
+def test_the_section_that_was_asked_for_is_marked(studio, tab):
+    page = tab(studio)
     analysed(page)
     for name in ("Numbers", "Optimise", "Sensitivity", "Study", "Checks"):
         page.locator(".sd-jumps button", has_text=name).click()
@@ -176,8 +176,8 @@ def test_the_section_that_was_asked_for_is_marked(address, tab):
         assert page.locator(".sd-jumps button[aria-current=true]").inner_text() == name
 
 
-def test_sharing_says_where_the_address_works_and_offers_the_file(address, tab):
-    page = tab(address)
+def test_sharing_says_where_the_address_works_and_offers_the_file(studio, tab):
+    page = tab(studio)
     page.get_by_test_id("share").click()
     assert "on this machine only" in page.get_by_test_id("share-hint").inner_text()
     with page.expect_download() as download:
@@ -185,9 +185,9 @@ def test_sharing_says_where_the_address_works_and_offers_the_file(address, tab):
     assert download.value.suggested_filename.endswith(".toml")
 
 
-def test_a_material_is_searched_in_a_list(address, tab):
+def test_a_material_is_searched_in_a_list(studio, tab):
     spec = (EXAMPLES / "disc_cam.toml").read_text(encoding="utf-8")
-    page = tab(f"{address}/#{packed(spec)}")
+    page = tab(f"{studio}/#{packed(spec)}")
     box = _box(page, "material")
     box.click()
     assert page.locator(".st-option").count() > 10
@@ -205,9 +205,9 @@ def test_a_material_is_searched_in_a_list(address, tab):
     until(page, "[...document.querySelectorAll('.st-dock img')].some(image => image.complete && image.naturalWidth > 300)")
 
 
-def test_a_pdf_is_written_of_a_design_that_fails(address, tab):
+def test_a_pdf_is_written_of_a_design_that_fails(studio, tab):
     spec = re.sub(r'prime_radius = "[^"]*"', 'prime_radius = "22 mm"', (EXAMPLES / "disc_cam.toml").read_text(encoding="utf-8"))
-    page = tab(f"{address}/#{packed(spec)}")
+    page = tab(f"{studio}/#{packed(spec)}")
     analysed(page)
     assert "fail" in page.get_by_test_id("verdict").inner_text()
     with page.expect_download(timeout=120_000) as download:
@@ -215,9 +215,9 @@ def test_a_pdf_is_written_of_a_design_that_fails(address, tab):
     assert download.value.suggested_filename.endswith(".pdf")
 
 
-def test_parts_of_pairs_and_the_title_are_said_in_both_languages(address, tab):
+def test_parts_of_pairs_and_the_title_are_said_in_both_languages(studio, tab):
     spec = (EXAMPLES / "hyvo_chain.toml").read_text(encoding="utf-8")
-    page = tab(f"{address}/#{packed(spec)}")
+    page = tab(f"{studio}/#{packed(spec)}")
     assert field(page, "teeth").locator(".st-pair-parts .st-name").all_inner_texts() == ["driving", "driven"]
     title = _box(page, "title").input_value()
     page.evaluate("window.drivewright.set({lang: 'zh'})")

@@ -15,7 +15,7 @@ PLACES = """(() => {
 
 
 @pytest.fixture
-def phone(browser, address):
+def phone(browser, studio):
     """Opens a design on a phone: (page, touch), touch(kind, *places) being what fingers do."""
     contexts = []
 
@@ -23,7 +23,7 @@ def phone(browser, address):
         context = browser.new_context(viewport={"width": 390, "height": 844}, reduced_motion="reduce", has_touch=True, is_mobile=True)
         contexts.append(context)
         page = context.new_page()
-        page.goto(address_of(address, spec))
+        page.goto(address_of(studio, spec))
         until(page, "window.drivewright !== undefined", 30)
         analysed(page)
         session = context.new_cdp_session(page)
@@ -111,22 +111,15 @@ STOPS = """() => {
 
 
 @pytest.fixture
-def desk(browser, address):
-    """Opens a design on a wide screen."""
-    contexts = []
+def desk(open_tab, studio):
+    """Opens a design on a wide screen, analysed."""
 
     def open_it(spec="four_bar"):
-        context = browser.new_context(viewport={"width": 1440, "height": 900}, reduced_motion="reduce")
-        contexts.append(context)
-        page = context.new_page()
-        page.goto(address_of(address, spec))
-        until(page, "window.drivewright !== undefined", 30)
+        page = open_tab(address_of(studio, spec))
         analysed(page)
         return page
 
-    yield open_it
-    for context in contexts:
-        context.close()
+    return open_it
 
 
 @pytest.mark.parametrize("spec", ["four_bar", "cam", "shaft"])

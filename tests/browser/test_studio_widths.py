@@ -44,11 +44,11 @@ def tab(browser):
     """Opens a tab at a width, in a language."""
     contexts = []
 
-    def open_it(address, width, lang="en"):
+    def open_it(studio, width, lang="en"):
         context = browser.new_context(viewport={"width": width, "height": SIZES[width]}, reduced_motion="reduce", has_touch=width < 900)
         contexts.append(context)
         page = context.new_page()
-        page.goto(address)
+        page.goto(studio)
         until(page, "window.drivewright !== undefined", 30)
         analysed(page)
         page.evaluate("lang => window.drivewright.set({lang})", lang)
@@ -65,8 +65,8 @@ def _look(page):
 
 @pytest.mark.parametrize("lang", ["en", pytest.param("zh", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("width", SIZES)
-def test_every_control_can_be_reached_and_nothing_lies_over_another(address, tab, width, lang):
-    page = tab(address, width, lang)
+def test_every_control_can_be_reached_and_nothing_lies_over_another(studio, tab, width, lang):
+    page = tab(studio, width, lang)
     if width >= 900:
         assert not page.get_by_test_id("pane-form").is_visible()
         assert _look(page) == []
@@ -89,8 +89,8 @@ def test_every_control_can_be_reached_and_nothing_lies_over_another(address, tab
     assert page.evaluate("document.activeElement.dataset.testid") == "more"
 
 
-def test_a_phone_shows_one_part_and_a_tablet_two(address, tab):
-    phone, tablet = tab(address, 390), tab(address, 820)
+def test_a_phone_shows_one_part_and_a_tablet_two(studio, tab):
+    phone, tablet = tab(studio, 390), tab(studio, 820)
     for page, beside in ((phone, False), (tablet, True)):
         page.get_by_test_id("pane-checks").click()
         assert page.get_by_test_id("verdict").is_visible()
@@ -102,8 +102,8 @@ def test_a_phone_shows_one_part_and_a_tablet_two(address, tab):
         assert page.get_by_test_id("form").is_visible()
 
 
-def test_a_drive_of_another_kind_fits_a_phone_too(address, tab):
-    page = tab(shared(address, "pressure_roller_shaft"), 390)
+def test_a_drive_of_another_kind_fits_a_phone_too(studio, tab):
+    page = tab(shared(studio, "pressure_roller_shaft"), 390)
     for pane in PANES:
         if page.get_by_test_id(f"pane-{pane}").is_enabled():
             page.get_by_test_id(f"pane-{pane}").click()

@@ -1,6 +1,6 @@
 // The player's controls: buttons, sliders, choices, and what is read off beside them.
 
-import { element, fixed, putAttribute, put } from "./clock.js";
+import { element, fixed, put, putAttribute } from "./clock.js";
 
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 export const MOST = 3;  // largest exaggeration over the drawn one

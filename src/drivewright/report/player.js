@@ -5,12 +5,12 @@
 //
 // Lengths arrive in metres, angles in radians, y up.  Colours are the custom properties --blue, --ink ... of the host's style.
 
-import { createClock, element, fitCanvas, fixed, locate, putAttribute, put, watchTheme, watchVisible } from "./clock.js";
+import { createClock, element, fitCanvas, fixed, locate, put, putAttribute, watchTheme, watchVisible } from "./clock.js";
 import { MOST, TEXT, button, byLabel, exaggerator, icon, magnifiedBy, pace, press, scrubber, segments, sinceMark, speedBox, times } from "./controls.js";
 import { createPainter, createView, steer } from "./drawing.js";
 import { STILL, boxOf, poseAt, poseOf, seenFrom, unpack } from "./scene.js";
 
-export { putClass, createClock, element, fitCanvas, fixed, floats, locate, putAttribute, nice, pressable, put, same, useFont, watchTheme } from "./clock.js";
+export { createClock, element, fitCanvas, fixed, floats, locate, nice, pressable, put, putAttribute, putClass, same, useFont, watchTheme } from "./clock.js";
 
 /**
  * A player inside `host`.  Options: clock (shared with plots; it outlives the player), autoplay, duration [s per cycle at speed 1],

@@ -132,9 +132,6 @@ def _force_bodies(forces: Iterable[AppliedForce], cycle: CyclePoses, half_width:
 def _load_factor(force: AppliedForce, cycle: CyclePoses) -> Floats:
     """The load factor of a force in every frame (frames,)."""
     turned = cycle.frames(force.point.body)[:, 2] - cycle.frames(GROUND)[:, 2]
-    if force.load.over == "time":
-        return curve_values(force.load.curve, cycle.times)
-    if force.load.over == "angle":
-        return curve_values(force.load.curve, turned)
     speeds = np.gradient(turned, cycle.times) if cycle.period else np.zeros(len(turned))
-    return curve_values(force.load.curve, speeds)
+    at = {"time": cycle.times, "angle": turned, "speed": speeds}
+    return curve_values(force.load.curve, at[force.load.over])

@@ -2,7 +2,7 @@
 
 import { drawingAddress, drawingsOf } from "./designs.js";
 import { icon } from "./icons.js";
-import { putAttribute, pressable, same } from "./parts.js";
+import { pressable, putAttribute, same } from "./parts.js";
 import { element } from "./player.js";
 
 /** {button(), node, stop()}: the button for the head of the form, and the place of the drawing, hidden until it is asked for. */

@@ -3,7 +3,7 @@
 import { createDrag } from "./dragging.js";
 import { createNames } from "./handle_names.js";
 import { icon } from "./icons.js";
-import { putClass, putAttribute } from "./parts.js";
+import { putAttribute, putClass } from "./parts.js";
 import { element } from "./player.js";
 import { svgPart } from "./svg_parts.js";
 

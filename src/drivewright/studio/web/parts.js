@@ -1,9 +1,9 @@
 // Small parts that several modules are made of: buttons, lists that hang below a button, progress and outcome of a job.
 
 import { icon } from "./icons.js";
-import { element, putAttribute, pressable, put } from "./player.js";
+import { element, pressable, put, putAttribute } from "./player.js";
 
-export { putClass, putAttribute, pressable, put, same } from "./player.js";
+export { pressable, put, putAttribute, putClass, same } from "./player.js";
 
 /** The theme that is seen: the chosen one, else the reader's. */
 export const themeOf = ({theme}) => theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light");
