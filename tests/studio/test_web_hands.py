@@ -81,10 +81,10 @@ def test_alt_takes_the_place_itself_and_limits_hold():
 
 
 def test_a_step_waits_while_drawings_are_on_their_way_and_is_the_newest_place_then():
-    """Three steps may be under way; the end of the drag waits for nothing."""
+    """Four steps may be under way; the end of the drag waits for nothing."""
     body = """
     down();
-    for (const x of [0.031, 0.032, 0.033, 0.034]) to([x, 0.01]);
+    for (const x of [0.031, 0.032, 0.0325, 0.033, 0.034]) to([x, 0.01]);
     const full = said.length;
     drag.answered(); to([0.035, 0.01]);
     const next = said.at(-1).changes["crank.A.0"], under = said.length;
@@ -94,12 +94,12 @@ def test_a_step_waits_while_drawings_are_on_their_way_and_is_the_newest_place_th
     return [full, under, next, still, said.length, said.at(-1).changes["crank.A.0"]];
     """
     full, under, following, still, ended, last = dragged(body, POINT)
-    assert (full, under, still, ended) == (3, 4, 4, 5)
+    assert (full, under, still, ended) == (4, 5, 5, 6)
     assert float(following.split()[0]) == pytest.approx(35, abs=0.3) and float(last.split()[0]) == pytest.approx(37, abs=0.3)
 
 
 def test_steps_that_the_server_has_taken_and_not_drawn_count_too():
-    """Two of them leave room for one; a drawing that is the newest makes room again."""
+    """Three of them leave room for one; a drawing that is the newest makes room again."""
     body = """
     down();
     for (const x of [0.031, 0.032, 0.033]) to([x, 0.01]);
@@ -108,7 +108,7 @@ def test_steps_that_the_server_has_taken_and_not_drawn_count_too():
     for (const x of [0.034, 0.035, 0.036, 0.037]) to([x, 0.01]);
     return [before, said.length];
     """
-    assert dragged(body, POINT, undrawn=2) == [1, 3]
+    assert dragged(body, POINT, undrawn=3) == [1, 4]
 
 
 def test_answers_beyond_those_that_are_due_make_no_more_room():
@@ -118,18 +118,18 @@ def test_answers_beyond_those_that_are_due_make_no_more_room():
         for (const x of [0.0325, 0.033, 0.034, 0.035, 0.036, 0.037]) to([x, 0.01]);
         return said.length;
     """
-    assert dragged(body, POINT) == 4
+    assert dragged(body, POINT) == 5
 
 
 def test_a_drawing_that_is_not_the_newest_makes_no_room():
     body = """
-        down(); for (const x of [0.032, 0.033, 0.034]) to([x, 0.01]);
+        down(); for (const x of [0.032, 0.0325, 0.033, 0.034]) to([x, 0.01]);
         data.undrawn = 1; drag.drawn(); to([0.0345, 0.01]);
         const before = said.length;
-        data.undrawn = 0; drag.drawn(); for (const x of [0.035, 0.036, 0.037]) to([x, 0.01]);
+        data.undrawn = 0; drag.drawn(); for (const x of [0.035, 0.036, 0.037, 0.038]) to([x, 0.01]);
         return [before, said.length];
     """
-    assert dragged(body, POINT) == [3, 5]  # one that the server took together with others is still due
+    assert dragged(body, POINT) == [4, 7]  # one that the server took together with others is still due
 
 
 def test_steps_without_any_answer_are_waited_for_a_moment_only():
@@ -137,12 +137,31 @@ def test_steps_without_any_answer_are_waited_for_a_moment_only():
     body = """
         let now = 1000;
         Object.defineProperty(globalThis, "performance", {value: {now: () => now}, configurable: true});
-        down(); for (const x of [0.031, 0.032, 0.033, 0.034]) to([x, 0.01]);
+        down(); for (const x of [0.031, 0.032, 0.033, 0.034, 0.035]) to([x, 0.01]);
         const before = said.length;
-        now += 200; for (const x of [0.035, 0.036, 0.037, 0.038]) to([x, 0.01]);
+        now += 200; for (const x of [0.036, 0.037, 0.038, 0.039, 0.040]) to([x, 0.01]);
         return [before, said.length];
     """
-    assert dragged(body, POINT) == [3, 6]
+    assert dragged(body, POINT) == [4, 8]
+
+
+def test_the_number_is_shown_with_its_drawing_or_a_moment_later_without():
+    """The page is laid out once for both; and nothing is shown when the hand has let go."""
+    body = """
+        const timers = [];
+        globalThis.setTimeout = act => timers.push(act);
+        globalThis.clearTimeout = number => { if (number) timers[number - 1] = null; };
+        down(); to([0.032, 0.01]);
+        const seen = [bubble.textContent];
+        to([0.033, 0.01]); seen.push(timers.length, bubble.textContent);
+        drag.draw(); seen.push(bubble.textContent, timers[0]);
+        to([0.034, 0.01]); timers[1](); seen.push(bubble.textContent);
+        to([0.035, 0.01]); button.fire("pointerup"); seen.push(timers[2], bubble.hidden);
+        return seen;
+    """
+    start, timers, still, drawn, stopped, late, ended, hidden = dragged(body, POINT)
+    assert "x 30 " in start and timers == 1 and still == start and "x 33 " in drawn and stopped is None
+    assert "x 34 " in late and ended is None and hidden
 
 
 def test_a_hand_that_comes_back_takes_the_point_back_and_opens_no_box():
@@ -193,7 +212,7 @@ def test_a_point_falls_upon_one_of_another_body_and_stands_level_with_its_own():
     beside = dragged("down(); to([0.0510, 0.0205]); return said;", POINT, others=[own])
     assert numbers_of(beside[0]) == pytest.approx([50.0333, 20.0111], abs=0.01)  # level and plumb with its own: the very place
     length = dragged(
-        "down(); to([0.0430, 0.041]); return [said[0], bubble.textContent, guides.children.length];",
+        "down(); to([0.0430, 0.041]); drag.draw(); return [said[0], bubble.textContent, guides.children.length];",
         POINT,
         others=[{"body": 0, "point": [0, 0]}, {"body": -1, "point": [0.2, 0.0]}, {"body": -1, "point": [0.2, 0.0585]}],
         numbers=[{**number, "high": None} for number in POINT["numbers"]],

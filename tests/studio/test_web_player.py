@@ -170,3 +170,19 @@ def test_real_time_stays_chosen_when_the_period_changes():
     first, second, third, count = in_node(body, None, controls="speedBox")
     assert first == [1, "2"] and second == [0.5, "0.5"] and third == [2, "2"] and count == 6
     assert math.isclose(4 / 8, second[0])
+
+
+# -- drawings as they come -----------------------------------------------------------------------------------------------------
+
+
+def test_one_drawing_a_frame_the_first_at_once_and_then_the_newest():
+    body = """
+        const seen = [], pace = createPace(drawing => seen.push(drawing));
+        pace(1); pace(2); pace(3);
+        const first = [...seen];
+        nextFrame(); pace(4); pace(5);
+        const second = [...seen];
+        nextFrame(); nextFrame(); nextFrame(); pace(6);
+        return [first, second, seen];
+    """
+    assert in_node(body, None, frames="createPace") == [[1], [1, 3], [1, 3, 5, 6]]

@@ -57,6 +57,7 @@ class Tab:
                 self.session.receive(message)
             if work := self.session._inbox.work:
                 await work
+            self.session.send.release()  # there is no drawing that it would wait for
 
         self.heard.clear()
         loops.run(sending())

@@ -18,6 +18,7 @@ jobs           work that takes a while
 kept_results   results of long runs, so that the figures and the solids of one design share one run
 offers         what the page offers to begin with: kinds, presets, tools, worked examples
 opening        where a design comes from: a file of this machine, a preset, the end of an address
+outbox         messages of one tab to its page
 page_policy    what a browser may do with our answers: a content security policy
 part_lists     bought parts that a field may name
 preview        what a worker process does with a design for the page

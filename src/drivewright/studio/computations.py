@@ -4,7 +4,7 @@ import asyncio
 import math
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager, suppress
-from typing import Any, TypeAlias
+from typing import Any
 
 from drivewright import registry
 from drivewright.errors import DrivewrightError, GeometryCheckFailed
@@ -13,9 +13,9 @@ from drivewright.studio import preview
 from drivewright.studio.design import Design
 from drivewright.studio.jobs import JOBS
 from drivewright.studio.jobs.progress import LONGER
+from drivewright.studio.outbox import Message
 from drivewright.studio.resources import ServerResources
 
-Message: TypeAlias = Mapping[str, Any]  # to the page: {"what": its name, ...}
 REST = 0.25  # seconds without a change after which the analyses follow
 SLOW = 3.0  # seconds after which a drawing says that it is under way
 PATIENCE = 120.0  # seconds after which it is given up: enough to compile what it needs

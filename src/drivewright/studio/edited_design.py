@@ -8,12 +8,13 @@ from drivewright.errors import SpecError
 from drivewright.execution.workers import WorkerDied
 from drivewright.report.dimension_drawings import fitting_drawings
 from drivewright.studio import editing, translations
-from drivewright.studio.computations import Message, TabComputations
+from drivewright.studio.computations import TabComputations
 from drivewright.studio.design import Design
 from drivewright.studio.document import Document
 from drivewright.studio.editing import Edited
 from drivewright.studio.error_text import without_folder
 from drivewright.studio.offers import presets
+from drivewright.studio.outbox import Message, Outbox
 from drivewright.studio.resources import ServerResources
 
 SHORT = 20_000  # characters of a message that the loop itself reads
@@ -27,11 +28,11 @@ class EditedDesign:
     with, and `name` that of its file."""
 
     def __init__(self, send: Callable[[Message], object], resources: ServerResources, start: Design, name: str = "") -> None:
-        self.send, self.resources, self.start, self.start_name = send, resources, start, name
+        self.send, self.resources, self.start, self.start_name = Outbox(send), resources, start, name
         self._document: Document | None = None
         self.gen = 0
         self._kept, self._kind = b"", ""
-        self.computations = TabComputations(send, self._describe, resources)
+        self.computations = TabComputations(self.send, self._describe, resources)
 
     @property
     def document(self) -> Document:
@@ -95,7 +96,8 @@ class EditedDesign:
             **({} if moving else {"toml": design.text(), "drawings": fitting_drawings(design.kind, design.tables)}),
         }
         if edited.fields is not None:
-            self.send({"what": "values", "fields": edited.fields, **common})
+            tell = self.send.hold if moving else self.send
+            tell({"what": "values", "fields": edited.fields, **common})
             return
         self.send(
             {

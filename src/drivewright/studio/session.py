@@ -13,7 +13,7 @@ from drivewright.errors import DrivewrightError, InputError, brief
 from drivewright.execution.workers import WorkerFault
 from drivewright.report.folder import file_name
 from drivewright.studio import editing, part_lists, proposals, translations
-from drivewright.studio.computations import REST, Message
+from drivewright.studio.computations import REST
 from drivewright.studio.design import Design
 from drivewright.studio.edited_design import ALL, LONGEST_KEY, SHORT, EditedDesign
 from drivewright.studio.editing import Edited
@@ -21,6 +21,7 @@ from drivewright.studio.inbox import Inbox
 from drivewright.studio.jobs import checked_options
 from drivewright.studio.offers import offered
 from drivewright.studio.opening import limited
+from drivewright.studio.outbox import Message
 from drivewright.studio.resources import ServerResources
 
 MOST_FILES = 20
@@ -83,6 +84,7 @@ class Session(EditedDesign):
         self._stop_waiting()
         self._inbox.close()
         self.computations.close()
+        self.send.close()
 
     # -- beginning -------------------------------------------------------------------------------------------------------------
 

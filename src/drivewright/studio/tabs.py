@@ -9,7 +9,7 @@ from collections import deque
 from collections.abc import Callable
 from typing import Any
 
-from drivewright.studio.computations import Message
+from drivewright.studio.outbox import Message
 from drivewright.studio.session import Session
 
 MOST = 300  # tabs

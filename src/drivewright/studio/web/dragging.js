@@ -9,7 +9,8 @@ import { svgPart } from "./svg_parts.js";
 
 const SHAKE = 3, FINE = 1, COARSE = 6;  // px of a hand that presses without moving; px of a step of the grid, of an arrow key, at least
 const SEEN = 2500;  // ms that the numbers stay after an arrow key
-const AHEAD = 3, PATIENCE = 120;  // steps of a drag that may wait for their drawing; ms after which one without a drawing counts no more
+const AHEAD = 4, PATIENCE = 120;  // steps of a drag that may wait for their drawing; ms after which one without a drawing counts no more
+const LATE = 40;  // ms after which a number is shown without its drawing: the page is laid out and painted once for both
 
 /**
  * The drag of a handle.  `place(handle, point)` is the pixel of a point in the frame of its body, `frame(handle)` the pose of that frame,
@@ -17,7 +18,7 @@ const AHEAD = 3, PATIENCE = 120;  // steps of a drag that may wait for their dra
  */
 export function createDrag({layer, guides, bubble, place, frame, others, nearest, nameOf, numbers, view, undrawn, say, t, clock}) {
   const nudges = createGesture("nudge");
-  let hold = null, pointed = null, box = null, pending = 0, fading = 0, bubbleSize = {length: 0, wide: 0, high: 0};
+  let hold = null, pointed = null, box = null, pending = 0, fading = 0, late = 0, bubbleSize = {length: 0, wide: 0, high: 0};
   let unanswered = 0, asked = -Infinity;  // steps of which the server has said nothing yet; when the last one was sent
   let nudged = null;  // {button, handleOf, start, now, gesture, seen} of the last arrow key
 
@@ -99,7 +100,7 @@ export function createDrag({layer, guides, bubble, place, frame, others, nearest
     if (!hold) return;
     const {button} = hold;
     hold = null;
-    cancelAnimationFrame(pending); pending = 0;
+    cancelAnimationFrame(pending); clearTimeout(late); pending = late = 0;
     for (const [name, act] of Object.entries(WHILE_HELD)) button.removeEventListener(name, act);
     removeEventListener("pointerdown", pinch, {capture: true});
     button.classList.remove("is-held");
@@ -149,10 +150,11 @@ export function createDrag({layer, guides, bubble, place, frame, others, nearest
     unanswered = performance.now() - asked < PATIENCE ? unanswered + 1 : 1;
     asked = performance.now();
     say({what: "drag", changes: texts(hold.start, values), gesture: hold.gesture});
-    show();
+    late ||= setTimeout(show, LATE);
   }
   const texts = (start, values) => Object.fromEntries(start.map(({key, unit}, n) => [key, unit ? `${values[n]} ${unit}` : String(values[n])]));
   function show() {
+    clearTimeout(late); late = 0;
     const shown = hold || (nudged?.seen ? nudged : pointed), handle = shown?.handleOf(), start = handle && (shown.start || numbers(handle));
     if (!start || shown.button.hidden) { bubble.hidden = true; return; }
     const [x, y] = place(handle, handle.point), names = handle.direction ? [""] : ["x ", "y "], now = shown.now || start.map(({value}) => value);

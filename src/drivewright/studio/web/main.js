@@ -2,6 +2,7 @@
 
 import { createBottom } from "./bottom.js";
 import { createForm } from "./form.js";
+import { createPace } from "./frames.js";
 import { createHead } from "./head.js";
 import { createPanes } from "./panes.js";
 import { createClock, createPlayer, element, putClass } from "./player.js";
@@ -84,7 +85,7 @@ function createEar(store, begin) {
       store.set({design: {...state.design, ...rest, form}, ...(settled.length ? {refused: without(settled)} : {})});
     },
     refused: ({key, text, message}) => store.set({refused: {...state.refused, [key]: {text, message}}}),
-    scene: ({gen, json}) => gen >= since && store.set({scene: {gen, ...JSON.parse(json)}}),
+    scene: createPace(({gen, json}) => gen >= since && store.set({scene: {gen, ...JSON.parse(json)}})),
     possible: () => {
       if (impossible === null) return;
       store.set({refused: without([impossible])});
