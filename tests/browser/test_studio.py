@@ -74,6 +74,28 @@ def test_a_slider_changes_the_drawing_and_a_check(studio, tab):
     assert page.evaluate(f"JSON.stringify({STATE}.result.checks)") != checks
 
 
+def test_drawings_that_come_together_are_shown_one_a_frame_and_none_of_the_drive_before(studio, tab):
+    page = tab(studio[0])
+    analysed(page)
+    seen = page.evaluate(
+        """async () => {
+          const store = window.drivewright, {scene, design} = store.state, frame = () => new Promise(done => requestAnimationFrame(done));
+          const json = JSON.stringify({scene: scene.scene}), message = gen => JSON.stringify({what: "scene", gen, json});
+          const hear = gen => window.socket.listeners("studio").forEach(act => act(message(gen)));
+          const now = () => store.state.scene.gen - design.gen;
+          await frame();
+          for (const n of [1, 2, 3]) hear(design.gen + n);
+          const first = now();
+          await frame();
+          const second = now();
+          await frame();
+          hear(design.opened - 1);
+          return [first, second, now()];
+        }"""
+    )
+    assert seen == [1, 3, 3]
+
+
 def test_a_bad_value_shows_its_message_and_loses_nothing(studio, tab):
     page = tab(studio[0])
     analysed(page)

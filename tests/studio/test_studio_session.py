@@ -1,5 +1,6 @@
 """One tab of the studio without a browser: what it is told, and what it lets nobody do."""
 
+import asyncio
 import json
 import shutil
 
@@ -13,6 +14,7 @@ from drivewright.studio.app import _files as served_files
 from drivewright.studio.edited_design import SHORT
 from drivewright.studio.jobs import JOBS
 from drivewright.studio.opening import LARGEST, first_design, opened, packed, unpacked
+from drivewright.studio.outbox import PACE
 from drivewright.studio.resources import KEPT, MOST_OFFERS, ServerResources
 from drivewright.studio.session import MOST_FILES
 
@@ -258,7 +260,7 @@ def test_steps_of_one_drag_that_wait_are_one(tab):
     tab.quiet.asked.clear()
     said = tab.send(*steps, {"what": "set", "key": "drive.speed", "text": "7 rpm", "gesture": "b"})
     assert [design.tables["drive"]["speed"] for _, _, design, _ in tab.quiet.asked] == ["149 rpm", "7 rpm"]
-    assert [message["fields"]["drive.speed"]["text"] for message in only(said, "values")] == ["7 rpm"]  # both with one drawing
+    assert [message["fields"]["drive.speed"]["text"] for message in only(said, "values")] == ["7 rpm"]  # the form follows more slowly
     assert tab.say("undo")[0]["fields"]["drive.speed"]["text"] == "149 rpm"
     said = tab.send(*({"what": "set", "key": "drive.speed", "text": f"{speed} rpm"} for speed in (1, 2, 3)))  # typed: each counts
     assert len(only(said, "values")) == 3
@@ -286,6 +288,19 @@ def test_what_a_hand_moves_is_drawn_quickly(tab):
     tab.say("set", key="drive.speed", text="98 rpm")
     tab.say("revert", gesture="g")
     assert [moving for name, _, _, moving in tab.quiet.asked if name == "update"] == [True, True, False, False]
+
+
+def test_a_tab_that_goes_under_a_hand_is_told_no_more(tab):
+    tab.heard.clear()
+
+    async def leaving():
+        tab.session.receive(drag(_0="45 mm"))
+        await tab.session._inbox.work
+        tab.session.close()
+        await asyncio.sleep(2 * PACE)
+
+    loops.run(leaving())
+    assert not tab.heard
 
 
 def test_a_drag_that_is_taken_back_leaves_no_step(tab):

@@ -1,11 +1,15 @@
-"""Messages of one tab to its page, in their order; the form of a step that a hand made waits for its drawing, for the page draws once."""
+"""Messages of one tab to its page, in their order; the form of a design that a hand moves is told ten times a second.
+
+Its drawings are told as they come, and the page has its processor for them: nobody reads numbers in a form that change faster, and the
+handle has its own beside it.
+"""
 
 import asyncio
 from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
 Message: TypeAlias = Mapping[str, Any]  # to the page: {"what": its name, ...}
-LONGEST = 0.05  # seconds that a form waits for a drawing: numbers that are read while a hand moves
+PACE = 0.1  # seconds that a form waits, at most
 
 
 class Outbox:
@@ -17,16 +21,18 @@ class Outbox:
         self._timer: asyncio.TimerHandle | None = None
 
     def __call__(self, message: Message) -> None:
-        """A message, behind what is held."""
-        self.release()
+        """A message: behind what is held, unless it is a drawing."""
+        if message["what"] != "scene":
+            self.release()
         self._send(message)
 
     def hold(self, values: Message) -> None:
-        """The fields that a step has changed: they go before the next message, or after a while, joined with those of later steps."""
+        """The fields that a step has changed: they go before the next message that is no drawing, or after `PACE`, joined with those of
+        the steps until then."""
         before = self._held
         self._held = {**values} if before is None else joined(before, values)
         if self._timer is None:
-            self._timer = asyncio.get_running_loop().call_later(LONGEST, self.release)
+            self._timer = asyncio.get_running_loop().call_later(PACE, self.release)
 
     def release(self) -> None:
         """Send what is held."""
