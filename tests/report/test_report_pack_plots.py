@@ -141,7 +141,9 @@ def test_a_shaft_is_drawn_with_the_names_of_its_bearings_and_stations_and_its_fo
     _, scene = shaft
     found = pack_scene(scene)
     assert [label["text"].replace("\u00a0", " ") for label in found["labels"]] == ["A", "B", "m1", "m2", "500 N"]
-    assert [label["above"] for label in found["labels"]] == [False, False, True, True, True]
+    assert [label["above"] for label in found["labels"]] == [False, False, True, False, True]  # the arrow comes upon m2 from above
+    (x1, y1), (x2, y2) = (label["point"] for label in found["labels"][2:4])
+    assert y1 == -y2 > 0
     bodies = [found["bodies"][label["body"]]["name"] for label in found["labels"]]
     assert bodies[:2] == ["bearing.A", "bearing.B"] and bodies[-1] == "load.0"
     assert "lbf" in pack_scene(scene, "inch")["labels"][-1]["text"]

@@ -348,6 +348,18 @@ def test_the_yield_line_alone_where_it_is_lower_everywhere():
     soft = Strength(1000 * MPA, 200 * MPA, STEEL.source)
     row = judge(section(bending=10), PLAIN, 400 * MPA, soft, Service())
     table = haigh_table([row], soft)
+    (plot,) = haigh_plots({"haigh": table})
+    assert plot.y == ("weakest", "goodman", "yield")  # nothing is named that has no point
     place = {name: table["mean"].data[np.isfinite(table[name].data)] for name in ("goodman", "yield")}
     assert np.all(place["goodman"] == 0)
     assert place["yield"][[0, -1]] == pytest.approx([0, 200 * MPA])
+
+
+def test_the_goodman_line_alone_where_nothing_yields_before_it_breaks():
+    brittle = Strength(500 * MPA, 500 * MPA, STEEL.source)
+    row = judge(section(bending=10), PLAIN, 100 * MPA, brittle, Service())
+    table = haigh_table([row], brittle)
+    (plot,) = haigh_plots({"haigh": table})
+    assert plot.y == ("weakest", "goodman")
+    place = table["mean"].data[np.isfinite(table["goodman"].data)]
+    assert place[[0, -1]] == pytest.approx([0, 500 * MPA])

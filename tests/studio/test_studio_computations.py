@@ -10,8 +10,9 @@ import pytest
 from drivewright.errors import DoesNotAssemble, GeometryCheckFailed, SpecError
 from drivewright.execution.workers import CallTimedOut, Cancellation, WorkerDied, WorkerFault
 from drivewright.registry import Analysis
-from drivewright.studio import computations, preview
+from drivewright.studio import computations, preview, tab_jobs
 from drivewright.studio.computations import TabComputations
+from drivewright.studio.tab_jobs import TabJobs
 
 pytestmark = pytest.mark.interface
 
@@ -41,14 +42,15 @@ class Bench:
     def __init__(self):
         self.said, self.calls, self.offered, self.busy = [], [], {}, 0
         self.quick, self.heavy, self.jobs = (self._pool(name) for name in ("quick", "heavy", "jobs"))
-        self.computing = TabComputations(self.said.append, lambda error: f"in words: {error}", self)
+        about = self.said.append, lambda error: f"in words: {error}", self
+        self.computing, self.working = TabComputations(*about), TabJobs(*about)
 
     def _pool(self, name):
         return SimpleNamespace(worker=lambda owner: self._worker(name, owner), crowded=False)
 
     @asynccontextmanager
     async def _worker(self, name, owner):
-        assert owner is self.computing  # every tab has its share
+        assert owner is (self.working if name == "jobs" else self.computing)  # every tab has its share
 
         async def call(function, *arguments, on_message=lambda message: None, limit=None):
             made = Call(name, function, arguments, on_message)
@@ -121,6 +123,7 @@ def story(test):
         async def tell():
             await test(bench)
             bench.computing.close()
+            bench.working.cancel_all()
             await settled()
             assert bench.busy == 0  # no worker is kept
 
@@ -249,7 +252,7 @@ def test_a_drawing_that_takes_long_says_so_and_is_given_up_at_last(bench, monkey
 @story
 async def test_a_person_ends_a_drawing_and_begins_it_again(bench):
     await bench.look(1)
-    bench.computing.cancel("look")
+    bench.computing.cancel()
     await settled()
     assert bench.calls[0].stopped == (Cancellation.NOW,) and bench.said == [{"what": "work", "state": "stopped", "text": ""}]
     assert len(bench.calls) == 1  # a drawing that was ended is not analysed
@@ -498,14 +501,14 @@ async def test_older_analyses_that_end_late_say_nothing(bench):
 
 @story
 async def test_a_person_ends_the_analyses_at_once(bench):
-    bench.computing.cancel("look")  # nothing yet
+    bench.computing.cancel()  # nothing yet
     await bench.look(1)
     await bench.calls[0].answer(None)
-    bench.computing.cancel("look")
+    bench.computing.cancel()
     await settled()
     assert bench.calls[1].stopped == (Cancellation.NOW,)
     assert bench.told("work") == [{"what": "work", "state": "stopped", "text": ""}]
-    bench.computing.cancel("look")
+    bench.computing.cancel()
     await settled()
     assert len(bench.told("work")) == 1
     bench.computing.analyse()
@@ -728,7 +731,7 @@ async def test_the_last_reference_counts(bench):
 
 
 async def begun(bench, name="study", gen=4, **options):
-    bench.computing.job(name, gen, SimpleNamespace(kind=KIND, gen=gen), options)
+    bench.working.begin(name, gen, SimpleNamespace(kind=KIND, gen=gen), options)
     await settled()
     return bench.calls[-1]
 
@@ -759,9 +762,9 @@ def test_in_its_process_a_job_is_called_by_its_name(monkeypatch):
         tell(2, points, "half", {"rows": 1})
         return design, points
 
-    monkeypatch.setitem(computations.JOBS, "study", toy)
+    monkeypatch.setitem(tab_jobs.JOBS, "study", toy)
     news = []
-    assert computations._work(news.append, "study", "design", {"points": 4}) == ("design", 4)
+    assert tab_jobs._work(news.append, "study", "design", {"points": 4}) == ("design", 4)
     assert news == [(1, 4, "", None), (2, 4, "half", {"rows": 1})]
 
 
@@ -792,13 +795,13 @@ async def test_an_export_that_is_refused_for_its_geometry_can_be_asked_for_all_t
 @story
 async def test_a_job_is_cancelled_at_once_and_others_are_not(bench):
     study, solid = await begun(bench), await begun(bench, "solid")
-    bench.computing.cancel("study")
-    bench.computing.cancel("nothing")
+    bench.working.cancel("study")
+    bench.working.cancel("nothing")
     await settled()
     assert study.stopped == (Cancellation.NOW,) and solid.stopped is None
     assert bench.said[-1] == job("cancelled", text="")
     await solid.answer(1)
-    bench.computing.cancel("solid")  # too late: it is done
+    bench.working.cancel("solid")  # too late: it is done
     await settled()
     assert bench.said[-1] == job("done", name="solid", text="", answer=1)
 
@@ -821,7 +824,7 @@ async def test_the_end_of_the_replaced_job_leaves_the_new_one_in_its_place(bench
     second = await begun(bench, gen=9)
     first.clearing.set()
     await settled()
-    bench.computing.cancel("study")  # reaches the new one
+    bench.working.cancel("study")  # reaches the new one
     await settled()
     assert second.stopped == (Cancellation.NOW,)
 
@@ -849,7 +852,7 @@ async def test_files_become_addresses(bench):
 
 @pytest.mark.parametrize("answer", [None, [1, 2], "files", {"rows": []}])
 def test_other_answers_stay_as_they_are(bench, answer):
-    assert bench.computing._downloaded(answer) is answer
+    assert bench.working._downloaded(answer) is answer
 
 
 # -- the end -------------------------------------------------------------------------------------------------------------------
@@ -868,6 +871,7 @@ async def test_a_tab_that_closes_ends_all_that_is_under_way(bench):
     bench.computing.compare_with("x", SimpleNamespace(kind=KIND, gen="other"))
     await settled()
     bench.computing.close()
+    bench.working.cancel_all()
     await settled()
     assert None not in [call.stopped for call in (analysing, study, drawing, bench.calls[-1])]
     assert asyncio.all_tasks() == before
@@ -878,9 +882,10 @@ def test_closing_before_anything_was_looked_at(bench):
 
 
 @story
-async def test_another_design_ends_the_jobs_and_keeps_the_drawing(bench):
-    study = await begun(bench)
+async def test_another_drive_ends_the_comparison_and_keeps_the_drawing(bench):
+    bench.computing.compare_with("x", SimpleNamespace(kind=KIND, gen="other"))
+    await settled()
     await bench.look(1)
     bench.computing.reset(2)
     await settled()
-    assert study.stopped == (Cancellation.NOW,) and bench.calls[1].stopped is None
+    assert bench.calls[0].stopped == (Cancellation.NOW,) and bench.calls[1].stopped is None

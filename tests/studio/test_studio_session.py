@@ -477,7 +477,7 @@ def test_text_of_another_kind_is_another_drive(tab):
     tab.say("job", name="sensitivity", options={})
     (design,) = tab.say("text", toml=(EXAMPLES / "disc_cam.toml").read_text(encoding="utf-8"))
     assert design["opened"] and design["kind"] != first and design["settled"] == ["*"]
-    assert tab.quiet.asked[-2] == ("reset", tab.session.gen)
+    assert tab.quiet.asked[-3:-1] == [("reset", tab.session.gen), ("cancel_all",)]
     (back,) = tab.say("undo")
     assert back["opened"] and back["kind"] == first
 
@@ -485,7 +485,7 @@ def test_text_of_another_kind_is_another_drive(tab):
 def test_jobs_get_the_locks(tab):
     tab.say("lock", key="drive.speed", on=True)
     tab.say("job", name="sensitivity", options={})
-    assert tab.quiet.asked[-1] == ("job", "sensitivity", 1, tab.session.document.design, {"locks": ["drive.speed"]})
+    assert tab.quiet.asked[-1] == ("begin", "sensitivity", 1, tab.session.document.design, {"locks": ["drive.speed"]})
     (refused,) = tab.say("set", key="drive.speed", text="1 rpm")
     assert "lock" in refused["message"]
 
@@ -498,7 +498,7 @@ def test_a_search_is_written_and_begun_in_one_message_and_one_step(tab):
     before = tab.toml
     (design,) = tab.say("begin", name="optimise", table=table, options={"theme": "dark"})
     assert "[optimise]" in design["toml"] or "[[optimise.unknowns]]" in design["toml"]
-    assert tab.quiet.asked[-1] == ("job", "optimise", 2, tab.session.document.design, {"theme": "dark", "locks": []})
+    assert tab.quiet.asked[-1] == ("begin", "optimise", 2, tab.session.document.design, {"theme": "dark", "locks": []})
     tab.say("undo")
     assert tab.toml == before and not tab.session.document.can_undo
 
@@ -520,7 +520,7 @@ def test_a_table_that_is_refused_begins_nothing(tab):
 def test_other_jobs_do_not(tab):
     tab.say("lock", key="drive.speed", on=True)
     tab.say("export", format="dxf")
-    assert tab.quiet.asked[-1] == ("job", "export", 1, tab.session.document.design, {"format": "dxf", "anyway": False})
+    assert tab.quiet.asked[-1] == ("begin", "export", 1, tab.session.document.design, {"format": "dxf", "anyway": False})
     tab.say("lock", key="drive.speed", on=False)
     assert only(tab.say("set", key="drive.speed", text="1 rpm"), "values")
 
@@ -528,7 +528,20 @@ def test_other_jobs_do_not(tab):
 def test_what_is_saved_is_no_change_any_more(tab):
     assert tab.say("set", key="drive.speed", text="150")[0]["changed"]
     (values,) = tab.say("save")
-    assert not values["changed"] and tab.quiet.asked[-1][:2] == ("job", "save")
+    assert not values["changed"] and tab.quiet.asked[-1][:2] == ("begin", "save")
+
+
+@pytest.mark.parametrize(("name", "asked"), [("look", ("cancel",)), ("study", ("cancel", "study"))])
+def test_what_is_cancelled_is_the_look_of_the_design_or_a_job_and_waits_for_nothing(tab, name, asked):
+    tab.quiet.asked.clear()
+    tab.session.receive({"what": "cancel", "name": name})
+    assert tab.quiet.asked == [asked]
+
+
+def test_a_tab_that_closes_ends_its_computations_and_its_jobs(tab):
+    tab.quiet.asked.clear()
+    tab.session.close()
+    assert tab.quiet.asked == [("close",), ("cancel_all",)]
 
 
 def test_after_a_lost_connection_everything_comes_once_more(tab):
@@ -541,7 +554,7 @@ def test_another_kind_forgets_what_was_computed(tab):
     other = next(kind["kind"] for kind in only(tab.say("hello"), "start")[0]["kinds"] if kind["kind"] != tab.session.document.design.kind)
     (design,) = tab.say("fresh", kind=other)
     assert design["kind"] == other and design["undo"] and not design["redo"]
-    assert tab.quiet.asked[-2:-1] == [("reset", tab.session.gen)]
+    assert tab.quiet.asked[-3:-1] == [("reset", tab.session.gen), ("cancel_all",)]
 
 
 def test_opening_another_design_loses_nothing(tab):

@@ -781,3 +781,17 @@ def test_places_and_values_of_a_panel_go_to_pixels_and_back():
     plain, log, (across, up), inside = in_node(body, {"panel": PANEL}, plotting="layout")
     assert plain == pytest.approx([20, 190, 1.3, 85, 5]) and log == pytest.approx([85, 45, 5]) and across == pytest.approx(up)
     assert 20 <= inside[0] < inside[1] <= 190 and inside[2:] == pytest.approx([85, 5])  # all of it, as large as it can be
+
+
+def test_a_point_that_no_line_joins_is_a_dot():
+    body = """
+        const panel = {...data.panel, series: [{values: data.values.map(each => each ?? NaN), role: "blue", ends: []}], u: [0, 1, 2, 3, 4, 5]};
+        const axis = {from: 0, to: 5, start: 0, scale: 1}, margin = {left: 0, right: 0, top: 0, bottom: 0};
+        const at = layout(panel, axis, [], {width: 50, height: 100, margin});
+        const pen = new Part("canvas").getContext();
+        paintPanel(pen, panel, {...axis, marks: [], labels: [], places: []}, [], at, {}, {foot: false, named: false});
+        return pen.calls.filter(([name]) => name === "arc").map(([, x, y]) => [x, y]);
+    """
+    values = [4, None, 1, 2, None, 7]
+    dots = in_node(body, {"panel": {**PANEL, "u": [], "series": []}, "values": values}, plotting="layout, paintPanel")
+    assert dots == [[0, 60], [50, 30]]

@@ -12,7 +12,7 @@ from drivewright.studio.session import Session
 
 
 class Quiet:
-    """Stands for the computations: notes what is asked of them."""
+    """Stands for the computations and the jobs: notes what is asked of them."""
 
     def __init__(self):
         self.asked = []
@@ -43,7 +43,7 @@ class Tab:
     def __init__(self, start, resources):
         self.heard = []
         self.session = Session(self.heard.append, resources, start)
-        self.session.computations = self.quiet = Quiet()
+        self.session.computations = self.session.jobs = self.quiet = Quiet()
 
     def say(self, what, **more):
         """What the session answers to one message."""

@@ -3,7 +3,7 @@
 import { fixed, floats, locate, useFont } from "./clock.js";
 
 const MARGIN = {left: 52, right: 14, top: 6, bottom: 36};
-const FONT = "11px system-ui, sans-serif", BAR = 0.72;  // of the room that a bar has
+const FONT = "11px system-ui, sans-serif", BAR = 0.72, SINGLE = 3.5;  // of the room that a bar has; px of a point that no line joins
 
 /** Ticks at round values, about `count` of them; angles at 10, 15, 30, 45, 90 ... degrees. */
 export function ticks(low, high, count, unit) {
@@ -166,17 +166,24 @@ function limits(context, panel, {w, margin, toY}, colours) {
 
 const point = (at, u, values, i) => [at.toX(u[i]), Math.max(-1e4, Math.min(1e4, at.toY(values[i])))];
 
+/** A line with its gaps; a point between two gaps is a dot. */
 function curve(context, at, u, values) {
+  const single = [];
+  let length = 0, last = null;  // of the stretch that has begun
+  const end = () => { if (length === 1) single.push(last); length = 0; };
   context.beginPath();
-  let pen = false;
   for (let i = 0; i < u.length; i++) {
     const [x, y] = point(at, u, values, i);
-    if (!Number.isFinite(y) || !Number.isFinite(x)) { pen = false; continue; }
-    pen ? context.lineTo(x, y) : context.moveTo(x, y);
-    pen = true;
+    if (!Number.isFinite(y) || !Number.isFinite(x)) { end(); continue; }
+    length ? context.lineTo(x, y) : context.moveTo(x, y);
+    length += 1; last = [x, y];
   }
+  end();
   context.stroke();
+  for (const place of single) dot(context, place, SINGLE);
 }
+
+function dot(context, [x, y], size) { context.beginPath(); context.arc(x, y, size, 0, 2 * Math.PI); context.fill(); }
 
 /** The 95 % intervals of a line as a band; of single points as error bars. */
 function intervals(context, at, u, [low, high], isolated) {
@@ -206,7 +213,7 @@ function marks(context, panel, at, u, values, size = 1.8) {
   for (let i = 0; i < u.length; i++) {
     const [x, y] = point(at, u, values, i);
     if (!Number.isFinite(y)) continue;
-    context.beginPath(); context.arc(x, y, size, 0, 2 * Math.PI); context.fill();
+    dot(context, [x, y], size);
     if (panel.style === "stems") { context.beginPath(); context.moveTo(x, foot); context.lineTo(x, y); context.stroke(); }
   }
 }

@@ -100,7 +100,7 @@ def _points(rows: Sequence[SectionStrength]) -> tuple[Floats, Floats]:
 def haigh_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
     """The Haigh diagram among the tables of a result."""
     if "haigh" in tables:
-        names = tuple(column.name for column in tables["haigh"].columns[1:])
+        names = tuple(column.name for column in tables["haigh"].columns[1:] if np.isfinite(column.data).any())
         meaning = (
             "von Mises stress amplitude over mean stress at the notches: below the Goodman line of the lowest endurance limit the life is "
             "infinite, below the yield line nothing yields in the first revolution"
@@ -109,10 +109,12 @@ def haigh_plots(tables: Mapping[str, Table]) -> Iterator[Plot]:
 
 
 def _border(limit: float, strength: Strength) -> tuple[Floats, Floats]:
-    """Mean stresses [Pa] along the Goodman line up to where it meets the yield line, and along the yield line from there."""
+    """Mean stresses [Pa] along the Goodman line up to where it meets the yield line, and along the yield line from there; none of that
+    where the Goodman line is the lower one everywhere."""
     crossing = (strength.yield_strength - limit) / (1 - limit / strength.tensile)
     crossing = min(max(crossing, 0.0), strength.yield_strength)
-    return np.linspace(0.0, crossing, ON_A_LINE), np.linspace(crossing, strength.yield_strength, ON_A_LINE)
+    below = np.linspace(crossing, strength.yield_strength, ON_A_LINE) if crossing < strength.yield_strength else np.empty(0)
+    return np.linspace(0.0, crossing, ON_A_LINE), below
 
 
 def _numbers(rows: Sequence[SectionStrength], name: str) -> Floats:

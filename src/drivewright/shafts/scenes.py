@@ -96,15 +96,38 @@ def shaft_scene(
         if abs(force) > NO_FORCE:
             bodies.append(riding(f"load.{n}", "load", drawing.load_arrow(shaft, place, force), place, "orange"))
     slices = {name: f"shaft.{np.abs(middles - place).argmin()}" for name, place in (stations or {}).items()}
-    labels = (*_names(shaft, bodies, gears, stations or {}, slices), *_forces(bodies, loads, direction))
+    arrows = tuple(_arrows(bodies, loads, direction))
+    labels = (*_names(shaft, bodies, gears, stations or {}, slices, arrows), *_forces(arrows, len(loads.points)))
     frame = Frame("side", "seen from the side, exaggerated", still, axes=("z", _up(direction)))
     return Scene(phase, "load grows and fades", "rad", 2.0, tuple(bodies), (frame,), labels=labels)
 
 
+class _Arrow(NamedTuple):
+    """An arrow of a load: its number, its place along the shaft [m], its force [N] or [N/m], and its tail in the frame of its body."""
+
+    number: int
+    place: float
+    force: float
+    tail: tuple[float, float]
+
+
+def _arrows(bodies: Sequence[Body], loads: ShaftLoads, direction: Floats) -> Iterator[_Arrow]:
+    found = {body.name: body for body in bodies}
+    for n, (place, force) in enumerate(forces_along(loads, direction, ARROWS)):
+        if body := found.get(f"load.{n}"):
+            x, y = max((point for shape in body.shapes for point in shape.outline.points()), key=lambda point: abs(point[1]))
+            yield _Arrow(n, place, force, (float(x), float(y)))
+
+
 def _names(
-    shaft: Shaft, bodies: Sequence[Body], gears: Iterable[DrawnGear], stations: Mapping[str, float], slices: Mapping[str, str]
+    shaft: Shaft,
+    bodies: Sequence[Body],
+    gears: Iterable[DrawnGear],
+    stations: Mapping[str, float],
+    slices: Mapping[str, str],
+    arrows: Sequence[_Arrow],
 ) -> Iterator[Label]:
-    """Supports below, gears and stations above."""
+    """Supports below, gears and stations above; a station below where the arrow of a load comes from above and no support is there."""
     found = {body.name: body for body in bodies}
     for support in shaft.supports:
         foot = min(float(shape.outline.points()[:, 1].min()) for shape in found[f"bearing.{support.name}"].shapes)
@@ -113,18 +136,17 @@ def _names(
         yield Label(gear.name, (0.0, gear.pitch_diameter / 2), f"gear.{gear.name}")
     for name, place in stations.items():
         radius = drawing.radius_at(shaft, min(place, shaft.length * (1 - 1e-12)))
-        yield Label(name, (0.0, radius), slices[name])
+        pressed = any(abs(arrow.place - place) < radius for arrow in arrows if arrow.tail[1] > 0)
+        below = pressed and all(abs(support.position - place) >= radius for support in shaft.supports)
+        yield Label(name, (0.0, -radius if below else radius), slices[name], above=not below)
 
 
-def _forces(bodies: Sequence[Body], loads: ShaftLoads, direction: Floats) -> Iterator[Label]:
-    """The force of every arrow; of a line load at its two ends."""
-    found = {body.name: body for body in bodies}
-    for n, (_, force) in enumerate(forces_along(loads, direction, ARROWS)):
-        along = n - len(loads.points)
-        if f"load.{n}" not in found or along >= 0 and along % ARROWS not in (0, ARROWS - 1):
-            continue
-        tail = max((point for shape in found[f"load.{n}"].shapes for point in shape.outline.points()), key=lambda point: abs(point[1]))
-        yield Label("", (float(tail[0]), float(tail[1])), f"load.{n}", bool(tail[1] > 0), abs(force), "N" if along < 0 else "N/m")
+def _forces(arrows: Iterable[_Arrow], points: int) -> Iterator[Label]:
+    """The force of every arrow; of a line load, which come behind the `points`, at its two ends."""
+    for arrow in arrows:
+        along = arrow.number - points
+        if along < 0 or along % ARROWS in (0, ARROWS - 1):
+            yield Label("", arrow.tail, f"load.{arrow.number}", arrow.tail[1] > 0, abs(arrow.force), "N" if along < 0 else "N/m")
 
 
 def _up(direction: Floats) -> str:

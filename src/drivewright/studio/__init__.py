@@ -9,7 +9,7 @@ document       the design of one browser tab with its past and future, its locks
 drawing_words  words on the dimension drawings in another language than English
 edited_design  the design of one tab: changed in worker processes, drawn and analysed, and shown to the page
 editing        every change of a document, made in a worker process
-error_text     messages for a page, without the folders of this machine
+error_text     messages for a page, in one line and without the folders of this machine
 field_info     what a key of a spec is, read off its class
 guesses        wrong tokens cost time
 inbox          messages of one tab that wait for their turn
@@ -28,6 +28,7 @@ sample_values  what a new table or element of a list begins with
 session        one tab of the browser
 sliders        ranges and steps of sliders, in the unit that the box shows, and the short text of a number that a slider gave
 source_text    the text of a spec as its author wrote it, with the differences entered
+tab_jobs       the jobs of one tab
 tabs           the open tabs, and the framework's socket between them and their sessions
 translations   words of the page in another language than English
 undo_history   a design with the steps before and after it

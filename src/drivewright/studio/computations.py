@@ -1,17 +1,17 @@
-"""What is computed for one tab: always the newest drawing, the analyses when the design rests, and the jobs that were asked for."""
+"""What is computed for one tab: always the newest drawing, the analyses when the design rests, and a design to compare with."""
 
 import asyncio
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from typing import Any
 
 from drivewright import registry
-from drivewright.errors import DrivewrightError, GeometryCheckFailed
+from drivewright.errors import DrivewrightError
 from drivewright.execution.workers import CallTimedOut, Cancellation, WorkerDied, WorkerFault
 from drivewright.studio import preview
 from drivewright.studio.design import Design
-from drivewright.studio.jobs import JOBS
+from drivewright.studio.error_text import last_line
 from drivewright.studio.jobs.progress import LONGER
 from drivewright.studio.outbox import Message
 from drivewright.studio.resources import ServerResources
@@ -46,8 +46,8 @@ class TabComputations:
         self._analyse_task: asyncio.Task[None] | None = None
         self._glance_task: asyncio.Task[None] | None = None
         self._quick_from = -math.inf  # when the next round of quick analyses may begin [s], by the loop's clock
+        self._reference_task: asyncio.Task[None] | None = None
         self._seconds: dict[str, float] = {}  # of each analysis, as last measured with this drive
-        self._jobs: dict[str, asyncio.Task[None]] = {}
 
     def update(self, gen: int, design: Design, moving: bool = False) -> None:
         """Draw this design as soon as the one under way is drawn, and analyse it when it has rested.
@@ -70,24 +70,19 @@ class TabComputations:
             self.update(*self._newest)
             self._limit = LONGER * ANALYSIS if longer else ANALYSIS
 
-    def job(self, name: str, gen: int, design: Design, options: Mapping[str, Any]) -> None:
-        """Begin a job; one of the same name that is under way ends."""
-        self.cancel(name)
-        self._jobs[name] = asyncio.create_task(self._job(name, gen, design, options))
-
     def compare_with(self, title: str, design: Design) -> None:
         """Draw and analyse another design, to be compared with."""
-        self.cancel("reference")
-        self._jobs["reference"] = asyncio.create_task(self._reference(title, design))
+        _cancel_now(self._reference_task)
+        self._reference_task = asyncio.create_task(self._reference(title, design))
 
     def pin(self, gen: int | None) -> None:
         """Compare what follows with the full result of a generation, None with nothing."""
-        self.cancel("reference")
+        _cancel_now(self._reference_task)
         self._pinned = self._full[1] if self._full and self._full[0] == gen else None
 
-    def cancel(self, name: str) -> None:
-        """End a job, or what is computed of the design ("look")."""
-        for task in (self._draw_task, self._analyse_task) if name == "look" else (self._jobs.get(name),):
+    def cancel(self) -> None:
+        """End what is computed of the design."""
+        for task in (self._draw_task, self._analyse_task):
             _cancel_now(task)
 
     def reset(self, since: int) -> None:
@@ -95,16 +90,14 @@ class TabComputations:
         self._since, self._shown, self._fresh, self._seconds = since, None, False, {}
         self._full = self._pinned = None
         self._known = {}
-        for name in self._jobs:
-            self.cancel(name)
+        _cancel_now(self._reference_task)
 
     def close(self) -> None:
         """The tab has gone."""
         for task in (self._draw_loop, self._draw_task, self._analyse_task, self._glance_task):
             if task:
                 task.cancel()
-        for name in self._jobs:
-            self.cancel(name)
+        _cancel_now(self._reference_task)
 
     # -- the drawing -----------------------------------------------------------------------------------------------------------
 
@@ -145,7 +138,7 @@ class TabComputations:
 
     def _lost(self, error: Exception) -> None:
         """A process that died, or a bug, in one line."""
-        self.send({"what": "work", "state": "lost", "text": _last_line(self.describe(error))})
+        self.send({"what": "work", "state": "lost", "text": last_line(self.describe(error))})
 
     async def _draw(self, gen: int, design: Design) -> None:
         def on_message(text):
@@ -287,54 +280,7 @@ class TabComputations:
         except WorkerFault as error:
             self._lost(error)
 
-    # -- jobs ------------------------------------------------------------------------------------------------------------------
-
-    async def _job(self, name, gen, design, options):
-        """A job's way: running with news, then done, failed or cancelled."""
-        own = asyncio.current_task()
-
-        def tell(state, **more):
-            if self._jobs.get(name) is own:  # and not of one that has begun since
-                self.send({"what": "job", "name": name, "state": state, "gen": gen, **more})
-
-        def on_message(news):
-            done, total, text, partial = news
-            tell("running", done=done, total=total, text=text, **({"answer": partial} if partial is not None else {}))
-
-        tell("running", done=0, total=0, text="", answer=None)
-        try:
-            async with self.resources.jobs.worker(self) as worker:
-                answer = await worker.call(_work, name, design, options, on_message=on_message)
-            tell("done", text="", answer=self._downloaded(answer))
-        except asyncio.CancelledError:
-            tell("cancelled", text="")
-            raise
-        except DrivewrightError as error:
-            tell("failed", text=self.describe(error), **({"overridable": True} if isinstance(error, GeometryCheckFailed) else {}))
-        except WorkerFault as error:
-            tell("failed", text=_last_line(self.describe(error)))
-        finally:
-            if self._jobs.get(name) is own:
-                del self._jobs[name]
-
-    def _downloaded(self, answer):
-        """Files become addresses to fetch them from."""
-        if not isinstance(answer, dict) or "files" not in answer:
-            return answer
-        files = [{"name": file["name"], "url": self.resources.offer(file["name"], file["data"])} for file in answer["files"]]
-        return {**answer, "files": files}
-
-
-def _work(tell, name, design, options):
-    """In the process: a job by its name."""
-    return JOBS[name](design, lambda done, total, text="", partial=None: tell((done, total, text, partial)), **options)
-
 
 def _cancel_now(task: asyncio.Task[Any] | None) -> None:
     if task:
         task.cancel(Cancellation.NOW)
-
-
-def _last_line(text):
-    """What a bug's traceback ends with, or the one line that an error is."""
-    return text.strip().splitlines()[-1]

@@ -16,6 +16,7 @@ from drivewright.studio.error_text import without_folder
 from drivewright.studio.offers import presets
 from drivewright.studio.outbox import Message, Outbox
 from drivewright.studio.resources import ServerResources
+from drivewright.studio.tab_jobs import TabJobs
 
 SHORT = 20_000  # characters of a message that the loop itself reads
 LONGEST_KEY = 500  # characters
@@ -24,8 +25,10 @@ ALL = "*"  # every complaint is settled
 
 
 class EditedDesign:
-    """The document of a tab, and its computations.  `send(message)` reaches the page; `start` is the design that the studio was opened
-    with, and `name` that of its file."""
+    """The document of a tab, its computations and its jobs.
+
+    `send(message)` reaches the page; `start` is the design that the studio was opened with, and `name` that of its file.
+    """
 
     def __init__(self, send: Callable[[Message], object], resources: ServerResources, start: Design, name: str = "") -> None:
         self.send, self.resources, self.start, self.start_name = Outbox(send), resources, start, name
@@ -33,6 +36,7 @@ class EditedDesign:
         self.gen = 0
         self._kept, self._kind = b"", ""
         self.computations = TabComputations(self.send, self._describe, resources)
+        self.jobs = TabJobs(self.send, self._describe, resources)
 
     @property
     def document(self) -> Document:
@@ -76,6 +80,7 @@ class EditedDesign:
         if opened:
             self._kind = self.document.design.kind
             self.computations.reset(self.gen)
+            self.jobs.cancel_all()
         self.computations.update(self.gen, self.document.design, moving)
         self._show(edited, settled, opened, moving)
 

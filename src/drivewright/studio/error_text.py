@@ -1,4 +1,4 @@
-"""Messages for a page, without the folders of this machine."""
+"""Messages for a page, in one line and without the folders of this machine."""
 
 import re
 from pathlib import Path
@@ -13,3 +13,8 @@ def without_folder(message: str, *folders: Path) -> str:
     for folder in sorted({text for each in folders for text in (str(each), str(each.resolve()))}, key=len, reverse=True):
         message = re.sub(re.escape(folder.rstrip("/\\")) + r"[/\\]+", "", message) if len(folder) > 1 else message
     return FOLDERS.sub("", QUOTED.sub(r"\1\2\1", message))
+
+
+def last_line(text: str) -> str:
+    """What a bug's traceback ends with, or the one line that an error is."""
+    return text.strip().splitlines()[-1]

@@ -55,7 +55,7 @@ class Session(EditedDesign):
         except InputError as error:
             return self._refuse(error)
         if arguments.get("what") == "cancel":  # which does not wait in the queue
-            self.computations.cancel(str(arguments.get("name", "")))
+            self._cancel(str(arguments.get("name", "")))
         elif arguments.get("what") in tuple(ACTIONS):
             self._inbox.put(arguments)
         return None
@@ -84,6 +84,7 @@ class Session(EditedDesign):
         self._stop_waiting()
         self._inbox.close()
         self.computations.close()
+        self.jobs.cancel_all()
         self.send.close()
 
     # -- beginning -------------------------------------------------------------------------------------------------------------
@@ -263,7 +264,7 @@ class Session(EditedDesign):
         options = checked_options(name, options)
         locks = {"locks": sorted(self.document.locks)} if name in TAKE_LOCKS else {}
         kept = {"kept": str(self.resources.results_folder())} if name in TAKE_RESULTS else {}
-        self.computations.job(name, self.gen, self.document.design, {**options, **locks, **kept})
+        self.jobs.begin(name, self.gen, self.document.design, {**options, **locks, **kept})
 
     async def propose(self) -> None:
         """What a search or a study of this design may vary, and what its tables say."""
@@ -293,6 +294,13 @@ class Session(EditedDesign):
     async def analyse(self, longer: bool = False) -> None:
         """The analyses once more, after they were cancelled; with more time where they took too long."""
         self.computations.analyse(longer=bool(longer))
+
+    def _cancel(self, name: str) -> None:
+        """End a job, or what is computed of the design ("look")."""
+        if name == "look":
+            self.computations.cancel()
+        else:
+            self.jobs.cancel(name)
 
     # -- telling ---------------------------------------------------------------------------------------------------------------
 
