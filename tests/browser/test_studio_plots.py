@@ -163,6 +163,19 @@ def test_diagrams_of_a_shaft_stand_under_its_drawing_on_the_same_axis(studio, ta
     until(page, f"({picture})() !== {before!r}")
 
 
+def test_a_small_screen_shows_the_first_plots_whole_and_their_unit_once(studio, tab):
+    page = tab(shared(studio, "two_disc_rotor"), 1024, 768)
+    until(page, "document.querySelectorAll('.bt-scroll .dw-group').length > 2")
+    box, pane = page.locator(".bt-scroll .dw-group").first.bounding_box(), page.locator(".bt-scroll").bounding_box()
+    assert box["y"] + box["height"] <= pane["y"] + pane["height"] + 1
+    campbell = page.locator("[data-testid='plot-campbell'] .dw-plot-head").first
+    assert campbell.inner_text().count("Hz") == 1
+    page.mouse.move(box["x"] + 150, box["y"] + box["height"] - 80)  # numbers under the pointer have the unit of the title
+    until(page, "/[0-9]/.test(document.querySelector('.bt-scroll .dw-now b').textContent)")
+    first = page.locator(".bt-scroll .dw-group .dw-plot-head").first
+    assert first.inner_text().count("µm/kN") == 1
+
+
 def test_a_chain_opens_with_plots(studio, tab):
     page = tab(shared(studio, "roller_chain"))
     assert names(page) == ["plot-centre_distance", "plot-running", "plot-spectrum"]

@@ -111,3 +111,10 @@ def test_a_pin_circle_wider_than_a_galaxy_is_told_from_its_pins():
 def test_a_rolling_radius_beside_which_the_pitch_is_rounding_is_refused(drivewright):
     code, out, err = drivewright("run", EXAMPLES / "hyvo_chain.toml", "--no-figures", "--set", "joint.rolling_radius=1.476e37 mm")
     assert code == 2 and out == "" and "joint.rolling_radius: exceeds 1e+09 pitches" in err
+
+
+def test_a_pin_too_thin_to_be_followed_is_refused_and_a_thicker_one_is_not(drivewright):
+    """Pins of an atom's size kept a run busy for hours."""
+    code, out, err = drivewright("run", EXAMPLES / "pin_indexer.toml", "--no-figures", "--set", "pin_radius=4.9e-8 mm")
+    assert code == 2 and out == "" and "pin_radius: 4.9e-08 mm is less than 1e-05 of the pin circle radius" in err and "0.0012 mm" in err
+    runner.build(load(EXAMPLES / "pin_indexer.toml", ["pin_radius=0.00121 mm"]))

@@ -785,7 +785,8 @@ def test_places_and_values_of_a_panel_go_to_pixels_and_back():
 
 def test_a_point_that_no_line_joins_is_a_dot():
     body = """
-        const panel = {...data.panel, series: [{values: data.values.map(each => each ?? NaN), role: "blue", ends: []}], u: [0, 1, 2, 3, 4, 5]};
+        const values = data.values.map(each => each ?? NaN), u = [0, 1, 2, 3, 4, 5];
+        const panel = {...data.panel, series: [{values, role: "blue", ends: []}], u};
         const axis = {from: 0, to: 5, start: 0, scale: 1}, margin = {left: 0, right: 0, top: 0, bottom: 0};
         const at = layout(panel, axis, [], {width: 50, height: 100, margin});
         const pen = new Part("canvas").getContext();
@@ -795,3 +796,18 @@ def test_a_point_that_no_line_joins_is_a_dot():
     values = [4, None, 1, 2, None, 7]
     dots = in_node(body, {"panel": {**PANEL, "u": [], "series": []}, "values": values}, plotting="layout, paintPanel")
     assert dots == [[0, 60], [50, 30]]
+
+
+def test_names_along_the_axis_stay_inside_and_do_not_lie_over_one_another():
+    """Six pixels a letter: the last one ends before its line; one that would begin within the one before is left out."""
+    body = """
+        const margin = {left: 0, right: 0, top: 0, bottom: 0}, series = [{values: [], role: "blue", ends: [], unit: ""}];
+        const axis = {from: 0, to: 10, start: 0, scale: 1, marks: [], labels: [], places: data.places};
+        const panel = {...data.panel, series, u: []};
+        const at = layout(panel, axis, [], {width: 100, height: 50, margin}), pen = new Part("canvas").getContext();
+        const names = data.places.map(([, name]) => name);
+        paintPanel(pen, panel, axis, [], at, {}, {foot: false});
+        return pen.calls.filter(([name, text]) => name === "fillText" && names.includes(text)).map(([, text, x]) => [text, x]);
+    """
+    told = in_node(body, {"panel": PANEL, "places": [[1, "first"], [3, "hidden"], [9, "last"]]}, plotting="layout, paintPanel")
+    assert told == [["first", 13], ["last", 63]]

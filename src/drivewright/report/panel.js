@@ -17,9 +17,10 @@ export function createPanel(packed, cycle, shared, extra) {
   const {clock, theme} = shared;
   let panel, axis, behind = [], at = null, visible = true;  // behind: [{name, colour, dash, lines: for each line the other one or nothing}]
   const {title, series} = packed;
+  const unit = packed.axis && series.length > 1 && series.every(one => one.unit === series[0].unit) ? series[0].unit : "";  // said once
   const numbers = series.map(() => element("b", {}, "–")), others = series.map(() => element("small", {}));
   const readouts = series.map((one, n) => element("span", {class: "dw-now", title: one.label, style: `--chip: var(--${one.role})`},
-    ...(series.length > 1 ? [element("i", {}), element("em", {}, one.label)] : []), numbers[n], unitText(one.unit), others[n]));
+    ...(series.length > 1 ? [element("i", {}), element("em", {}, one.label)] : []), numbers[n], unit ? "" : unitText(one.unit), others[n]));
   const canvas = element("canvas", {class: "dw-plot-canvas"}), cursor = element("div", {class: "dw-cursor"});
   const tip = element("div", {class: "dw-tip", hidden: ""}), cover = element("div", {class: `dw-cover${packed.axis ? " dw-apart" : ""}`}, cursor);
   const dots = series.map(one => element("div", {class: "dw-dot", style: `--chip: var(--${one.role})`}));
@@ -27,7 +28,7 @@ export function createPanel(packed, cycle, shared, extra) {
   const number = packed.figure ? [element("span", {class: "dw-plot-figure"}, packed.figure)] : [];
   const meaning = packed.meaning ? [element("span", {class: "dw-plot-meaning"}, packed.meaning)] : [];
   const state = () => ({panel, axis, behind});
-  const node = element("div", {class: "dw-plot"}, element("div", {class: "dw-plot-head"}, element("span", {class: "dw-plot-title", title}, ...number, title),
+  const node = element("div", {class: "dw-plot"}, element("div", {class: "dw-plot-head"}, element("span", {class: "dw-plot-title", title}, ...number, title, ...(unit ? [element("small", {}, unit)] : [])),
     element("span", {class: "dw-plot-values"}, ...readouts), ...(extra ? extra(state) : []), ...meaning), element("div", {class: "dw-plot-area"}, canvas, cover, tip));
   const surface = fitCanvas(canvas, () => { draw(); show(); });
   const unwatch = watchVisible(node, now => { visible = now; draw(); show(); });

@@ -10,6 +10,8 @@ import { MOST, TEXT, button, byLabel, exaggerator, icon, magnifiedBy, pace, pres
 import { createPainter, createView, steer } from "./drawing.js";
 import { STILL, boxOf, poseAt, poseOf, seenFrom, unpack } from "./scene.js";
 
+const NAMED = 16;  // px above the drawing for names that stand upon it
+
 export { createClock, element, fitCanvas, fixed, floats, locate, nice, pressable, put, putAttribute, putClass, same, useFont, watchTheme } from "./clock.js";
 
 /**
@@ -59,7 +61,8 @@ export function createPlayer(host, packed, options = {}) {
   function sight() {
     const boxes = [state, state.reference].filter(Boolean).map(({painter, observer}) => painter.extent(observer, switches.scale));
     const ends = boxes.flatMap(([x0, y0, x1, y1]) => [x0, y0, x1, y1]), across = options.sides?.() || Math.min(34, view.width / 8);
-    return [boxOf(ends), {top: 26 + top.offsetHeight, right: across, bottom: 44, left: across}];
+    const named = state.scene.labels?.some(({above}) => above) ? NAMED : 0;
+    return [boxOf(ends), {top: 26 + named + top.offsetHeight, right: across, bottom: 44, left: across}];
   }
   function fit() {
     state.fitted = true;

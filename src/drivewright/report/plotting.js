@@ -131,8 +131,8 @@ function phases(context, {marks}, {margin, h, toX}, colours) {
   context.globalAlpha = 1;
 }
 
-/** Names of what stands along the axis, each on its line; one that has no room is left out. */
-function places(context, axis, {margin, h, toX}, colours, named) {
+/** Names of what stands along the axis, each beside its line, the last one before it where it would end outside; one that has no room is left out. */
+function places(context, axis, {margin, w, h, toX}, colours, named) {
   let free = -Infinity;
   useFont(context, FONT); context.textAlign = "left"; context.textBaseline = "top"; context.lineWidth = 1;
   for (const [at, name] of axis.places) {
@@ -140,10 +140,11 @@ function places(context, axis, {margin, h, toX}, colours, named) {
     context.setLineDash([2, 3]);
     rule(context, x, margin.top, x, margin.top + h, colours.muted);
     context.setLineDash([]);
-    if (!named || x < free) continue;
+    const wide = named ? context.measureText(name).width : 0, from = x + 3 + wide > margin.left + w + margin.right ? x - 3 - wide : x + 3;
+    if (!named || from < free) continue;
     context.fillStyle = colours.muted;
-    context.fillText(name, x + 3, margin.top + 1);
-    free = x + 9 + context.measureText(name).width;
+    context.fillText(name, from, margin.top + 1);
+    free = from + 6 + wide;
   }
 }
 

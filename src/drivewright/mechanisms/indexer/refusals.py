@@ -32,6 +32,7 @@ OWN = {  # keys that only some kinds have
     "cam_radius": ("barrel",),
 }
 LARGEST_RATIO = 1000.0
+LEAST_PIN = 1e-5  # radius of a pin in that of its circle: play is followed in steps of a quarter of it
 POINTS = {"table": "file", "spline": "points"}  # by law the key that holds its points
 
 
@@ -133,6 +134,13 @@ def _motion(spec: IndexerSpec) -> None:
 
 
 def _pins(spec: IndexerSpec) -> None:
+    least = LEAST_PIN * spec.pin_circle_radius
+    if spec.pin_radius < least:
+        raise SpecError(
+            f"{1e3 * spec.pin_radius:.4g} mm is less than {LEAST_PIN:g} of the pin circle radius, too thin to be followed along the cam. "
+            f"Take at least {1e3 * least:.4g} mm",
+            "pin_radius",
+        )
     if spec.kind in TRANSLATING and spec.pins % spec.cams:
         fitting = [str(number) for number in range(1, 5) if spec.pins % number == 0]
         raise SpecError(
