@@ -147,3 +147,11 @@ def test_a_shaft_is_drawn_with_the_names_of_its_bearings_and_stations_and_its_fo
     bodies = [found["bodies"][label["body"]]["name"] for label in found["labels"]]
     assert bodies[:2] == ["bearing.A", "bearing.B"] and bodies[-1] == "load.0"
     assert "lbf" in pack_scene(scene, "inch")["labels"][-1]["text"]
+
+
+def test_a_gear_is_named_below_where_an_arrow_comes_out_of_it_above():
+    """The arrow upon the wheel ends inside of it; that upon the pinion would cross the name."""
+    spec = load(ROOT / "examples" / "gearbox_shaft.toml")
+    labels = {each.text: each for each in registry.mechanism("shaft").scene(runner.build(spec)).labels}
+    assert labels["wheel"].above and labels["wheel"].point[1] > 0
+    assert not labels["pinion"].above and labels["pinion"].point[1] < 0

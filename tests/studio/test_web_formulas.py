@@ -811,3 +811,19 @@ def test_names_along_the_axis_stay_inside_and_do_not_lie_over_one_another():
     """
     told = in_node(body, {"panel": PANEL, "places": [[1, "first"], [3, "hidden"], [9, "last"]]}, plotting="layout, paintPanel")
     assert told == [["first", 13], ["last", 63]]
+
+
+def test_a_panel_in_another_language_has_its_axis_with_all_names_in_it():
+    body = """
+        const words = {speed: "zh speed", "operating speed": "zh operating", first: "zh first", force: "zh force",
+          "limit 3 N": "zh limit", T: "zh T"};
+        return translated(data, text => words[text] ?? text);
+    """
+    axis = {"label": "speed", "unit": "rpm", "names": ["first", "m1"], "places": [[4000, "operating speed"], [1, "m1"]]}
+    panel = {"title": "T", "axis": axis, "series": [{"label": "force", "unit": "N"}], "limits": [[3, "limit 3 N"]]}
+    assert in_node(body, panel, overlays="translated") == {
+        "title": "zh T",
+        "axis": {"label": "zh speed", "unit": "rpm", "names": ["zh first", "m1"], "places": [[4000, "zh operating"], [1, "m1"]]},
+        "series": [{"label": "zh force", "unit": "N"}],
+        "limits": [[3, "zh limit"]],
+    }

@@ -13,6 +13,7 @@ const NORMAL = {alpha: 1, fill: 0.24}, LIT = {alpha: 1, fill: 0.5, width: 3.2}, 
 const GHOST = {alpha: 0.28, fill: 0, width: 1, bare: true}, COMPARED = {alpha: 0.6, fill: 0.14, width: 1, bare: true, colour: "muted"};
 const TRACES = ["violet", "orange", "green", "blue", "steel"];
 const PAST = 4, GHOSTS = 8, WORDS = "11.5px system-ui, sans-serif";
+const ABOVE = 17, BELOW = 11;  // px from a point to the middle of its word: above, a handle stands on it
 
 /** All drawing of one scene: `paint(context, view, observer, clock, colours, switches, reference)`; sizes in pixels, poses in metres. */
 export function createPainter(scene) {
@@ -174,7 +175,7 @@ export function createPainter(scene) {
       const carrier = scene.bodies[body];
       if (carrier && hidden.has(carrier.title)) continue;
       const [x, y] = carry(point, seenFrom(carrier ? poseOf(carrier, low, part, scale) : STILL, eye)), wide = context.measureText(text).width + 8;
-      const px = view.toX(x), py = view.toY(y) + (above ? -11 : 11), box = [px - wide / 2, py - 8, px + wide / 2, py + 8];
+      const px = view.toX(x), py = view.toY(y) + (above ? -ABOVE : BELOW), box = [px - wide / 2, py - 8, px + wide / 2, py + 8];
       if (taken.some(other => box[0] < other[2] && box[2] > other[0] && box[1] < other[3] && box[3] > other[1])) continue;
       taken.push(box);
       context.fillStyle = colours.canvas; context.globalAlpha = 0.8;

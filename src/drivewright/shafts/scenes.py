@@ -127,18 +127,22 @@ def _names(
     slices: Mapping[str, str],
     arrows: Sequence[_Arrow],
 ) -> Iterator[Label]:
-    """Supports below, gears and stations above; a station below where the arrow of a load comes from above and no support is there."""
+    """Supports below, gears and stations above, unless the arrow of a load comes from there."""
     found = {body.name: body for body in bodies}
     for support in shaft.supports:
         foot = min(float(shape.outline.points()[:, 1].min()) for shape in found[f"bearing.{support.name}"].shapes)
         yield Label(support.name, (support.position, foot), f"bearing.{support.name}", above=False)
     for gear in gears:
-        yield Label(gear.name, (0.0, gear.pitch_diameter / 2), f"gear.{gear.name}")
+        yield _name(gear.name, f"gear.{gear.name}", gear.position, gear.pitch_diameter / 2, shaft, arrows)
     for name, place in stations.items():
-        radius = drawing.radius_at(shaft, min(place, shaft.length * (1 - 1e-12)))
-        pressed = any(abs(arrow.place - place) < radius for arrow in arrows if arrow.tail[1] > 0)
-        below = pressed and all(abs(support.position - place) >= radius for support in shaft.supports)
-        yield Label(name, (0.0, -radius if below else radius), slices[name], above=not below)
+        yield _name(name, slices[name], place, drawing.radius_at(shaft, min(place, shaft.length * (1 - 1e-12))), shaft, arrows)
+
+
+def _name(text: str, body: str, place: float, radius: float, shaft: Shaft, arrows: Iterable[_Arrow]) -> Label:
+    """The name of what has this radius [m] there: below, where an arrow comes upon it from above and no support is there, else above."""
+    pressed = any(abs(arrow.place - place) < radius and arrow.tail[1] > radius for arrow in arrows)
+    below = pressed and all(abs(support.position - place) >= radius for support in shaft.supports)
+    return Label(text, (0.0, -radius if below else radius), body, above=not below)
 
 
 def _forces(arrows: Iterable[_Arrow], points: int) -> Iterator[Label]:

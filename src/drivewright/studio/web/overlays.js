@@ -10,7 +10,7 @@ export function overlays({reference, kept}, t) {
 
 /** A packed panel in the language of the page. */
 export function translated(one, t) {
-  const axis = one.axis && {...one.axis, label: t(one.axis.label), names: one.axis.names?.map(text => t(text)) ?? null};
+  const axis = one.axis && {...one.axis, label: t(one.axis.label), names: one.axis.names?.map(text => t(text)) ?? null, places: one.axis.places.map(([at, name]) => [at, t(name)])};
   return {...one, title: t(one.title), ...(one.label ? {label: t(one.label.replace(/ \[[^\]]*\]$/, ""))} : {}), ...(axis ? {axis} : {}), series: one.series.map(series => ({...series, label: t(series.label)})),
     limits: one.limits.map(([value, text]) => [value, t(text)])};
 }
