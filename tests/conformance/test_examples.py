@@ -114,13 +114,14 @@ PINNED = {
     "slider_crank_clearance": {"slider.ideal_peak": 19419.360511402672, "bodies.crank.angular_velocity": 523.5987755982989},
     "seedling_pusher_improved": {"needle.angle_difference": 0.953388, "cam.max_pressure_angle": 0.310305, "cam.curvature_ratio": 1.680426},
 }
+LONG = ("hyvo_classical", "hyvo_groups", "tensioned_chain", "roller_chain")  # seconds each; another chain stays
 
 
 def test_every_example_is_pinned():
     assert {path.stem for path in FOLDER.glob("*.toml")} == set(PINNED)
 
 
-@pytest.mark.parametrize("name", PINNED)
+@pytest.mark.parametrize("name", [pytest.param(name, marks=pytest.mark.slow) if name in LONG else name for name in PINNED])
 def test_an_example_runs_to_the_same_numbers(name):
     result = dw.run(dw.load(FOLDER / f"{name}.toml"))
     assert result.outcome == "complete"

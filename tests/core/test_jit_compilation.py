@@ -217,6 +217,7 @@ def test_a_kernel_is_begun_and_done_once_and_found_after_that(tmp_path):
     assert said[1].splitlines() == [*["kernels.twice found"] * 2, "4.0 6.0 2"]
 
 
+@pytest.mark.slow
 def test_a_first_run_says_so_and_a_second_one_does_not(tmp_path):
     """Of the kind that compiles least among those whose first kernel is worth a line wherever it is compiled."""
     spec, out = str(EXAMPLES / "seedling_pusher.toml"), str(tmp_path / "out")

@@ -13,7 +13,10 @@ from builders import tutorials  # noqa: E402
 
 pytestmark = pytest.mark.interface
 PAGES = [page for page in tutorials.pages() if page.parent.name == "how-to"]
-SLOW = frozenset({"sweep-in-python", "response-map", "own-bearing", "check-in-ci"})
+SLOW = (
+    *("sweep-in-python", "response-map", "own-bearing", "check-in-ci", "bearing-by-life", "report-letterhead", "less-jerk"),
+    *("units-and-language", "verify-a-result", "worn-pin"),
+)
 EVERY_PAGE = [page for folder in tutorials.FOLDERS for page in sorted((tutorials.DOCS / folder).glob("*.md"))]
 IMPORTS = {"sweep-in-python": "pandas"}
 
