@@ -71,8 +71,7 @@ def _motors(model: SimulationModel, observed: Observed) -> Iterator[Actuation]:
             continue
         if isinstance(element, AppliedTorque):
             turned, rate = (places.field(element.body, name) - places.field(element.on, name) for name in ("angle", "w"))
-            at = {"time": observed.t, "angle": turned, "speed": rate}[element.load.over]
-            yield Actuation(model.motors[element.name], True, curve_values(element.load.curve, at), rate)
+            yield Actuation(model.motors[element.name], True, element.load.values(observed.t, turned, rate), rate)
         elif isinstance(element, LinearActuator):
             along = places.rotated(element.second.body, np.array(element.axis) / np.hypot(*element.axis))
             point = places.point(element.first)

@@ -9,7 +9,6 @@ from drivewright.labels import in_words
 from drivewright.multibody.analyses.cycle_poses import CyclePoses, cycle_poses
 from drivewright.multibody.analyses.magnified_play import bearing_shapes, journal_body, magnify_play
 from drivewright.multibody.analyses.simulation_model import SimulationModel
-from drivewright.multibody.curves import curve_values
 from drivewright.multibody.drawing import bar_half_width, coil_symbol, positions_of, rounded
 from drivewright.multibody.forces.load import AppliedForce
 from drivewright.multibody.joints.joint import JointDrawing
@@ -133,5 +132,4 @@ def _load_factor(force: AppliedForce, cycle: CyclePoses) -> Floats:
     """The load factor of a force in every frame (frames,)."""
     turned = cycle.frames(force.point.body)[:, 2] - cycle.frames(GROUND)[:, 2]
     speeds = np.gradient(turned, cycle.times) if cycle.period else np.zeros(len(turned))
-    at = {"time": cycle.times, "angle": turned, "speed": speeds}
-    return curve_values(force.load.curve, at[force.load.over])
+    return force.load.values(cycle.times, turned, speeds)

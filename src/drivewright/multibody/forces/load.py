@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from drivewright._jit import inner
+from drivewright._typing import Floats
 from drivewright.multibody.bodies import GROUND, Marker
-from drivewright.multibody.curves import Curve, curve_at
+from drivewright.multibody.curves import Curve, curve_at, curve_values
 from drivewright.multibody.forces.element import ForceElement
 from drivewright.multibody.frames import apply_force, apply_torque_pair, rotated
 from drivewright.multibody.index import ModelIndex
@@ -24,6 +25,10 @@ class LoadCurve:
 
     curve: Curve
     over: str = "time"
+
+    def values(self, times: Floats, angles: Floats, speeds: Floats) -> Floats:
+        """The quantity (n,) at these times [s], angles [rad] and speeds [rad/s] of the body, of which one counts."""
+        return curve_values(self.curve, {"time": times, "angle": angles, "speed": speeds}[self.over])
 
 
 @dataclass(frozen=True)
