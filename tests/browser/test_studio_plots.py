@@ -174,6 +174,9 @@ def test_a_small_screen_shows_the_first_plots_whole_and_their_unit_once(studio, 
     until(page, "/[0-9]/.test(document.querySelector('.bt-scroll .dw-now b').textContent)")
     first = page.locator(".bt-scroll .dw-group .dw-plot-head").first
     assert first.inner_text().count("µm/kN") == 1
+    indexer = tab(shared(studio, "pin_indexer"))  # over the cycle every number has its unit
+    until(indexer, "document.querySelector('[data-testid=plot-play]') !== null")
+    assert indexer.locator("[data-testid='plot-play'] .dw-plot-head").first.inner_text().count("arcmin") == 2
 
 
 def test_a_chain_opens_with_plots(studio, tab):

@@ -17,7 +17,7 @@ export function createPanel(packed, cycle, shared, extra) {
   const {clock, theme} = shared;
   let panel, axis, behind = [], at = null, visible = true;  // behind: [{name, colour, dash, lines: for each line the other one or nothing}]
   const {title, series} = packed;
-  const unit = packed.axis && series.length > 1 && series.every(one => one.unit === series[0].unit) ? series[0].unit : "";  // said once
+  const unit = packed.axis && series.length > 1 ? series[0].unit : "";  // that of all its lines: a panel has one; said once where no numbers stand
   const numbers = series.map(() => element("b", {}, "–")), others = series.map(() => element("small", {}));
   const readouts = series.map((one, n) => element("span", {class: "dw-now", title: one.label, style: `--chip: var(--${one.role})`},
     ...(series.length > 1 ? [element("i", {}), element("em", {}, one.label)] : []), numbers[n], unit ? "" : unitText(one.unit), others[n]));

@@ -135,14 +135,20 @@ def _names(
     for gear in gears:
         yield _name(gear.name, f"gear.{gear.name}", gear.position, gear.pitch_diameter / 2, shaft, arrows)
     for name, place in stations.items():
-        yield _name(name, slices[name], place, drawing.radius_at(shaft, min(place, shaft.length * (1 - 1e-12))), shaft, arrows)
+        yield _name(name, slices[name], place, _radius(shaft, place), shaft, arrows)
 
 
-def _name(text: str, body: str, place: float, radius: float, shaft: Shaft, arrows: Iterable[_Arrow]) -> Label:
-    """The name of what has this radius [m] there: below, where an arrow comes upon it from above and no support is there, else above."""
-    pressed = any(abs(arrow.place - place) < radius and arrow.tail[1] > radius for arrow in arrows)
-    below = pressed and all(abs(support.position - place) >= radius for support in shaft.supports)
-    return Label(text, (0.0, -radius if below else radius), body, above=not below)
+def _name(text: str, body: str, place: float, height: float, shaft: Shaft, arrows: Iterable[_Arrow]) -> Label:
+    """The name of what is so high [m] there: below, where an arrow ends upon it from above and no support is there, else above."""
+    near = _radius(shaft, place)
+    pressed = any(abs(arrow.place - place) < near and arrow.tail[1] > height for arrow in arrows)
+    below = pressed and all(abs(support.position - place) >= near for support in shaft.supports)
+    return Label(text, (0.0, -height if below else height), body, above=not below)
+
+
+def _radius(shaft: Shaft, place: float) -> float:
+    """Radius [m] of the shaft at a place, its right end included."""
+    return drawing.radius_at(shaft, min(place, shaft.length * (1 - 1e-12)))
 
 
 def _forces(arrows: Iterable[_Arrow], points: int) -> Iterator[Label]:
