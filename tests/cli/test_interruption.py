@@ -133,6 +133,30 @@ CAUGHT = """
 """
 
 
+@pytest.mark.parametrize("name", SIGNALS)
+def test_what_a_library_makes_of_an_interrupt_is_one(name):
+    """Arrow swallows it within a conversion and says that it cannot convert."""
+    code = """
+        import os, signal, sys, time
+        import drivewright.cli, drivewright.cli.app
+
+        def app(args, **settings):
+            try:
+                os.kill(os.getpid(), getattr(signal, "SIG" + args[1]))
+                time.sleep(5)
+            except BaseException:
+                pass
+            raise TypeError("unexpected argument type")
+
+        drivewright.cli.app.app = app
+        drivewright.cli.main(["sweep", sys.argv[1]])
+    """
+    command = [sys.executable, "-c", textwrap.dedent(code), name]
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=60, start_new_session=True)
+    said = "interrupted; what was finished before is kept, and the same command continues\n"
+    assert (ended.returncode, ended.stdout, ended.stderr) == (SIGNALS[name], "", said)
+
+
 def test_an_interrupt_while_a_class_is_made_keeps_its_exit_code(tmp_path):
     """CPython would otherwise end by SIGINT, as an interrupt that nobody has caught."""
     (tmp_path / "caught.py").write_text(textwrap.dedent(CAUGHT))
@@ -153,6 +177,13 @@ def test_the_first_signal_interrupts_and_the_next_ones_change_nothing():
     finally:
         signal.signal(signal.SIGTERM, before)
         signal.signal(signal.SIGHUP, signal.SIG_DFL)
+
+
+def test_ctrl_c_is_known_and_gives_all_handlers_back():
+    with pytest.raises(KeyboardInterrupt), ending_signals() as received:
+        signal.raise_signal(signal.SIGINT)
+    assert received == [signal.SIGINT] and exit_code(received) == 130
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler and signal.getsignal(signal.SIGTERM) == signal.SIG_DFL
 
 
 def test_handlers_are_given_back_and_what_is_ignored_stays_so():

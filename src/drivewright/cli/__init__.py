@@ -72,20 +72,31 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
         if code == INTERRUPTED:  # some versions of the library swallow Ctrl-C and answer with its exit code
             raise KeyboardInterrupt
         sys.exit(code)
-    except DrivewrightError as error:
-        sys.exit(_complain(error))
     except (KeyboardInterrupt, *_aborts()):
         if _starved.is_set():
             sys.exit(_no_memory())
-        print(f"interrupted; {_kept(sys.argv[1:] if arguments is None else arguments)}", file=sys.stderr)
-        _leave(exit_code(received))
-    except BrokenPipeError:
+        _interrupted(arguments, received)
+    except Exception as error:
+        if received:  # libraries make errors of their own of an interrupt that comes while they compute
+            _interrupted(arguments, received)
+        sys.exit(_failed(error))
+
+
+def _interrupted(arguments: list[str] | None, received: list[int]) -> NoReturn:
+    print(f"interrupted; {_kept(sys.argv[1:] if arguments is None else arguments)}", file=sys.stderr)
+    _leave(exit_code(received))
+
+
+def _failed(error: Exception) -> int:
+    """The exit code for an error, told; a fault of the program is raised again."""
+    if isinstance(error, DrivewrightError):
+        return _complain(error)
+    if isinstance(error, BrokenPipeError):
         sys.stderr.close()
-        sys.exit(0)
-    except (MemoryError, ImportError, OSError) as error:
-        if not _wants_memory(error):
-            raise
-        sys.exit(_no_memory())
+        return 0
+    if isinstance(error, (MemoryError, ImportError, OSError)) and _wants_memory(error):
+        return _no_memory()
+    raise error
 
 
 def _kept(arguments: list[str]) -> str:

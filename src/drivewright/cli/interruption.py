@@ -13,30 +13,38 @@ ENDING = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(sig
 
 @contextmanager
 def ending_signals() -> Iterator[list[int]]:
-    """The ending signals that have come, in a list; the first raises KeyboardInterrupt, and from then on they change nothing any more, also
-    not while the interpreter ends.
+    """The ending signals that have come, in a list, and Ctrl-C.  Each raises KeyboardInterrupt; after the first one from a system or a
+    terminal those change nothing any more, also not while the interpreter ends.
 
     A signal that is ignored from outside (`nohup`) stays so.
     """
     received: list[int] = []
 
-    def interrupt(number: int, frame: object) -> None:
+    def note(number: int, frame: object) -> None:
         received.append(number)
-        for each in before:
-            signal.signal(each, signal.SIG_IGN)
         raise KeyboardInterrupt
 
+    def interrupt(number: int, frame: object) -> None:
+        for each in before:
+            signal.signal(each, signal.SIG_IGN)
+        note(number, frame)
+
     before: dict[int, Any] = {}
+    by_hand = False  # whether Ctrl-C is Python's own to handle
     try:
         for number in ENDING:
             if signal.getsignal(number) == signal.SIG_DFL:
                 before[number] = signal.signal(number, interrupt)
+        if by_hand := signal.getsignal(signal.SIGINT) is signal.default_int_handler:
+            signal.signal(signal.SIGINT, note)
     except ValueError:  # not the main thread: signals belong to the main thread
         pass
     try:
         yield received
     finally:
-        if not received:
+        if by_hand:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        if not before.keys() & set(received):
             for number, handler in before.items():
                 signal.signal(number, handler)
 
