@@ -157,6 +157,27 @@ def test_what_a_library_makes_of_an_interrupt_is_one(name):
     assert (ended.returncode, ended.stdout, ended.stderr) == (SIGNALS[name], "", said)
 
 
+def test_a_thread_without_memory_is_told_also_where_a_library_has_swallowed_its_interrupt():
+    code = """
+        import _thread, time
+        import drivewright.cli, drivewright.cli.app
+
+        def app(args, **settings):
+            try:
+                drivewright.cli._starved.set()
+                _thread.interrupt_main()
+                time.sleep(5)
+            except BaseException:
+                pass
+            raise TypeError("unexpected argument type")
+
+        drivewright.cli.app.app = app
+        drivewright.cli.main(["run"])
+    """
+    ended = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, timeout=60)
+    assert ended.returncode not in (0, 1, 130) and "memory" in ended.stderr and "interrupted" not in ended.stderr
+
+
 def test_an_interrupt_while_a_class_is_made_keeps_its_exit_code(tmp_path):
     """CPython would otherwise end by SIGINT, as an interrupt that nobody has caught."""
     (tmp_path / "caught.py").write_text(textwrap.dedent(CAUGHT))

@@ -73,8 +73,6 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
             raise KeyboardInterrupt
         sys.exit(code)
     except (KeyboardInterrupt, *_aborts()):
-        if _starved.is_set():
-            sys.exit(_no_memory())
         _interrupted(arguments, received)
     except Exception as error:
         if received:  # libraries make errors of their own of an interrupt that comes while they compute
@@ -83,6 +81,9 @@ def _run(arguments: list[str] | None, received: list[int]) -> NoReturn:
 
 
 def _interrupted(arguments: list[str] | None, received: list[int]) -> NoReturn:
+    """Leave a command that a person, a system, or a thread of it without memory has interrupted."""
+    if _starved.is_set():
+        sys.exit(_no_memory())
     print(f"interrupted; {_kept(sys.argv[1:] if arguments is None else arguments)}", file=sys.stderr)
     _leave(exit_code(received))
 
